@@ -61,7 +61,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401
-    """Import the numeric part only when it is asked for."""
+    """Import the numeric part on first use."""
     from importlib import import_module
 
     for home, names in _HOMES.items():

@@ -5,18 +5,34 @@ A default is an assumption, not physics: it stands once.
 
 from __future__ import annotations
 
+STEEL = 7800.0  # density [kg/m³]
+
+# Balancing and flywheel, without a source.
+COUNTERWEIGHT_SHARE = 0.5  # of the inertia forces of the first order
+SUPPRESSION = 0.5  # of the second-order rolling moment
+IRREGULARITY = 0.015  # of the run
+
+# Rod and webs: the small end as in Gots 2.9, the rest without a source.
+SMALL_END_SHARE = 0.275  # of the rod's mass
+WEB_WIDTH_SHARE, WEB_THICKNESS_SHARE = 1.125, 0.175  # of the bore
+
 # Torsional vibration, without a source but for the diesel of Mendes, Meirelles, Zampieri 2008.
 PULLEY_SHARE = 0.4  # of a throw's inertia
 DAMPING_SHARE = 49200.0  # N·s/m³, of F r²
 RING_SHARE = 0.2  # of the inertia of the train brought to its first mass
 FLYWHEEL_SHARE = 8.0  # of all throws, where the irregularity of the run gives none
 OTHER_FLYWHEEL = 1.5  # times the flywheel
+LOSS_FACTOR = 0.035  # of the shafts
 SPEED_RANGE = (0.4, 1.1)  # of the speed of the regime
 LAST_ORDER = 12.0
 SPEEDS, RAYS, STARS = 63, 12, 6  # points of the forced vibration, rays and stars drawn
 
 # Safety of the journals, without a source.
 FILLET_SHARE = 0.06  # of the journal's diameter
+MEAN_BENDING, MEAN_TORSION = 0.15, 0.08  # sensitivity to the mean stress
+FILLET_BENDING, FILLET_TORSION = 2.0, 1.5  # theoretical concentration
+HOLE_BENDING, HOLE_TORSION = 2.2, 1.8
+SENSITIVITY, SIZE_FACTOR = 0.7, 0.75
 
 # Clearances of the bearings over the root of the diameter [mm over √mm], from memory.
 CLEARANCE_SHARES = {"min": 0.007, "max": 0.014}

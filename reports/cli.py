@@ -1,27 +1,80 @@
-"""The command line.  Heavy parts are imported inside the commands that need them."""
+"""The command line; imports heavy parts inside the commands that need them."""
 
 from __future__ import annotations
 
+import errno
+import io
+import os
+import select
 import sys
-from typing import Any
+from contextlib import suppress
+from typing import Any, TextIO
 
 import click
 
-from reports.commands.common import BAD, DONE, HELP
+from reports.commands.class_commands import grade, issue
+from reports.commands.common import BAD, DONE, HELP, RussianGroup, advice, error_text
 from reports.commands.engine import build, check, doctor, new, solve
-from reports.commands.group import grade, issue
 from reports.commands.studies import compare, sweep, validate
-from reports.commands.words import RussianGroup, advice, error_text
 from reports.shared.errors import KshmError
-from reports.shared.streams import forget, is_lost, prepare, without_reader
 from reports.web.command import serve
 
 
+def prepare() -> None:
+    """Set UTF-8 on both output streams and reopen closed ones.
+
+    What is redirected is a file of the program and as such UTF-8, whatever the system's code page
+    is; a terminal keeps its encoding and shows «?» for what it does not have.
+    """
+    _open_closed()
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115, PTH123
+        elif isinstance(stream, io.TextIOWrapper):
+            encoding = stream.encoding if stream.isatty() else "utf-8"
+            stream.reconfigure(encoding=encoding, errors="replace")
+
+
+def _open_closed() -> None:
+    """Hold descriptors 0-2, which else go to the next files opened."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+
+
+def without_reader(error: OSError) -> bool:
+    """Whether an error is a broken pipe; Windows reports ``EINVAL``."""
+    if isinstance(error, BrokenPipeError):
+        return True
+    return os.name == "nt" and error.errno == errno.EINVAL and error.filename is None
+
+
+def is_lost(stream: TextIO) -> bool:
+    """Whether a stream's pipe is broken; True where the system has no ``poll``."""
+    if not hasattr(select, "poll"):
+        return True
+    poll = select.poll()
+    poll.register(stream.fileno(), select.POLLOUT)
+    return any(event & (select.POLLERR | select.POLLHUP) for _, event in poll.poll(0))
+
+
+def forget(stream: TextIO) -> None:
+    """Flush a stream; discard unwritten output after a broken pipe."""
+    try:
+        stream.flush()
+    except OSError:
+        with suppress(OSError):  # a stream without a number
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
 class _Russian(RussianGroup):
-    """A group whose unexpected errors are one line, with a traceback only after -v."""
+    """A group that prints unexpected errors as one line, with a traceback only after -v."""
 
     def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
-        """Run a command; an interruption is told in one line, without the empty one of click."""
+        """Run a command; turn interruptions into ``Abort``, without click's empty line."""
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
@@ -38,7 +91,7 @@ class _Russian(RussianGroup):
             raise
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:  # noqa: ANN401
-        """Read the arguments; the help that nobody reads any more ends as other output does."""
+        """Parse the arguments; help into a broken pipe ends as other output does."""
         try:
             return super().make_context(*args, **kwargs)
         except OSError as error:
@@ -63,11 +116,11 @@ class _Russian(RussianGroup):
 
 
 class _Unread(Exception):  # noqa: N818 - no error
-    """The reader of a stream is gone; click would end the program over an OSError."""
+    """A broken pipe, as no OSError: click ends the program over those."""
 
 
 def _ended(error: Exception, verbose: bool) -> int:
-    """The exit code of what did not come to its end, told where there is somebody to tell."""
+    """Exit code of a failed run; prints the error unless the pipe is broken."""
     if isinstance(error, _Unread) or (isinstance(error, OSError) and without_reader(error)):
         # Output as long as it was wanted; but a warning unread has kept the work from being done.
         code = DONE if is_lost(sys.stdout) else BAD
@@ -79,7 +132,7 @@ def _ended(error: Exception, verbose: bool) -> int:
 
 
 def _failed(error: Exception, verbose: bool) -> int:
-    """Tell in a line what went wrong; the exit code."""
+    """Print an error in one line; return the exit code."""
     if isinstance(error, click.exceptions.Exit):
         return error.exit_code
     if isinstance(error, KshmError):
@@ -106,8 +159,8 @@ def _unexpected(error: Exception) -> str:
     if isinstance(error, OSError):
         from reports.shared.files import reason
 
-        place = f"{error.filename}" if error.filename else "вывод или временный файл"
-        text = f"kshm: {place}: не удаётся записать или прочитать: {reason(error)}"
+        name = f"{error.filename}" if error.filename else "вывод или временный файл"
+        text = f"kshm: {name}: не удаётся записать или прочитать: {reason(error)}"
         return one_line(f"{text}; освободите место или укажите другое, подробности: ключ -v")
     if isinstance(error, MemoryError):
         return "kshm: не хватает памяти; закройте другие программы или увеличьте шаг расчёта"

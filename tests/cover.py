@@ -14,7 +14,7 @@ import re
 from collections.abc import Callable, Mapping
 from functools import cache
 
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.chapter import chosen
 from reports.formula.parse import parse
 from reports.inputs.fields import to_mapping
 from reports.model.blocks import Model

@@ -15,9 +15,9 @@ from kshm.engine.crankshaft import places
 from kshm.engine.engine import Engine, Geometry
 from kshm.engine.gas import PolytropicGas
 from kshm.mechanics.articulated import ArticulatedArrays, Linkage
+from kshm.mechanics.gas import PolytropicArrays
 from kshm.mechanics.journals import Rods, ThrowArrays
 from kshm.mechanics.masses import point_masses
-from kshm.mechanics.polytropes import PolytropicArrays
 
 Part = TypeVar("Part")
 
@@ -53,7 +53,7 @@ class Batch:
 
 
 def structure(engine: Engine) -> tuple[object, ...]:
-    """What must be equal for engines to be solved in one batch."""
+    """Structure of an engine; engines of one batch have the same."""
     return (
         engine.cylinders,
         engine.strokes,
@@ -77,12 +77,14 @@ def stack(engines: Sequence[Engine]) -> Batch:
         msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
         raise ValueError(msg)
     first = engines[0]
-    geometry = _Parts([engine.geometry for engine in engines])
-    arrangement = _Parts([engine.arrangement for engine in engines])
+    geometry = _SharedParts([engine.geometry for engine in engines])
+    arrangement = _SharedParts([engine.arrangement for engine in engines])
     throws = _stack_throws(engines)
     degrees = np.arange(0, first.strokes * 180 + first.step_deg, first.step_deg, dtype=float)
-    theta = _Parts([engine.firing_offsets for engine in engines]).values(lambda t: t)
-    forced = _Parts([e.force_offsets or e.firing_offsets for e in engines]).values(lambda t: t)
+    theta = _SharedParts([engine.firing_offsets for engine in engines]).values(lambda t: t)
+    forced = _SharedParts([e.force_offsets or e.firing_offsets for e in engines]).values(
+        lambda t: t
+    )
     masses = np.array([point_masses(e.masses, e.geometry.rod_length) for e in engines])
     m_j, m_2 = masses[:, 0, None, None], masses[:, 1, None, None]
 
@@ -122,7 +124,7 @@ def stack(engines: Sequence[Engine]) -> Batch:
         throws=throws,
         rods=Rods(
             throw=tuple(c.throw for c in first.arrangement),
-            place=tuple(c.rod_place for c in first.arrangement),
+            positions=tuple(c.rod_place for c in first.arrangement),
             turn=pin_angle[:, :, 0],
             mass=pin_mass[:, :, 0],
         ),
@@ -130,18 +132,18 @@ def stack(engines: Sequence[Engine]) -> Batch:
     )
 
 
-class _Parts(Generic[Part]):
+class _SharedParts(Generic[Part]):
     """One part of every engine; what engines share, as in a study of one key, is read once."""
 
     def __init__(self, parts: Sequence[Part]) -> None:
         self.distinct = {id(part): part for part in parts}
-        place = {key: number for number, key in enumerate(self.distinct)}
-        self._place = np.array([place[id(part)] for part in parts])
+        numbers = {key: number for number, key in enumerate(self.distinct)}
+        self._numbers = np.array([numbers[id(part)] for part in parts])
 
     def values(self, get: Callable[[Part], object]) -> Array:
-        """What ``get`` gives for the part of every engine, engines first."""
+        """Values of ``get`` for every engine, engines first."""
         values: Array = np.array([get(part) for part in self.distinct.values()], dtype=float)
-        each: Array = values[self._place]
+        each: Array = values[self._numbers]
         return each
 
 
@@ -192,14 +194,14 @@ def _stack_gas(engines: Sequence[Engine]) -> PolytropicArrays | None:
     gases = [engine.gas for engine in engines]
     if not all(isinstance(gas, PolytropicGas) for gas in gases):
         return None
-    parts = _Parts(gases)
+    parts = _SharedParts(gases)
     names = PolytropicArrays.__dataclass_fields__
     columns = {name: _common(parts.values(attrgetter(name)))[:, None, None] for name in names}
     return PolytropicArrays(**columns)
 
 
 def _stack_throws(engines: Sequence[Engine]) -> ThrowArrays:
-    shafts = _Parts([engine.crankshaft for engine in engines])
+    shafts = _SharedParts([engine.crankshaft for engine in engines])
 
     def per_web(name: str) -> Array:
         get = attrgetter(name)

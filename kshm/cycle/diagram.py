@@ -13,8 +13,8 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.cycle.dizdn_listing import DEGREE, isobar_end
-from kshm.cycle.errors import CycleError
-from kshm.cycle.result import Cycle
+from kshm.cycle.fuel import CycleError
+from kshm.cycle.performance import Cycle
 from kshm.engine.gas import PolytropicGas
 from kshm.mechanics.kinematics import displacement_exact
 

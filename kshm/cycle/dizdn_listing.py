@@ -17,11 +17,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.errors import CycleError
-from kshm.cycle.figures import effective, indicate, theoretical_pressure
-from kshm.cycle.fuel import burn
-from kshm.cycle.heat import AIR, R_GAS, ZERO_C, mixture_heat
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, burn, mixture_heat
 from kshm.cycle.inputs import CycleInputs, check_inputs
+from kshm.cycle.performance import (
+    AIR_CP,
+    Cycle,
+    effective,
+    indicate,
+    theoretical_pressure,
+    turbo_balance,
+)
 from kshm.cycle.processes import (
     N2_PASSES,
     Charge,
@@ -33,8 +38,6 @@ from kshm.cycle.processes import (
     ignite,
     residual_temperature,
 )
-from kshm.cycle.result import Cycle
-from kshm.cycle.turbo import AIR_CP, turbo_balance
 
 DEGREE = 0.017453  # the program's π/180
 POWER_FACTOR = 0.00833

@@ -17,9 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.errors import CycleError
-from kshm.cycle.fuel import Mixture
-from kshm.cycle.heat import AIR, R_GAS, ZERO_C, HeatCapacity, temperature_of
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, HeatCapacity, Mixture, temperature_of
 from kshm.cycle.inputs import CycleInputs
 
 N1_START = 1.37

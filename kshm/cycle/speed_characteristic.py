@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.cycle.errors import CycleError
+from kshm.cycle.fuel import CycleError
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,1 +1,1 @@
-"""What an engine is: frozen dataclasses in SI units, no calculation."""
+"""The engine: frozen dataclasses in SI units, no calculation."""

@@ -1,4 +1,4 @@
-"""How the cylinders stand round the crankshaft: banks, throws, rods on a pin, articulated rods.
+"""Layout of the cylinders: banks, throws, rods on a pin, articulated rods.
 
 Angles run clockwise seen from the nose, as the shaft turns.  Cylinders are numbered as in
 Gots 2.7.2: the left bank from the nose, then the next ones in the same order.
@@ -96,20 +96,24 @@ def fan(
             "articulated rods hang on the master rod and have no part of a split pin",
         ),
     )
-    made = []
+    cylinders = []
     for bank, axis in enumerate(axes):
         share = bank / max(1, len(axes) - 1)
         pin, ahead = (0, 0.0) if pin_angles is None else (bank, pin_angles[bank])
         for throw in range(throws):
             if articulated:
-                made.append(Cylinder(throw, axis, master=throw if bank else None))
+                cylinders.append(Cylinder(throw, axis, master=throw if bank else None))
             else:
-                made.append(Cylinder(throw, axis, share, pin, ahead))
-    return tuple(made)
+                cylinders.append(Cylinder(throw, axis, share, pin, ahead))
+    return tuple(cylinders)
 
 
 def opposed(count: int) -> Arrangement:
-    """Two opposite banks, every rod on its own throw, left and right in turn from the nose."""
+    """Two opposite banks, every rod on its own throw, left and right in turn from the nose.
+
+    >>> [cylinder.throw for cylinder in opposed(4)]  # left bank from the nose, then right
+    [0, 2, 1, 3]
+    """
     refuse((count < 2 or count % 2 != 0, f"an opposed engine has pairs of cylinders, not {count}"))
     pairs = count // 2
     left = tuple(Cylinder(2 * pair) for pair in range(pairs))
@@ -135,7 +139,7 @@ def pins(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     """Cylinders (from 0) on every crankpin, the pins counted from the nose."""
     places = sorted({(c.throw, c.pin) for c in arrangement})
     return tuple(
-        tuple(i for i, c in enumerate(arrangement) if (c.throw, c.pin) == place) for place in places
+        tuple(i for i, c in enumerate(arrangement) if (c.throw, c.pin) == pin) for pin in places
     )
 
 

@@ -1,4 +1,4 @@
-"""What a person says of bearings, oil and strength of the journals; SI units.
+"""Inputs of bearings, oil and strength of the journals; SI units.
 
 A number that is None is estimated from the journals by a rule.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kshm import defaults
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 # Width over diameter beyond which the closed forms of the film have no table behind them.
@@ -48,14 +49,14 @@ class Strength:
     tensile: float = 980e6
     bending: float = 420e6
     torsion: float = 240e6
-    mean_bending: float = 0.15
-    mean_torsion: float = 0.08
-    fillet_bending: float = 2.0
-    fillet_torsion: float = 1.5
-    hole_bending: float = 2.2
-    hole_torsion: float = 1.8
-    sensitivity: float = 0.7
-    size: float = 0.75
+    mean_bending: float = defaults.MEAN_BENDING
+    mean_torsion: float = defaults.MEAN_TORSION
+    fillet_bending: float = defaults.FILLET_BENDING
+    fillet_torsion: float = defaults.FILLET_TORSION
+    hole_bending: float = defaults.HOLE_BENDING
+    hole_torsion: float = defaults.HOLE_TORSION
+    sensitivity: float = defaults.SENSITIVITY
+    size: float = defaults.SIZE_FACTOR
     surface: float = 1.0
     fillet: float | None = None
     making: float = 1.05

@@ -1,4 +1,4 @@
-"""What no engine can be is refused where it is made, in one line."""
+"""Checks of an engine's numbers and kinds; errors of one line."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def takes_kinds(function: Callable[Arguments, Made]) -> Callable[Arguments, Made
 
 
 def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
-    """Refuse a value of another kind than an annotation says.
+    """Refuse a value that does not fit an annotation.
 
     Raises:
         ValueError: with the name, the kind and the beginning of the value.

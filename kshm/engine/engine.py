@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
+from kshm import defaults
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
-from kshm.engine.masses import Masses
+from kshm.engine.masses import DirectMasses, Masses
 from kshm.engine.torsion import Torsion
+from kshm.nomenclature.quantity import UNITS
 
 Method = Literal["textbook", "exact"]
 _MOST_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
@@ -81,18 +84,18 @@ class Geometry:
 
 @dataclass(frozen=True, slots=True)
 class Balancing:
-    """What a person chooses for balancing and for the flywheel; SI units."""
+    """Choices of balancing and flywheel; SI units."""
 
-    counterweight_share: float = 0.5
+    counterweight_share: float = defaults.COUNTERWEIGHT_SHARE
     first_shafts_share: float = 0.0
     second_shafts_share: float = 1.0
-    suppression: float = 0.5
+    suppression: float = defaults.SUPPRESSION
     shaft_radius: float = 0.02
-    irregularity: float = 0.015
-    rod_small_end_share: float = 0.275
+    irregularity: float = defaults.IRREGULARITY
+    rod_small_end_share: float = defaults.SMALL_END_SHARE
     rod_mass_factor: float = 1.0
-    web_width_share: float = 1.125
-    web_thickness_share: float = 0.175
+    web_width_share: float = defaults.WEB_WIDTH_SHARE
+    web_thickness_share: float = defaults.WEB_THICKNESS_SHARE
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +123,13 @@ class Engine:
 
     Raises:
         ValueError: a number or a count that no engine has.
+
+    With ``engine`` as in the example of ``kshm.in_line``:
+
+    >>> from dataclasses import replace
+    >>> faster = replace(engine, omega=1.1 * engine.omega, method="exact")
+    >>> round(faster.speed_rpm)
+    3300
     """
 
     geometry: Geometry
@@ -211,7 +221,7 @@ class Engine:
                 f"{len(places)} places need as many firing offsets, not {self.cylinders}",
             ),
             (
-                {place.throw for place in places} != set(range(throws)),
+                {cylinder.throw for cylinder in places} != set(range(throws)),
                 f"the rods of {self.cylinders} cylinders stand on other throws than the {throws}",
             ),
         )
@@ -270,3 +280,33 @@ class Engine:
 
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.10g}°"
+
+
+STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
+MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
+PEAK_PRESSURE = (1.2, 25.0)  # [MPa]
+SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
+_RECIPROCATING = (30.0, 2000.0)  # over the piston's area [kg/m²], from models to ships
+
+
+def implausible(engine: Engine) -> Iterator[str]:
+    """Implausible sizes, a line each with the unit that may be mistaken."""
+    size, gas = engine.geometry, engine.gas
+    peak = max(gas.pressures) if isinstance(gas, TabulatedGas) else gas.p_max
+    speed = size.stroke * engine.speed_rpm / 30
+    tests = [
+        ("stroke over bore", "", size.stroke / size.bore, STROKE_TO_BORE, "millimetres"),
+        ("mean piston speed", " m/s", speed, MEAN_SPEED, "millimetres and min⁻¹"),
+        ("highest pressure", " MPa", peak / UNITS["MPa"].si, PEAK_PRESSURE, "MPa, absolute"),
+    ]
+    if isinstance(engine.masses, DirectMasses):
+        mass = engine.masses.reciprocating / size.piston_area
+        label = "reciprocating mass over the piston's area"
+        tests.append((label, " kg/m²", mass, _RECIPROCATING, "kilograms and millimetres"))
+    for what, unit, value, (low, high), given in tests:
+        if not low <= value <= high:
+            yield f"{what} is {value:.3g}{unit}, usually {low:g} … {high:g}: are they {given}?"
+    last = max(engine.firing_offsets)
+    # A cycle is 4π: taken for degrees it is still less than any real offset.
+    if 0 < math.degrees(last) <= 4 * math.pi:
+        yield f"all cylinders fire within {math.degrees(last):.3g}°: are the offsets degrees?"

@@ -31,7 +31,7 @@ class Swinging:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What table 4 is entered with; a mass per area [kg/m²] given replaces the table's."""
+    """Entries of table 4; a mass per area [kg/m²] given replaces the table's."""
 
     fuel: Fuel
     piston_material: Literal["aluminium", "iron"] = "aluminium"

@@ -18,10 +18,9 @@ from kshm.engine import arrangement
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder, in_row
 from kshm.engine.checks import refuse, takes_kinds
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
-from kshm.engine.engine import Engine, Geometry, Method
+from kshm.engine.engine import Engine, Geometry, Method, implausible
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses
-from kshm.engine.usual import implausible
 from kshm.nomenclature.quantity import UNITS
 
 _MM, _MPA, _RPM = (UNITS[unit].si for unit in ("mm", "MPa", "rpm"))
@@ -49,7 +48,14 @@ def polytropic(
     """Indicator diagram by polytropes; absolute pressures [MPa], angles in the cycle [°].
 
     Angles count from TDC before the intake, in a two-stroke engine from TDC of combustion,
-    see ``kshm.mechanics.polytropes.polytropic_pressure``.
+    see ``kshm.mechanics.gas.polytropic_pressure``.
+
+    >>> polytropic(
+    ...     intake_mpa=0.09, residual_mpa=0.11, max_mpa=6, compression_exponent=1.36,
+    ...     expansion_exponent=1.25, combustion_start_deg=350, injection_advance_deg=20,
+    ...     exhaust_open_deg=500, exhaust_close_deg=560,
+    ... ).p_max
+    6000000.0
     """
     return PolytropicGas(
         p_ambient=ambient_mpa * _MPA,
@@ -79,6 +85,9 @@ def points(
 
     Raises:
         ValueError: the lists differ in length, do not rise, or their ends differ.
+
+    >>> points([0, 360, 720], [0.1, 4.0, 0.1]).pressures
+    (100000.0, 4000000.0, 100000.0)
     """
     return TabulatedGas(
         p_ambient=ambient_mpa * _MPA,
@@ -113,6 +122,9 @@ def throw(
 
     Raises:
         ValueError: there are not six arms, or a number that no throw has.
+
+    >>> round(throw(arms_mm=[30] * 6, web_kg=0.3, pin_kg=0.2).length, 6)
+    0.18
     """
     refuse((len(arms_mm) != _ARMS, f"six arms l1 … l6 are needed, not {len(arms_mm)}"))
     web = Web(
@@ -125,7 +137,11 @@ def throw(
 
 @takes_kinds
 def end_mass(mass_kg: float, angle_deg: float, arm_mm: float) -> EndMass:
-    """External counterweight beyond an end journal; mass reduced to the crank radius."""
+    """External counterweight beyond an end journal; mass reduced to the crank radius.
+
+    >>> end_mass(0.4, angle_deg=180, arm_mm=50).arm
+    0.05
+    """
     return EndMass(mass_kg, math.radians(angle_deg), arm_mm * _MM)
 
 
@@ -148,6 +164,10 @@ def place(
         pin: which part of a split pin, from 0.
         pin_deg: how far this part stands ahead of the throw [°].
         master: number from 0 of the cylinder on whose rod this one's hangs.
+
+    >>> places = [place(0), place(0, axis_deg=90, rod_place=1)]  # a V of two on one throw
+    >>> round(places[1].axis, 4)
+    1.5708
     """
     return Cylinder(throw, math.radians(axis_deg), rod_place, pin, math.radians(pin_deg), master)
 
@@ -169,6 +189,9 @@ def banks(
         axes_deg: axes of the banks, clockwise seen from the nose [°].
         pins_deg: how far each bank's part of a split pin stands ahead of its throw [°].
         articulated: the rods of all banks but the first hang on those of the first.
+
+    >>> [cylinder.throw for cylinder in banks(throws=3, axes_deg=[-45, 45])]
+    [0, 1, 2, 0, 1, 2]
     """
     axes = [math.radians(axis - axes_deg[0]) for axis in axes_deg]
     split = None if pins_deg is None else [math.radians(angle) for angle in pins_deg]
@@ -192,13 +215,18 @@ def articulated_rod(
         angle_deg: angle of that radius from the master rod along the rotation [°].
         reciprocating_kg: m_j of its cylinder [kg].
         big_end_kg: its mass reduced to its pin on the master rod [kg].
+
+    >>> articulated_rod(
+    ...     rod_length_mm=120, radius_mm=50, angle_deg=60, reciprocating_kg=0.8, big_end_kg=0.3
+    ... ).radius
+    0.05
     """
     angle = math.radians(angle_deg)
     return ArticulatedRod(rod_length_mm * _MM, radius_mm * _MM, angle, reciprocating_kg, big_end_kg)
 
 
 class Given(TypedDict, total=False):
-    """What an engine of any layout is made of, see ``assemble``."""
+    """Arguments of ``assemble`` for an engine in line."""
 
     bore_mm: float
     crank_radius_mm: float
@@ -233,6 +261,19 @@ def in_line(**given: Unpack[Given]) -> Engine:
 
     Raises:
         ValueError: lists of the wrong length, a number that no engine has.
+
+    >>> from kshm import in_line, points, throw
+    >>> sizes = {
+    ...     "bore_mm": 80, "crank_radius_mm": 40, "rod_length_mm": 140, "compression_ratio": 9,
+    ...     "speed_rpm": 3000, "gas": points([0, 360, 720], [0.1, 4.0, 0.1]),
+    ...     "reciprocating_kg": 0.7, "rod_big_end_kg": 0.5,
+    ...     "throws": throw(arms_mm=[30] * 6, web_kg=0.3, pin_kg=0.2),
+    ...     "pin_diameter_mm": 45, "pin_length_mm": 25, "main_diameter_mm": 50,
+    ...     "main_lengths_mm": 28,
+    ... }
+    >>> engine = in_line(firing_offsets_deg=[0, 540, 180, 360], **sizes)
+    >>> engine.cylinders
+    4
     """
     return assemble(**given)
 
@@ -308,6 +349,12 @@ def assemble(
     Raises:
         ValueError: lists of the wrong length, rods of one throw that do not fire together
             with it, a number that no engine has.
+
+    With ``sizes`` as in the example of ``in_line``:
+
+    >>> boxer = assemble(opposed(4), firing_offsets_deg=[0, 360, 540, 180], **sizes)
+    >>> boxer.is_in_line
+    False
     """
     cylinders = len(firing_offsets_deg)
     refuse(
@@ -384,11 +431,11 @@ def _throw_angles(places: Arrangement, offsets: Sequence[float], count: int) -> 
     for number, (cylinder, offset) in enumerate(zip(places, offsets, strict=True), 1):
         angle = arrangement.throw_angle(cylinder, offset)
         stands = angles.setdefault(cylinder.throw, angle)
-        apart = math.degrees(math.remainder(angle - stands, 2 * math.pi))
+        gap = math.degrees(math.remainder(angle - stands, 2 * math.pi))
         refuse(
             (
-                not abs(apart) <= 1e-6,
-                f"cylinder {number} fires where throw {cylinder.throw + 1} stands {apart:g}° apart",
+                not abs(gap) <= 1e-6,
+                f"cylinder {number} fires where throw {cylinder.throw + 1} stands {gap:g}° apart",
             )
         )
     refuse((set(angles) != set(range(count)), f"a throw of {count} carries no rod"))

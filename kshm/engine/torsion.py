@@ -1,4 +1,4 @@
-"""What a person says of the torsional vibration of the shaft; SI units.
+"""Inputs of the torsional vibration of the shaft; SI units.
 
 A number that is None is estimated from the rest of the engine.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from kshm.defaults import LOSS_FACTOR
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 StiffnessFormula = Literal["wilson", "carter", "zimanenko"]
@@ -86,7 +87,7 @@ class Torsion:
     web_width: float | None = None
     web_thickness: float | None = None
     damping: float | None = None
-    loss_factor: float = 0.035
+    loss_factor: float = LOSS_FACTOR
     speed_min: float | None = None
     speed_max: float | None = None
     other_flywheel: float | None = None

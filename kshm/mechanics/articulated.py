@@ -51,7 +51,7 @@ class Point:
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class ArticulatedMotion:
     """Articulated piston: height of its pin over the shaft with derivatives [m], β_п [rad]."""
 
     height: tuple[Array, Array, Array]
@@ -84,7 +84,7 @@ def articulated_pin(phi: Array, link: Linkage) -> Point:
     )
 
 
-def motion(phi: Array, link: Linkage) -> Motion:
+def motion(phi: Array, link: Linkage) -> ArticulatedMotion:
     """Motion of the articulated piston [m], exact, elementwise, Gots figure 2 в."""
     pin = articulated_pin(phi, link)
     side, side_1, side_2 = pin.across
@@ -94,7 +94,7 @@ def motion(phi: Array, link: Linkage) -> Motion:
     up_2 = -(side_1**2 + side * side_2 + up_1**2) / up
     along, along_1, along_2 = pin.along
     height = (along + up, along_1 + up_1, along_2 + up_2)
-    return Motion(height, np.arcsin(side / link.own_length), pin)
+    return ArticulatedMotion(height, np.arcsin(side / link.own_length), pin)
 
 
 def dead_centres(link: Linkage) -> tuple[Array, Array]:
@@ -116,7 +116,7 @@ def dead_centres(link: Linkage) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class RodPinForces:
-    """What the articulated rod does to the crankpin and to the master piston's wall.
+    """Forces of the articulated rod on the crankpin and the master piston's wall.
 
     ``K`` and ``T`` are the components on the crankpin of its own push and of the side
     force ``N_added`` that it makes on the master piston; ``moment`` is the moment of the
@@ -130,7 +130,7 @@ class RodPinForces:
 
 
 def pin_forces(
-    axial: Array, phi: Array, piston: Motion, link: Linkage, inertia_unit: Array
+    axial: Array, phi: Array, piston: ArticulatedMotion, link: Linkage, inertia_unit: Array
 ) -> RodPinForces:
     """Forces of an articulated rod by statics of the massless rods, elementwise, Gots figure 2 в.
 
@@ -173,7 +173,7 @@ class ArticulatedArrays:
 class Hung:
     """Everything about the cylinders of articulated rods, shape (engines, rods, angles)."""
 
-    motion: Motion
+    motion: ArticulatedMotion
     volume: Stroke
     displacement: Array  # from the piston's own TDC [m]
     stroke: Array

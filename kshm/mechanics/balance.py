@@ -29,13 +29,13 @@ class Cylinders:
     """Cylinders of any layout: TDC phases [rad], places [m], axes clockwise from up [rad]."""
 
     phase: Array
-    place: Array
+    position: Array
     axis: Array
 
 
 @dataclass(frozen=True, slots=True)
 class Ellipse:
-    """What a vector of one order describes: greatest and smallest length, direction [rad].
+    """Path of a vector of one order: greatest and smallest length, direction [rad].
 
     The direction is that of the greatest length, clockwise from up, in (−π/2, π/2];
     zero where the vector keeps its length.
@@ -107,7 +107,7 @@ def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Pha
     """
     amplitude = inertia_unit(engine) * acceleration_amplitude(engine.geometry.lam, order)
     force = order_phasors(cylinders, order)
-    moment = order_phasors(cylinders, order, cylinders.place)
+    moment = order_phasors(cylinders, order, cylinders.position)
     return force * amplitude, moment * amplitude
 
 
@@ -150,9 +150,9 @@ def ellipse(vector: Phasors, noise: float = 0.0) -> Ellipse:
 
 def rotating(engine: Engine, *, counterweights: bool) -> tuple[complex, complex]:
     """Centrifugal force [N] and moment [N·m] of the shaft at φ = 0 as up + i·right."""
-    mass, angle, place = np.array(_masses(engine, counterweights=counterweights)).T
+    mass, angle, position = np.array(_masses(engine, counterweights=counterweights)).T
     vectors = mass * engine.geometry.crank_radius * engine.omega**2 * np.exp(1j * angle)
-    return complex(vectors.sum()), complex((place * vectors).sum())
+    return complex(vectors.sum()), complex((position * vectors).sum())
 
 
 def _masses(engine: Engine, *, counterweights: bool) -> list[tuple[float, float, float]]:
@@ -162,10 +162,10 @@ def _masses(engine: Engine, *, counterweights: bool) -> list[tuple[float, float,
     masses = [(m_2, a, z) for a, z in zip(angles, rod_places(engine), strict=True)]
     groups = throws(engine.arrangement)
     for throw, start, rods in zip(shaft.throws, starts[:-1], groups, strict=True):
-        place = throw.places
+        places = throw.places
         # Each rod's part of a split pin has an equal share of the pin's mass.
-        masses += [(throw.pin_mass / len(rods), angles[i], start + place.pin) for i in rods]
-        webs = ((throw.left_web, place.left_web), (throw.right_web, place.right_web))
+        masses += [(throw.pin_mass / len(rods), angles[i], start + places.pin) for i in rods]
+        webs = ((throw.left_web, places.left_web), (throw.right_web, places.right_web))
         for web, at in webs:
             # A web's angle runs against rotation, a counterweight's with it from "opposite".
             masses.append((web.mass, throw.angle - web.angle, start + at))

@@ -22,7 +22,7 @@ _ONE: Array = np.ones(())
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class DimensionlessMotion:
     """Displacement, velocity and acceleration [-], arrays of one shape."""
 
     s: Array
@@ -30,15 +30,17 @@ class Motion:
     j: Array
 
 
-def exact(alpha: Array, lam: Array) -> Motion:
+def exact(alpha: Array, lam: Array) -> DimensionlessMotion:
     """Exact s, v = ds/dα, j = d²s/dα² [-], elementwise, Segal (1.17)-(1.19)."""
-    return Motion(**kinematics.exact_motion(alpha, _ONE, lam, _ONE))
+    return DimensionlessMotion(**kinematics.exact_motion(alpha, _ONE, lam, _ONE))
 
 
-def two_term(alpha: Array, lam: Array) -> Motion:
+def two_term(alpha: Array, lam: Array) -> DimensionlessMotion:
     """Approximate s, v, j [-], elementwise, Segal (1.8), (1.14)."""
     parts = kinematics.two_term_motion(alpha, _ONE, lam, _ONE)
-    return Motion(**{letter: first + second for letter, (first, second, _) in parts.items()})
+    return DimensionlessMotion(
+        **{letter: first + second for letter, (first, second, _) in parts.items()}
+    )
 
 
 def angle_two_term(s: Array, lam: Array) -> Array:
@@ -85,7 +87,7 @@ def min_acceleration(lam: float) -> tuple[float, float]:
 
 
 def _jerk_over_sine(cosine: float, lam: float) -> float:
-    """(dj/dα)/sin α, the sign of which tells on which side of the minimum one stands."""
+    """(dj/dα)/sin α; its sign changes at the minimum."""
     sine2 = 1 - cosine**2
     along = (1 / lam**2 - sine2) ** 0.5
     double = 2 * cosine**2 - 1

@@ -1,12 +1,19 @@
-"""Main-journal reactions by the split scheme, Gots 2.7, from statics of each throw.
+"""Loads on main and big-end bearings, Gots 2.6 and 2.7.
 
-Each throw is a beam on two supports in its own frame: ``up`` along the crank,
-``left`` a quarter turn against rotation.  All results are reactions of the
-bearings on the shaft; loads on the bearings are their negatives.
+Split scheme: each throw is a beam on two supports in its own frame, ``up`` along the crank,
+``left`` a quarter turn against rotation.  All results are reactions of the bearings on the
+shaft; loads on the bearings are their negatives.
+
+Continuous shaft, by the equation of three moments, Gots (54): a straight beam of one bending
+stiffness in both planes on rigid point supports in a line, so that the stiffness itself falls
+out; the throws are as stiff as the journals between them.  Moments are those that a load along
+the axis would make in a simple beam, axes are those of the shaft (x left, y up along crank 1,
+turning with it).  In (54) the second subscript of the last moment is read as the right support.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,6 +21,7 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.engine.crankshaft import Places
+from kshm.mechanics.kinematics import Position
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,10 +42,10 @@ class ThrowArrays:
 
 @dataclass(frozen=True, slots=True)
 class Rods:
-    """Which throw carries each rod, and where; arrays of shape (engines, cylinders)."""
+    """Throw and position of each rod; arrays of shape (engines, cylinders)."""
 
     throw: tuple[int, ...]
-    place: tuple[float, ...]  # along the pin: 0 nearest to the nose, 1 farthest
+    positions: tuple[float, ...]  # along the pin: 0 nearest to the nose, 1 farthest
     turn: Array  # δ: how far a split pin's part stands ahead of its throw [rad]
     mass: Array  # m_2 that turns with the pin [kg]
 
@@ -59,8 +67,8 @@ class Rods:
         Shape (engines, cylinders); it may lie outside 0…1.
         """
         on_throws = [
-            (places.rod_at(place) / places.length)[:, throw]
-            for throw, place in zip(self.throw, self.place, strict=True)
+            (places.rod_at(position) / places.length)[:, throw]
+            for throw, position in zip(self.throw, self.positions, strict=True)
         ]
         return np.stack(on_throws, axis=1)
 
@@ -68,7 +76,7 @@ class Rods:
 class Load(NamedTuple):
     """A force on a throw: its place [m] and components [N], shape (engines, throws)."""
 
-    place: Array
+    position: Array
     left: Array
     up: Array
 
@@ -93,10 +101,10 @@ def own_loads(throws: ThrowArrays, unit: Array, pin_up: Array, pin_ahead: Array)
         pin_up: share of the pin's mass that stands along the crank [-], as ``throws``.
         pin_ahead: share that stands a quarter turn ahead, with a split pin.
     """
-    place = throws.places
+    places = throws.places
     pin = throws.pin_mass * unit
-    loads = [Load(place.pin, -pin * pin_ahead, pin * pin_up)]
-    for side, where in enumerate((place.left_web, place.right_web)):
+    loads = [Load(places.pin, -pin * pin_ahead, pin * pin_up)]
+    for side, where in enumerate((places.left_web, places.right_web)):
         web, angle = throws.web_mass[..., side] * unit, throws.web_angle[..., side]
         loads.append(Load(where, web * np.sin(angle), web * np.cos(angle)))
         # A counterweight stands opposite the crank, turned on in the direction of rotation:
@@ -162,7 +170,7 @@ def centrifugal_reactions(throws: ThrowArrays, unit: Array, rods: Rods) -> tuple
         right[..., axis] -= rods.summed(share * force, count) * unit
         left[..., axis] -= rods.summed((1 - share) * force, count) * unit
         for load in own:
-            size, at = load[1 + axis], load.place / throws.places.length
+            size, at = load[1 + axis], load.position / throws.places.length
             right[..., axis] -= at * size
             left[..., axis] -= (1 - at) * size
     return left, right
@@ -220,3 +228,104 @@ def side_forces_left_of_pin(throws: ThrowArrays, unit: Array) -> Array:
     web = throws.web_mass[..., 0] * np.sin(throws.web_angle[..., 0])
     weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
     return unit * (web + weight) + end_loads(throws, unit)[0].left
+
+
+PLANES = 18  # planes through the pin's axis, every 10°
+
+
+def rod_bearing(inward: Array, ahead: Array, at: Position) -> tuple[Array, Array]:
+    """Load on the big-end bearing in the rod's axes [Pa], shape (angles,), Gots 2.6.
+
+    The load is the opposite of the force on the pin, turned into axes along the rod (y,
+    towards the piston pin) and across it (x, in the direction of rotation at the pin).
+
+    Args:
+        inward: force of the rod on the pin towards the shaft with m_2's [Pa].
+        ahead: force along the rotation [Pa].
+        at: position of crank and rod.
+    """
+    across = inward * at.sin - ahead * at.cos  # on the bearing, in the cylinder's axes
+    along = inward * at.cos + ahead * at.sin
+    return (
+        across * at.cos_beta + along * at.sin_beta,
+        along * at.cos_beta - across * at.sin_beta,
+    )
+
+
+def on_plane(inward: Array, ahead: Array, angle: float) -> Array:
+    """Projection of R_к on a plane of the pin [Pa], shape (angles,), Gots 2.6, (42).
+
+    Args:
+        inward: K_Σ towards the shaft with all centrifugal forces [Pa].
+        ahead: T along the rotation [Pa].
+        angle: of the plane from the crank against rotation [rad].
+    """
+    projection: Array = inward * np.cos(angle) + ahead * np.sin(angle)
+    return projection
+
+
+def plane_angles() -> Array:
+    """Angles of the planes from the crank against rotation [rad], shape (planes,), Gots 2.6."""
+    return np.pi / PLANES * np.arange(PLANES, dtype=np.float64)
+
+
+def load_terms(loads: Iterable[Load], length: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Load terms Σ P a(l² − a²)/l and Σ P b(l² − b²)/l of spans [N·m²], Clapeyron, Gots (54).
+
+    Args:
+        loads: forces on the spans; their arrays broadcast with ``shape``.
+        length: lengths of the spans l [m], broadcasting likewise.
+        shape: of the terms without the last axis ``left``, ``up``.
+
+    Returns:
+        Terms of the right and of the left support, shape (*shape, 2).
+    """
+    right, left = np.zeros((*shape, 2)), np.zeros((*shape, 2))
+    for load in loads:
+        rest = length - load.position
+        for axis, force in enumerate((load.left, load.up)):
+            right[..., axis] += force * load.position * (length**2 - load.position**2) / length
+            left[..., axis] += force * rest * (length**2 - rest**2) / length
+    return right, left
+
+
+def support_moments(spans: Array, right: Array, left: Array, ends: Array) -> Array:
+    """Bending moments at all supports by Clapeyron's equation [N·m], Gots (54).
+
+    Args:
+        spans: lengths of the spans [m], shape (n,).
+        right: Σ P a(l² − a²)/l of each span [N·m²], shape (n, …).
+        left: Σ P b(l² − b²)/l of each span [N·m²], same shape.
+        ends: moments at the first and the last support from the overhangs, shape (2, …).
+
+    Returns:
+        Shape (n + 1, …).
+    """
+    count = len(spans)
+    moments = np.zeros((count + 1, *right.shape[1:]))
+    moments[0], moments[-1] = ends[0], ends[1]
+    if count == 1:
+        return moments
+    matrix = np.diag(2 * (spans[:-1] + spans[1:]))
+    matrix += np.diag(spans[1:-1], 1) + np.diag(spans[1:-1], -1)
+    known = -(right[:-1] + left[1:])
+    known[0] -= spans[0] * ends[0]
+    known[-1] -= spans[-1] * ends[1]
+    flat = known.reshape(count - 1, -1)
+    moments[1:-1] = np.linalg.solve(matrix, flat).reshape(known.shape)
+    return moments
+
+
+def corrections(spans: Array, moments: Array) -> Array:
+    """Reactions added by inner support moments to the split scheme's [N], Gots (54).
+
+    The overhangs are in the split scheme already, so the end moments add nothing here.
+    Shapes (n,) of the spans [m] and (n + 1, …) of the moments [N·m] and of the result.
+    """
+    inner = moments.copy()
+    inner[0] = inner[-1] = 0
+    steps = np.diff(inner, axis=0) / spans.reshape(-1, *([1] * (inner.ndim - 1)))
+    added = np.zeros_like(inner)
+    added[:-1] -= steps
+    added[1:] += steps
+    return added

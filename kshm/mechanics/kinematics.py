@@ -110,7 +110,7 @@ def displacement_orders(phi: Array, r: Array, lam: Array) -> tuple[Array, Array]
 
 
 def displacement_offset(phi: Array, r: Array, lam: Array, k: Array) -> Array:
-    """What an offset adds to the two-term displacement [m], elementwise, Gots (14) less (3).
+    """Offset term of the two-term displacement [m], elementwise, Gots (14) less (3).
 
     (14) keeps the exact height of TDC, so the two-term s is slightly off zero there.
     """
@@ -131,7 +131,7 @@ def velocity_orders(phi: Array, r: Array, lam: Array, omega: Array) -> tuple[Arr
 
 
 def velocity_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
-    """What an offset adds to the two-term velocity [m/s], elementwise, Gots (15) less (4)."""
+    """Offset term of the two-term velocity [m/s], elementwise, Gots (15) less (4)."""
     return -r * omega * lam * k * np.cos(phi)
 
 
@@ -157,7 +157,7 @@ def _orders(cos: Array, centripetal: Array, lam: Array) -> tuple[Array, Array]:
 
 
 def acceleration_offset(phi: Array, r: Array, lam: Array, omega: Array, k: Array) -> Array:
-    """What an offset adds to the two-term acceleration [m/s²], elementwise, Gots (16) less (6)."""
+    """Offset term of the two-term acceleration [m/s²], elementwise, Gots (16) less (6)."""
     return r * omega**2 * lam * k * np.sin(phi)
 
 

@@ -37,7 +37,7 @@ class Digits:
 TEXT = Digits(0, "text")
 UNLESS_UNUSED = Digits(0, hides="unused")
 
-Row = tuple[str, str, str, str, str, int | Digits]  # key, symbol, tex, unit, title, digits
+Row = tuple[str, str, str, str, int | Digits]  # key, tex, unit, title, digits
 UnitRow = tuple[str, str, float]  # key, label, size in SI
 
 

@@ -21,12 +21,12 @@ from kshm.nomenclature import (
     layouts,
     series,
     textbook,
-    torque_orders,
     torsion,
 )
 from kshm.nomenclature.digits import Digits
+from kshm.nomenclature.symbols import WORDS, plain_symbol
 
-_SUBJECTS = (textbook, series, balance, inertia, torque_orders, cycle, chapters, layouts, torsion,
+_SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
             bearings)  # fmt: skip
 
 
@@ -49,17 +49,25 @@ UNITS: dict[str, Unit] = {
 class Quantity:
     """A physical quantity as people see it.
 
-    ``symbol`` is plain text, ``tex`` the formula symbol, ``unit`` a key of ``UNITS``,
-    ``title`` the Russian name, ``digits`` how values are written; number formats of
-    sheets and texts are derived from them.
+    ``tex`` is the formula symbol, ``unit`` a key of ``UNITS``, ``title`` the Russian name,
+    ``digits`` how values are written; number formats of sheets and texts are derived from
+    them.  ``word`` stands for the symbol in plain text where the TeX gives none.
+
+    >>> quantity("S_stroke").symbol
+    'S'
     """
 
     key: str
-    symbol: str
     tex: str
     unit: str
     title: str
     digits: Digits
+    word: str = ""
+
+    @property
+    def symbol(self) -> str:
+        """Symbol in plain text."""
+        return self.word or plain_symbol(self.tex)
 
     @property
     def unit_label(self) -> str:
@@ -79,11 +87,12 @@ class Quantity:
 
 _ALL: dict[str, Quantity] = {
     key: Quantity(
-        key, symbol, tex, unit, title, digits if isinstance(digits, Digits) else Digits(digits)
+        key, tex, unit, title, digits if isinstance(digits, Digits) else Digits(digits),
+        WORDS.get(key, ""),
     )
     for subject in _SUBJECTS
-    for key, symbol, tex, unit, title, digits in subject.ROWS
-}
+    for key, tex, unit, title, digits in subject.ROWS
+}  # fmt: skip
 
 _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
@@ -124,6 +133,9 @@ def quantity(key: str, small: int = 0) -> Quantity:
 
     Raises:
         KeyError: nobody knows the key.
+
+    >>> quantity("N_MPa").si
+    1000000.0
     """
     about = _quantity(key)
     exact = small * _POWERS.get(about.unit, 0) / _FIFTHS
@@ -146,8 +158,8 @@ def _quantity(key: str) -> Quantity:
         return replace(_ALL[key.split("_", 1)[1]], key=key)
     if re.match(r"ray_[IVX]+_MPa", key):
         numeral = key.split("_")[1]
-        return Quantity(key, numeral, rf"R_{{\mathrm{{{numeral}}}}}", "MPa",
-                        f"сила по лучу {numeral}", Digits(2, hides="zeros"))  # fmt: skip
+        return Quantity(key, rf"R_{{\mathrm{{{numeral}}}}}", "MPa",
+                        f"сила по лучу {numeral}", Digits(2, hides="zeros"), numeral)  # fmt: skip
     match = re.search(r"(?<=[a-zA-Z])\d+", key)
     if match is None:
         raise KeyError(key)
@@ -156,7 +168,7 @@ def _quantity(key: str) -> Quantity:
     return replace(
         family,
         key=key,
-        symbol=family.symbol.replace("#", index),
         tex=family.tex.replace("#", index),
         title=family.title.replace("#", index),
+        word=family.word.replace("#", index),
     )

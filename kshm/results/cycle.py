@@ -7,8 +7,8 @@ from operator import attrgetter
 import numpy as np
 
 from kshm.arrays import Array, Scalars, Tables
+from kshm.cycle.cycle import CycleRun
 from kshm.cycle.diagram import diagram_at, isobar_angle
-from kshm.cycle.run import CycleRun
 from kshm.cycle.speed_characteristic import curve
 from kshm.results.case import grid
 

@@ -8,16 +8,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from kshm.arrays import Array, Columns, Tables
-from kshm.chain.result import ChainArrays
-from kshm.engine.arrangement import pins, throws
+from kshm.arrays import Array, Columns, Results, Scalars, Tables
+from kshm.chain.solve import ChainArrays
+from kshm.engine.arrangement import hung, pins, throws
+from kshm.engine.engine import Engine
+from kshm.mechanics import journals
 from kshm.mechanics.journals import in_throw_frame
+from kshm.mechanics.kinematics import Position
 from kshm.mechanics.wear import ray_angles
-from kshm.nomenclature.quantity import ray_key
-from kshm.results.case import Case
-from kshm.results.extremes import UNLOADED
-from kshm.results.layout import (
+from kshm.nomenclature.quantity import UNITS, ray_key
+from kshm.results.case import (
+    UNLOADED,
+    Case,
+    first_extreme,
     has_single_rods,
+    least_loaded,
     pin_table,
     rod_names,
     shown_pins,
@@ -196,3 +201,161 @@ def wear_sums(case: Case) -> Tables:
     sums |= {f"table_14_main_{k + 1}": row for k, row in enumerate(raw.journal_wear[index])}
     angles = ray_angles(raw.batch.rays)
     return {f"{name}_sums": {"ray_deg": angles, "ray_sum": row} for name, row in sums.items()}
+
+
+_MPA = UNITS["MPa"].si  # extremes are told apart as the tables show them
+
+
+def rod_bearing(case: Case) -> Results:
+    """Load on the big-end bearing of cylinder 1 in the rod's axes, SI; no articulated rods."""
+    raw, engine, first = case.raw, case.engine, (case.index, 0)
+    if hung(engine.arrangement):
+        return {}, {}
+    area = engine.geometry.piston_area
+    spin = raw.batch.pin_mass[first][0] * engine.geometry.crank_radius * engine.omega**2
+    at = Position.at(raw.local_phi[first], *case.sizes[1:])
+    x, y = journals.rod_bearing(raw.K[first] - spin / area, raw.T[first], at)
+    load = np.hypot(x, y)
+    most, where = first_extreme(load, raw.phi, floor=_MPA)
+    scalars = {
+        "B_mean": float(load[:-1].mean()),
+        "B_max": most,
+        "phi_B_max_deg": where,
+        "B_min": float(load.min()),
+    }
+    table = {"phi_deg": raw.phi, "Bx_MPa": x, "By_MPa": y, "B_MPa": load}
+    return {"rod_bearing": table}, scalars
+
+
+def pin_bending(case: Case) -> Results:
+    """Projections of R_к on planes of the pin and its bending in the oil hole's, SI; (42).
+
+    Split pins have no common plane.
+    """
+    raw = case.raw
+    if any(cylinder.pin_angle for cylinder in case.engine.arrangement):
+        return {}, {}
+    inward, ahead, lever = bending_forces(case, 0)
+    angle, angles = oil_hole(case, 0), journals.plane_angles()
+    force = journals.on_plane(inward, ahead, angle)
+    planes = [journals.on_plane(inward, ahead, plane) for plane in angles]
+    moment = force * lever
+    swings = np.array([np.ptp(plane) * lever / 2 for plane in planes])
+    least, best = first_extreme(swings, angles, largest=False)
+    scalars: Scalars = {
+        "alpha_oil_deg": angle,
+        "Ralpha_max": float(force.max()),
+        "Ralpha_min": float(force.min()),
+        "Malpha_max": float(moment.max()),
+        "Malpha_min": float(moment.min()),
+        "Malpha_swing": float(np.ptp(moment)) / 2,
+        "Malpha_mean": float(moment.max() + moment.min()) / 2,
+        "alpha_best_deg": best,
+        "Mbest_swing": least,
+    }
+    table = {"phi_deg": raw.phi, "Ralpha_MPa": force, "Malpha_Nm": moment}
+    table |= {f"plane{number}_MPa": plane for number, plane in enumerate(planes, 1)}
+    return {"pin_bending": table}, scalars
+
+
+def bending_forces(case: Case, number: int) -> tuple[Array, Array, float]:
+    """R_к of a throw, from 0, inwards and ahead [Pa], shape (angles,); its bending lever [m³]."""
+    raw, engine, index = case.raw, case.engine, case.index
+    throw = engine.crankshaft.throws[number]
+    unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
+    carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[number]), 0].sum()
+    own = throw.pin_mass + throw.left_web.mass + throw.right_web.mass
+    inward: Array = raw.throw_K[index, number] - (carried + own) * unit
+    lever = engine.geometry.piston_area * throw.length / 4
+    return inward, raw.throw_T[index, number], lever
+
+
+def oil_hole(case: Case, pin: int) -> float:
+    """Angle of a pin's oil hole from the crank against rotation [rad]: given, or by the wear."""
+    if case.engine.oil_hole is not None:
+        return case.engine.oil_hole
+    shown = min(pin, len(shown_pins(case.engine)) - 1)  # pins of one wear have one hole
+    return float(least_loaded(case.raw.pin_wear[case.index, shown])[1])
+
+
+def _applies(engine: Engine) -> bool:
+    """Whether the shaft has inner supports and rods that pull at undivided pins."""
+    whole = all(c.pin_angle == 0 and c.master is None for c in engine.arrangement)
+    return len(engine.crankshaft.throws) > 1 and whole and engine.force_offsets is None
+
+
+def continuous_results(case: Case) -> Results:
+    """Moments and reactions over the cycle, their means and extremes against the split scheme's.
+
+    SI units; nothing where the scheme does not apply.
+    """
+    engine, raw, index = case.engine, case.raw, case.index
+    if not _applies(engine):
+        return {}, {}
+    shaft, area = engine.crankshaft, engine.geometry.piston_area
+    moments, reactions = _reactions(case)
+    table: Columns = {"phi_deg": raw.phi}
+    for k in range(1, len(moments) - 1):
+        table |= {f"Ms{axis}{k + 1}_Nm": moments[k, :, i] for i, axis in enumerate("xy")}
+    scalars: Scalars = {}
+    for k, (x, y) in enumerate(np.moveaxis(reactions, -1, 1), 1):
+        load, split = np.hypot(x, y), raw.journal_load[index, k - 1]
+        table |= {f"Rcx{k}_MPa": x, f"Rcy{k}_MPa": y, f"Rc{k}_MPa": load}
+        mean, most = float(load[:-1].mean()), float(load.max())
+        projected = shaft.main_diameters[k - 1] * shaft.main_lengths[k - 1]
+        scalars |= {
+            f"Rc{k}_mean": mean,
+            f"Rc{k}_max": most,
+            f"dRc{k}_mean": _over(mean, float(split[:-1].mean())),
+            f"dRc{k}_max": _over(most, float(split.max())),
+            f"qc{k}_max": most * area / projected,
+        }
+    return {"continuous": table}, scalars
+
+
+def _over(load: float, split: float) -> float:
+    """How much a load is over that of the split scheme [-]; none over a journal without load."""
+    return load / split - 1 if split > UNLOADED else 0.0
+
+
+def _reactions(case: Case) -> tuple[Array, Array]:
+    """Moments [N·m] and specific reactions [Pa] of all supports, (journals, angles, 2)."""
+    engine, raw, at = case.engine, case.raw, slice(case.index, case.index + 1)
+    batch, area = raw.batch, engine.geometry.piston_area
+    unit, throws = batch.r[:, :, 0] * batch.omega[:, :, 0] ** 2, batch.throws
+    count, angles = throws.angle.shape[1], len(raw.phi)
+    gamma, length = throws.angle[at, :, None], throws.places.length[at, :, None]
+    ones = np.ones_like(throws.angle)
+    loads = [
+        journals.Load(*(part[at, :, None] for part in load))
+        for load in journals.own_loads(throws, unit, ones, 0 * ones)
+    ]
+    spin = batch.pin_mass[at] * unit[at, :, None]
+    for position in sorted(set(batch.rods.positions)):
+        # The rods that stand there, each on its throw.
+        here = (np.array(batch.rods.positions) == position)[:, None]
+        left, up = (
+            batch.rods.summed(force * here, count)
+            for force in (-raw.T[at] * area, spin - raw.K[at] * area)
+        )
+        loads.append(journals.Load(throws.places.rod_at(position)[at, :, None], left, up))
+    terms = journals.load_terms(loads, length, (1, count, angles))
+    right, left = (
+        np.stack(journals.to_shaft_axes(term[..., 0], term[..., 1], gamma), axis=-1)[0]
+        for term in terms
+    )
+    ends = np.stack(
+        [
+            np.stack(journals.to_shaft_axes(load.left, load.up, throws.angle), axis=-1)[
+                case.index, throw
+            ] * -arm
+            for load, arm, throw in zip(
+                journals.end_loads(throws, unit), throws.end_arm[case.index], (0, -1), strict=True
+            )
+        ]
+    )  # fmt: skip
+    spans = throws.places.length[case.index]
+    moments = journals.support_moments(
+        spans, right, left, np.broadcast_to(ends[:, None], (2, angles, 2))
+    )
+    return moments, raw.journal[case.index] + journals.corrections(spans, moments) / area

@@ -6,7 +6,7 @@ import numpy as np
 
 from kshm.arrays import Array, Columns, Scalars, Tables
 from kshm.engine.gas import PolytropicGas, RoundedGas, TabulatedGas
-from kshm.mechanics.cubic_diagrams import BDC, DEGREE, expansion, periodic_nodes, rounded_nodes
+from kshm.mechanics.gas import BDC, DEGREE, expansion, periodic_nodes, rounded_nodes
 from kshm.mechanics.kinematics import Stroke, engine_stroke
 from kshm.results.case import Case
 

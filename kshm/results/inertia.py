@@ -1,4 +1,4 @@
-"""Reduced inertia, speed fluctuation and flywheel of one engine, Ilchenko, Gots 2.8."""
+"""Masses of the rod, Gots 2.2; reduced inertia, irregularity and flywheel of one engine."""
 
 from __future__ import annotations
 
@@ -7,10 +7,55 @@ import numpy as np
 from kshm.arrays import Array, Results, Scalars
 from kshm.engine.arrangement import rods_beside
 from kshm.engine.engine import Engine
-from kshm.mechanics import reduced_inertia as reduced
-from kshm.mechanics import rod_model, speed_fluctuation
-from kshm.mechanics.torque import gas_torque
+from kshm.engine.masses import Estimate, RodMasses, Swinging
+from kshm.mechanics import inertia, masses
+from kshm.mechanics import inertia as reduced
+from kshm.mechanics.forces import gas_torque
 from kshm.results.case import Case
+
+
+def rod_mass_scalars(engine: Engine) -> Scalars:
+    """Masses over the piston area, the rod by two and three masses, how they were found."""
+    given, geometry = engine.masses, engine.geometry
+    area = geometry.piston_area
+    scalars = {"area_throw": masses.throw_mass(engine.crankshaft.throws[0]) / area}
+    if not isinstance(given, RodMasses):
+        return scalars
+    length = geometry.rod_length
+    two = masses.two_mass_inertia(given.rod, given.centre, length)
+    scalars |= {
+        "area_piston": given.piston_group / area,
+        "area_rod": given.rod / area,
+        "rod_l1": given.centre,
+        "rod_share": 1 - given.centre / length,
+        "I_two": two,
+    }
+    if given.inertia is not None:
+        three = masses.three_masses(given.rod, given.centre, length, given.inertia)
+        scalars |= {
+            "I_sh": given.inertia,
+            **{f"m{number}_three": mass for number, mass in enumerate(three, 1)},
+            "m3_share": three[2] / given.rod,
+            "dI_two": two / given.inertia - 1,
+        }
+    if isinstance(given.basis, Swinging):
+        scalars |= _swinging_scalars(given.basis)
+    elif isinstance(given.basis, Estimate):
+        near = masses.area_masses(given.basis, geometry.bore, 2 * geometry.crank_radius)
+        scalars |= {"est_piston": near.piston, "est_rod": near.rod, "est_throw": near.throw}
+    return scalars
+
+
+def _swinging_scalars(data: Swinging) -> Scalars:
+    arm = masses.swung_centre(data) + data.bore_radius
+    rest = data.distance - arm
+    return {
+        "T_small": 1 / data.swings_small,
+        "T_big": 1 / data.swings_big,
+        "I_A": masses.pendulum_inertia(data.mass, arm, data.swings_small),
+        "I_C": masses.pendulum_inertia(data.mass, rest, data.swings_big),
+        "rod_l2": rest,
+    }
 
 
 def inertia_results(case: Case) -> Results:
@@ -27,11 +72,11 @@ def inertia_results(case: Case) -> Results:
     local, p_gas = raw.local_phi[case.index], raw.p_gas[case.index]
     gas = gas_torque(p_gas, local, r, lam, np.array(engine.geometry.piston_area),
                      parts.offset).sum(axis=0)  # fmt: skip
-    work = speed_fluctuation.excess_work(raw.torque_sum[case.index], phi)
-    gas_work = speed_fluctuation.excess_work(gas, phi)
+    work = inertia.excess_work(raw.torque_sum[case.index], phi)
+    gas_work = inertia.excess_work(gas, phi)
     mean, delta = float(whole[:-1].mean()), engine.balancing.irregularity
-    flywheel = speed_fluctuation.flywheel_inertia(work, mean, engine.omega, delta)
-    omega = speed_fluctuation.speed(gas_work, whole + flywheel, engine.omega)
+    flywheel = inertia.flywheel_inertia(work, mean, engine.omega, delta)
+    omega = inertia.speed(gas_work, whole + flywheel, engine.omega)
     near = reduced.approximate(phi, parts)
     error = near / exact - 1
     approximation = {"I_approx_kgm2": near, "I_error": error} if central else {}
@@ -53,7 +98,7 @@ def inertia_results(case: Case) -> Results:
         "W_range": float(np.ptp(work)),
         "Wgas_range": float(np.ptp(gas_work)),
         "I_flywheel": flywheel,
-        "delta_work": speed_fluctuation.irregularity(work, mean + flywheel, engine.omega),
+        "delta_work": inertia.irregularity(work, mean + flywheel, engine.omega),
         "omega_max": float(omega.max()),
         "omega_min": float(omega.min()),
         "delta_speed": float(np.ptp(omega) / omega[:-1].mean()),
@@ -73,11 +118,11 @@ def _range(which: str, inertia: Array) -> Scalars:
 def _rod_model(engine: Engine) -> Scalars:
     """The rod estimated from the main dimensions with the first pin, Ilchenko (20)-(31)."""
     shaft, geometry = engine.crankshaft, engine.geometry
-    sizes = rod_model.sizes(
+    sizes = masses.rod_sizes(
         geometry.bore, shaft.pin_diameters[0],
         shaft.pin_lengths[0] / rods_beside(engine.arrangement, 0), geometry.rod_length,
     )  # fmt: skip
-    model = rod_model.estimate(sizes)
+    model = masses.rod_estimate(sizes)
     return {
         "rod_model_mass": model.mass,
         "rod_model_centre": model.centre,

@@ -7,11 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.chain.result import ChainArrays
+from kshm.chain.solve import ChainArrays
 from kshm.engine.engine import Engine
 from kshm.mechanics import kinematics, masses
-from kshm.results.extremes import first_number, least_loaded, summary_of
-from kshm.results.layout import shown_pins
+from kshm.results.case import first_number, least_loaded, shown_pins, summary_of
 from kshm.results.motion import central_scalars
 
 Numbers = dict[str, Array]

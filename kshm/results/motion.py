@@ -1,12 +1,13 @@
-"""Motion of pistons and rods: tables П3.1 and П3.2, offset, articulated rods, Gots chapter 1."""
+"""Motion of pistons and rods, Gots chapter 1; errors of the two-term formulas; Segal, Neiman."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from kshm.arrays import Array, Columns, Scalars, Tables
-from kshm.mechanics import articulated, kinematics
-from kshm.results.case import Case
+from kshm.arrays import Array, Columns, Results, Scalars, Tables
+from kshm.mechanics import articulated, dimensionless, harmonics, kinematics
+from kshm.nomenclature.quantity import quantity
+from kshm.results.case import Case, first_extreme, grid
 
 UNITS = ("mm", "m_s", "m_s2")  # how the keys of s, v and j end
 
@@ -155,3 +156,112 @@ def _articulated_scalars(case: Case) -> Scalars:
         "phi_tdc_art_deg": float(hung.volume.tdc[first]),
         "phi_bdc_art_deg": float(hung.volume.bdc[first]),
     }
+
+
+def two_term_errors(case: Case) -> Results:
+    """Exact and two-term motion and force over a turn, their differences and the greatest, SI."""
+    geometry, phi, omega, (r, lam, k) = case.engine.geometry, case.turn, case.omega, case.sizes
+    area = geometry.piston_area
+    exact = kinematics.exact_motion(phi, r, lam, omega, k)
+    parts = kinematics.two_term_motion(phi, r, lam, omega, k)
+    near = {letter: first + second + offset for letter, (first, second, offset) in parts.items()}
+    mass = case.inertia_unit / float(r * omega**2)
+    for curves in (exact, near):
+        curves["Pj"] = -mass * curves["j"] / area
+    table, whole = {"phi_deg": phi}, {}
+    for (letter, values), unit in zip(exact.items(), (*UNITS, "MPa"), strict=True):
+        table[f"e{letter}_exact_{unit}"] = values
+        table[f"e{letter}_two_{unit}"] = near[letter]
+        table[f"e{letter}_{unit}"] = near[letter] - values
+        whole[f"e{letter}_{unit}"] = float(np.abs(values).max())
+    beta = kinematics.rod_angle(phi, lam, k)
+    tangential = table["ePj_MPa"] * (np.sin(phi) + np.cos(phi) * np.tan(beta))
+    table |= {
+        "eN_MPa": table["ePj_MPa"] * np.tan(beta),
+        "eT_MPa": tangential,
+        "eM_Nm": tangential * area * float(r),
+    }
+    scalars: Scalars = {"k_two_term": geometry.relative_offset}
+    for key in ("es_mm", "ev_m_s", "ej_m_s2", "ePj_MPa", "eN_MPa", "eT_MPa", "eM_Nm"):
+        most, at = first_extreme(np.abs(table[key]), phi, floor=quantity(key).si)
+        name = key.split("_", maxsplit=1)[0]
+        scalars |= {f"{name}_max": most, f"phi_{name}_deg": at}
+        if key in whole:
+            scalars[f"{name}_rel"] = most / whole[key]
+    return {"two_term": table}, scalars
+
+
+def segal_results(case: Case) -> Results:
+    """Tables ``segal_errors`` and ``segal_inverse`` and their extremes at the engine's λ, SI."""
+    lam, fine = case.sizes[1], grid(0, 180, 2)
+    exact, near = dimensionless.exact(fine, lam), dimensionless.two_term(fine, lam)
+    errors: dict[str, Array] = {"alpha_deg": fine}
+    scalars: Scalars = {}
+    for letter in "svj":
+        truth, approximate = getattr(exact, letter), getattr(near, letter)
+        error = approximate - truth
+        errors |= {
+            f"{letter}_exact": truth, f"{letter}_two_term": approximate, f"d{letter}": error,
+        }  # fmt: skip
+        scalars[f"d{letter}_max"], scalars[f"alpha_d{letter}_deg"] = first_extreme(
+            np.abs(error), fine
+        )
+    given = np.arange(1.0, 20.0) * 0.1
+    angles = {
+        "quadratic": dimensionless.angle_two_term(given, lam),
+        "small": dimensionless.angle_small(given, lam),
+        "exact": dimensionless.angle_exact(given, lam),
+    }
+    inverse = {"s_given": given, **{f"alpha_{name}_deg": each for name, each in angles.items()}}
+    for name in ("quadratic", "small"):
+        inverse[f"dalpha_{name}_deg"] = angles[name] - angles["exact"]
+    return {"segal_errors": errors, "segal_inverse": inverse}, scalars | _extremes(lam)
+
+
+def _extremes(lam: Array) -> Scalars:
+    places = np.array([0.0, np.pi / 2, np.pi])
+    exact, near = dimensionless.exact(places, lam), dimensionless.two_term(places, lam)
+    two_angle, two_value = dimensionless.min_acceleration_two_term(float(lam))
+    angle, value = dimensionless.min_acceleration(float(lam))
+    return {
+        "s_error_quarter": float(near.s[1] / exact.s[1] - 1),
+        "j_error_quarter": float(near.j[1] / exact.j[1] - 1),
+        "j_rel_tdc": float(exact.j[0]),
+        "j_rel_bdc": float(exact.j[2]),
+        "j_rel_quarter": float(exact.j[1]),
+        "j_two_term_min": two_value,
+        "alpha_j_two_term_min_deg": two_angle,
+        "j_exact_min": value,
+        "alpha_j_exact_min_deg": angle,
+    }
+
+
+SERIES_ORDERS = (1, 2, 4, 6, 8)  # orders summed beside the exact curves
+SHOWN_ORDERS = (1, 2, 4, 6)
+
+
+def neiman_results(case: Case) -> Results:
+    """Table ``neiman_motion``, the coefficients of the series and the errors of its sum."""
+    at = case.sizes[1]
+    lam, alpha = float(at), grid(0, 360, 5)
+    exact = dimensionless.exact(alpha, at)
+    parts = {order: harmonics.motion(alpha, lam, order) for order in SERIES_ORDERS}
+    columns: Columns = {"alpha_deg": alpha}
+    scalars = {"neiman_k": harmonics.coefficient(lam, 0)}
+    scalars |= {f"neiman_p{order}": harmonics.coefficient(lam, order) for order in harmonics.ORDERS}
+    for derivative, letter in enumerate("svj"):
+        truth = getattr(exact, letter)
+        series = np.sum([part[derivative] for part in parts.values()], axis=0)
+        if letter == "s":
+            series = 1 + scalars["neiman_k"] + series
+        columns[f"{letter}_exact"] = truth
+        columns |= {f"{letter}_order{order}": parts[order][derivative] for order in SHOWN_ORDERS}
+        columns[f"{letter}_series"] = series
+        scalars[f"{letter}_series_error"] = float(np.abs(series - truth).max())
+    on_pin, cos_beta = harmonics.rod_on_pin(alpha, at), np.sqrt(1 - (lam * np.sin(alpha)) ** 2)
+    columns |= {
+        "rod_speed_rel": on_pin - 1,
+        "rod_acceleration_rel": -lam * (1 - lam**2) * np.sin(alpha) / cos_beta**3,
+        "rod_on_pin_rel": on_pin,
+    }
+    return {"neiman_motion": columns}, scalars

@@ -9,31 +9,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
-from kshm.chain.result import ChainArrays
-from kshm.chain.solve import solve_batch
+from kshm.chain.solve import ChainArrays, solve_batch
 from kshm.chain.stack import structure
-from kshm.cycle.run import CycleRun
+from kshm.cycle.cycle import CycleRun
 from kshm.engine.arrangement import hung
 from kshm.engine.checks import takes_kinds
 from kshm.engine.engine import Engine
 from kshm.mechanics.balance import is_balanced_by_orders
 from kshm.nomenclature.quantity import quantity
 from kshm.results import forces, gas, motion, regimes
-from kshm.results.balance import balance_results
+from kshm.results.balance import balance_results, torque_order_results
 from kshm.results.bearings import bearing_results
 from kshm.results.case import Case
-from kshm.results.continuous_beam import continuous_results
 from kshm.results.cycle import cycle_scalars, cycle_tables
-from kshm.results.inertia import inertia_results
+from kshm.results.forces import continuous_results, pin_bending, rod_bearing
+from kshm.results.inertia import inertia_results, rod_mass_scalars
 from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
-from kshm.results.masses import rod_mass_scalars
-from kshm.results.neiman import neiman_results
-from kshm.results.pin_bearing import pin_bending, rod_bearing
+from kshm.results.motion import neiman_results, segal_results, two_term_errors
 from kshm.results.reference import reference_results, reference_tables
-from kshm.results.segal import segal_results
-from kshm.results.torque_orders import torque_order_results
 from kshm.results.torsion import torsion_results
-from kshm.results.two_term import two_term_errors
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,6 +52,14 @@ def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
     Args:
         engine: the engine.
         cycle: the calculation that its gas comes from, to stand among the results.
+
+    With ``engine`` as in the example of ``kshm.in_line``:
+
+    >>> solution = solve(engine)
+    >>> round(solution.scalars["c_m"], 2)  # mean piston speed [m/s]
+    8.0
+    >>> f"{solution.columns['P4_1']['N_MPa'].max():.2f}"  # greatest side force
+    '0.92'
     """
     return Solution(engine, solve_batch([engine]), cycle=cycle)
 
@@ -71,8 +73,8 @@ def solve_regimes(engine: Engine) -> tuple[Solution, ...]:
     solutions: dict[int, Solution] = {}
     for members in groups.values():
         raw = solve_batch([engines[index] for index in members])
-        for place, index in enumerate(members):
-            solutions[index] = Solution(engines[index], raw, place)
+        for row, index in enumerate(members):
+            solutions[index] = Solution(engines[index], raw, row)
     return tuple(solutions[index] for index in range(len(engines)))
 
 
@@ -91,6 +93,12 @@ class Solution:
     ``columns[table][key]`` are arrays in the unit named by the key's quantity;
     ``scalars[key]`` likewise; ``tables[id]`` are pandas DataFrames with the
     units in ``attrs["units"]``.  ``raw`` holds the SI arrays of the batch.
+
+    With ``engine`` as in the example of ``kshm.in_line``:
+
+    >>> table = solve(engine).tables["P4_1"]
+    >>> table.columns[0], len(table)
+    ('phi_deg', 73)
     """
 
     def __init__(
@@ -167,8 +175,8 @@ class Solution:
         Raises:
             KeyError: there is no such column.
         """
-        found = self.chain_tables.get(table, {}).get(key)
-        return self.columns[table][key] if found is None else in_units({key: found})[key]
+        values = self.chain_tables.get(table, {}).get(key)
+        return self.columns[table][key] if values is None else in_units({key: values})[key]
 
     def scalar(self, key: str) -> float:
         """One scalar in the unit of its quantity; one of the chain asks for nothing more.
@@ -176,8 +184,8 @@ class Solution:
         Raises:
             KeyError: there is no such scalar.
         """
-        found = self.chain_scalars.get(key)
-        return self.scalars[key] if found is None else found / quantity(key).si
+        value = self.chain_scalars.get(key)
+        return self.scalars[key] if value is None else value / quantity(key).si
 
     def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
         """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""

@@ -22,12 +22,9 @@ from kshm.defaults import (
 )
 from kshm.engine.arrangement import hung
 from kshm.engine.torsion import Torsion
-from kshm.mechanics import reduced_inertia, speed_fluctuation, torsion, torsion_response
-from kshm.mechanics import torsional_train as trains
-from kshm.mechanics.torque_harmonics import Harmonics, analyse
-from kshm.mechanics.torsion import Complex, Modes
-from kshm.mechanics.torsion_response import Damper, Response
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics import inertia, torsion
+from kshm.mechanics.harmonics import Harmonics, analyse
+from kshm.mechanics.torsion import Complex, Damper, Modes, Response, Train
 from kshm.results.case import Case
 from kshm.results.gas import peak_pressure
 
@@ -39,11 +36,11 @@ _MARKED = ("tor_f1_hz", "tor_f1_other_hz", "tor_loss1", "tor_damper_b", "tor_wor
 
 
 def torsion_results(case: Case) -> Results:
-    """Tables ``torsion_…`` and scalars ``tor_…``; SI units.  Nothing where it is not asked for."""
-    asked = case.engine.torsion
-    if asked is None:
+    """Tables ``torsion_…`` and scalars ``tor_…``; SI units; empty without [torsion]."""
+    inputs = case.engine.torsion
+    if inputs is None:
         return {}, {}
-    study = Study(case, asked)
+    study = TorsionStudy(case, inputs)
     critical, worst = _critical(study)
     scalars = _scalars(study) | worst | _damper_scalars(study)
     mark = float(critical["tor_M1_Nm"][:-1].sum()) + sum(scalars[key] for key in _MARKED)
@@ -59,52 +56,50 @@ def torsion_results(case: Case) -> Results:
 
 
 @dataclass(frozen=True)
-class Study:
+class TorsionStudy:
     """Train and excitation of one engine."""
 
     case: Case
-    asked: Torsion
+    inputs: Torsion
 
     @cached_property
     def flywheel(self) -> float:
         """Inertia of the flywheel [kg·m²]: given, for the irregularity wanted, or a share."""
-        engine, asked = self.case.engine, self.asked
-        if asked.masses:
-            return max(mass.inertia for mass in asked.masses)
-        if asked.flywheel is not None:
-            return asked.flywheel
+        engine, inputs = self.case.engine, self.inputs
+        if inputs.masses:
+            return max(mass.inertia for mass in inputs.masses)
+        if inputs.flywheel is not None:
+            return inputs.flywheel
         share = FLYWHEEL_SHARE * float(self._throws.sum())
         if hung(engine.arrangement):
             return share
-        work = speed_fluctuation.excess_work(
-            self.case.raw.torque_sum[self.case.index], self.case.raw.phi
-        )
-        own = float(reduced_inertia.of_engine(self.case.raw.phi, engine)[:-1].mean())
+        work = inertia.excess_work(self.case.raw.torque_sum[self.case.index], self.case.raw.phi)
+        own = float(inertia.of_engine(self.case.raw.phi, engine)[:-1].mean())
         wanted = engine.balancing.irregularity
-        return speed_fluctuation.flywheel_inertia(work, own, engine.omega, wanted) or share
+        return inertia.flywheel_inertia(work, own, engine.omega, wanted) or share
 
     @property
     def _throws(self) -> Array:
-        given = self.asked.throws
-        return trains.throw_inertias(self.case.engine) if given is None else np.array(given)
+        given = self.inputs.throws
+        return torsion.throw_inertias(self.case.engine) if given is None else np.array(given)
 
     @cached_property
     def other_flywheel(self) -> float:
         """A second flywheel to compare with [kg·m²]."""
-        return self.asked.other_flywheel or OTHER_FLYWHEEL * self.flywheel
+        return self.inputs.other_flywheel or OTHER_FLYWHEEL * self.flywheel
 
     @cached_property
     def train(self) -> Train:
         """The train of the calculation."""
-        return trains.train_of(self.case.engine, self.asked, self.flywheel)
+        return torsion.train_of(self.case.engine, self.inputs, self.flywheel)
 
     @cached_property
     def other(self) -> Train:
         """The same with the other flywheel."""
-        place = self.train.heaviest
-        if not self.asked.masses:
-            place = len(self.case.engine.crankshaft.throws) + 1
-        return self.train.with_inertia(place, self.other_flywheel)
+        number = self.train.heaviest
+        if not self.inputs.masses:
+            number = len(self.case.engine.crankshaft.throws) + 1
+        return self.train.with_inertia(number, self.other_flywheel)
 
     @cached_property
     def modes(self) -> Modes:
@@ -122,15 +117,15 @@ class Study:
         """Absolute damping of every mass [N·m·s/rad], shape (masses,)."""
         geometry = self.case.engine.geometry
         share = DAMPING_SHARE * geometry.piston_area * geometry.crank_radius**2
-        each = share if self.asked.damping is None else self.asked.damping
-        counts = np.bincount([place.throw for place in self.case.engine.arrangement])
+        each = share if self.inputs.damping is None else self.inputs.damping
+        counts = np.bincount([cylinder.throw for cylinder in self.case.engine.arrangement])
         return np.array(
             [each * counts[k] if 0 <= k < len(counts) else 0.0 for k in self.train.throws]
         )
 
     @cached_property
     def orders(self) -> Array:
-        """ν up to 12, as far as the grid of the calculation tells them."""
+        """ν up to 12, as far as the grid resolves them."""
         return self.case.orders(LAST_ORDER)
 
     @cached_property
@@ -153,16 +148,16 @@ class Study:
     def at_speed(self, omega: Array) -> tuple[Array, Array]:
         """Factors of gas and of inertia torques at speeds [rad/s], elementwise."""
         gas = np.ones_like(omega)
-        if self.asked.peaks:
-            speeds, pressures = zip(*self.asked.peaks, strict=True)
+        if self.inputs.peaks:
+            speeds, pressures = zip(*self.inputs.peaks, strict=True)
             gas = np.interp(omega, speeds, pressures) / peak_pressure(self.case)
         return gas, (omega / self.case.engine.omega) ** 2
 
     @cached_property
     def range(self) -> tuple[float, float]:
         """Working speeds [rad/s]."""
-        asked, omega = self.asked, self.case.engine.omega
-        return asked.speed_min or SPEED_RANGE[0] * omega, asked.speed_max or SPEED_RANGE[1] * omega
+        low, high = (share * self.case.engine.omega for share in SPEED_RANGE)
+        return self.inputs.speed_min or low, self.inputs.speed_max or high
 
     @cached_property
     def speeds(self) -> Array:
@@ -172,15 +167,16 @@ class Study:
     @cached_property
     def damper(self) -> Damper:
         """The damper given, or the best one of its kind for the first form."""
-        asked, omega = self.asked, float(self.modes.omega[0])
+        inputs, omega = self.inputs, float(self.modes.omega[0])
         brought = float(torsion.brought_inertia(self.train, self.modes)[0])
-        ring = asked.damper_inertia or RING_SHARE * brought
+        ring = inputs.damper_inertia or RING_SHARE * brought
         share = ring / brought
         kappa, zeta = torsion.best_tuning(share)
-        tuned = asked.damper == "tuned"
-        spring = (asked.damper_stiffness or ring * (kappa * omega) ** 2) if tuned else 0.0
+        tuned = inputs.damper == "tuned"
+        spring = (inputs.damper_stiffness or ring * (kappa * omega) ** 2) if tuned else 0.0
         best = 2 * (zeta if tuned else torsion.best_viscous(share)) * ring * omega
-        return Damper(ring, spring, best if asked.damper_damping is None else asked.damper_damping)
+        given = inputs.damper_damping
+        return Damper(ring, spring, best if given is None else given)
 
     def excitation(self, speeds: Array) -> Complex:
         """Harmonics of the torques at the masses [N·m], shape (masses, speeds, orders)."""
@@ -188,42 +184,42 @@ class Study:
         gas, inertia = (self._spectrum(torque, period) for torque in (self.gas, self.inertia))
         gas_factor, inertia_factor = self.at_speed(speeds)
         cylinders = gas[:, None] * gas_factor[:, None] + inertia[:, None] * inertia_factor[:, None]
-        found = np.zeros((len(throws), len(speeds), len(self.orders)), dtype=complex)
+        torques = np.zeros((len(throws), len(speeds), len(self.orders)), dtype=complex)
         masses = {throw: mass for mass, throw in enumerate(throws) if throw >= 0}
-        for place, torque in zip(self.case.engine.arrangement, cylinders, strict=True):
-            if place.throw in masses:
-                found[masses[place.throw]] += torque
-        return found
+        for cylinder, torque in zip(self.case.engine.arrangement, cylinders, strict=True):
+            if cylinder.throw in masses:
+                torques[masses[cylinder.throw]] += torque
+        return torques
 
     def _spectrum(self, torque: Array, period: float) -> Complex:
         """T_ν of Re Σ T_ν e^{iνφ} [N·m], shape (cylinders, orders)."""
         body = torque[:, :-1]
         index = np.rint(self.orders * period / (2 * np.pi)).astype(int)
-        found: Complex = np.fft.rfft(body, axis=1)[:, index] * 2 / body.shape[1]
-        return found
+        spectrum: Complex = np.fft.rfft(body, axis=1)[:, index] * 2 / body.shape[1]
+        return spectrum
 
     def response(
         self, speeds: Array, train: Train | None = None, damper: Damper | None = None
     ) -> Response:
         """Steady vibration at speeds [rad/s] under all orders."""
         omega = speeds[:, None] * self.orders
-        load, eta = self.excitation(speeds), self.asked.loss_factor
-        return torsion_response.respond(train or self.train, omega, load, self.damping, eta, damper)
+        load, eta = self.excitation(speeds), self.inputs.loss_factor
+        return torsion.respond(train or self.train, omega, load, self.damping, eta, damper)
 
 
-def forced_columns(study: Study) -> Columns:
+def forced_columns(study: TorsionStudy) -> Columns:
     """Forced vibration over the speeds: stresses summed in time, energy of a cycle; SI units."""
     speeds, strokes = study.speeds, study.case.engine.strokes
     bare = study.response(speeds)
     step, periods = 2 / strokes, study.orders * strokes / 2
 
     def summed(amplitudes: Complex) -> Array:
-        return torsion_response.sum_in_time(amplitudes, study.orders, step)
+        return torsion.sum_in_time(amplitudes, study.orders, step)
 
     def stress(train: Train, response: Response) -> Array:
-        return summed(torsion_response.stresses(train, response))
+        return summed(torsion.stresses(train, response))
 
-    by_order = torsion_response.stresses(study.train, bare)
+    by_order = torsion.stresses(study.train, bare)
     shafts = summed(by_order)
     worst = shafts.argmax(axis=0)
     damped = stress(study.train, study.response(speeds, damper=study.damper))
@@ -254,7 +250,7 @@ def _tops(forced: Columns) -> Scalars:
     }
 
 
-def _forms(study: Study) -> Columns:
+def _forms(study: TorsionStudy) -> Columns:
     """Train and forms."""
     train, modes = study.train, study.modes
     count = len(train.inertias)
@@ -268,20 +264,20 @@ def _forms(study: Study) -> Columns:
     }
 
 
-def _critical(study: Study) -> tuple[Columns, Scalars]:
+def _critical(study: TorsionStudy) -> tuple[Columns, Scalars]:
     """Phase sums, critical speeds and resonances by the energy method for each order."""
     engine, train, modes = study.case.engine, study.train, study.modes
     of_throw = {throw: mass for mass, throw in enumerate(train.throws) if throw >= 0}
     # The last column of zeros serves the cylinders that no mass carries.
     forms = np.column_stack([modes.forms, np.zeros(len(modes.omega))])
-    cylinders = forms[:, [of_throw.get(place.throw, -1) for place in engine.arrangement]]
+    cylinders = forms[:, [of_throw.get(cylinder.throw, -1) for cylinder in engine.arrangement]]
     sums = torsion.phase_sums(cylinders, np.array(engine.firing_offsets), study.orders)
     speeds = modes.omega[:, None] / study.orders
     gas, own = (
         analyse(torque[0], engine.period, study.orders) for torque in (study.gas, study.inertia)
     )
     torque = _joined(gas, own, *study.at_speed(speeds))
-    resistance = torsion.energy_resistance(train, modes, study.damping, study.asked.loss_factor)
+    resistance = torsion.energy_resistance(train, modes, study.damping, study.inputs.loss_factor)
     with np.errstate(divide="ignore", invalid="ignore"):
         turned = np.where(resistance[:, None] > 0, torque * sums / resistance[:, None], 0.0)
     stress = turned * torsion.form_stress(train, modes)[:, None]
@@ -304,7 +300,7 @@ def _joined(gas: Harmonics, own: Harmonics, gas_factor: Array, own_factor: Array
     return amplitude
 
 
-def _worst(study: Study, inside: Array, speeds: Array) -> Scalars:
+def _worst(study: TorsionStudy, inside: Array, speeds: Array) -> Scalars:
     """The greatest resonance within the working speeds; zeros where there is none."""
     worst = float(inside.max())
     if worst == 0:
@@ -312,20 +308,20 @@ def _worst(study: Study, inside: Array, speeds: Array) -> Scalars:
             ("tor_worst", "tor_worst_mode", "tor_worst_order", "tor_worst_rpm"), 0.0
         )
     mode = int(np.argmax(inside.max(axis=1) >= worst * _TIE))
-    place = int(np.flatnonzero(inside[mode] >= worst * _TIE)[-1])
+    column = int(np.flatnonzero(inside[mode] >= worst * _TIE)[-1])
     return {
         "tor_worst": worst,
         "tor_worst_mode": mode + 1.0,
-        "tor_worst_order": float(study.orders[place]),
-        "tor_worst_rpm": float(speeds[mode, place]),
+        "tor_worst_order": float(study.orders[column]),
+        "tor_worst_rpm": float(speeds[mode, column]),
     }
 
 
-def _star(study: Study) -> Columns:
+def _star(study: TorsionStudy) -> Columns:
     """Running sums of the cylinders' vectors a e^{−iνθ} in the first form, by orders."""
     engine, form = study.case.engine, study.modes.forms[0]
     of_throw = {throw: form[mass] for mass, throw in enumerate(study.train.throws) if throw >= 0}
-    sizes = np.array([of_throw.get(place.throw, 0.0) for place in engine.arrangement])
+    sizes = np.array([of_throw.get(cylinder.throw, 0.0) for cylinder in engine.arrangement])
     table: Columns = {"tor_cylinder": np.arange(engine.cylinders + 1.0)}
     for k in range(1, min(STARS, engine.cylinders) + 1):
         order = k * 2 / engine.strokes
@@ -335,7 +331,7 @@ def _star(study: Study) -> Columns:
     return table
 
 
-def _campbell(study: Study) -> Columns:
+def _campbell(study: TorsionStudy) -> Columns:
     """Frequencies of the orders over the speed beside those of the train."""
     speeds = study.range[1] * np.linspace(0, 1.2, 13)
     hertz, half = study.modes.hertz, 2 / study.case.engine.strokes
@@ -351,17 +347,17 @@ def _campbell(study: Study) -> Columns:
     }
 
 
-def _scalars(study: Study) -> Scalars:
+def _scalars(study: TorsionStudy) -> Scalars:
     engine, train, modes = study.case.engine, study.train, study.modes
     hertz = modes.hertz
     other = float(torsion.modes_of(study.other).hertz[0])
     low, high = study.range
-    found = {
+    scalars = {
         **{f"tor_f{m}_hz": float(hertz[m - 1]) for m in study.numbers},
         **_numbered("tor_brought{}", torsion.brought_inertia(train, modes)),
         **_numbered(
             "tor_loss{}",
-            torsion.energy_resistance(train, modes, study.damping, study.asked.loss_factor),
+            torsion.energy_resistance(train, modes, study.damping, study.inputs.loss_factor),
         ),
         **_numbered("tor_twist{}", torsion.form_stress(train, modes) * np.pi / 180),
         "tor_n_min": low,
@@ -371,21 +367,21 @@ def _scalars(study: Study) -> Scalars:
         "tor_f1_other_hz": other,
         "tor_f1_change": other / float(hertz[0]) - 1,
     }
-    if study.asked.masses:
-        return found
+    if study.inputs.masses:
+        return scalars
     first = [
-        float(torsion.modes_of(trains.train_of(engine, study.asked, study.flywheel, f)).hertz[0])
-        for f in trains.FORMULAS
+        float(torsion.modes_of(torsion.train_of(engine, study.inputs, study.flywheel, f)).hertz[0])
+        for f in torsion.FORMULAS
     ]
-    found |= {f"tor_f1_{f}_hz": value for f, value in zip(trains.FORMULAS, first, strict=True)}
-    return found | {"tor_f1_spread": (max(first) - min(first)) / float(hertz[0])}
+    scalars |= {f"tor_f1_{f}_hz": value for f, value in zip(torsion.FORMULAS, first, strict=True)}
+    return scalars | {"tor_f1_spread": (max(first) - min(first)) / float(hertz[0])}
 
 
 def _numbered(key: str, values: Array) -> Scalars:
     return {key.format(m): float(value) for m, value in enumerate(values, 1)}
 
 
-def _damper_scalars(study: Study) -> Scalars:
+def _damper_scalars(study: TorsionStudy) -> Scalars:
     brought = float(torsion.brought_inertia(study.train, study.modes)[0])
     damper = study.damper
     share = damper.inertia / brought

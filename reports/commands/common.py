@@ -1,8 +1,10 @@
-"""What the commands share: exit codes, Russian help, options, loading of an input."""
+"""Exit codes, options, loading of an input, click's texts in Russian."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import difflib
+import re
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +13,14 @@ import click
 if TYPE_CHECKING:
     from reports.inputs.load import Loaded
 
+
 DONE, LOOK, BAD, MISSING = 0, 1, 2, 3
 HELP = {"help_option_names": ["-h", "--help"]}
 
 Command = Callable[..., int]
 
 
-def file_argument(text: str = "INPUT") -> Callable[[Command], Command]:
+def file_argument(text: str = "ФАЙЛ") -> Callable[[Command], Command]:
     """The file that a command reads."""
     return click.argument("source", metavar=text, type=click.Path(path_type=Path))
 
@@ -29,13 +32,13 @@ verbose_option = click.option(
 
 
 dask_option = click.option(
-    "--dask", metavar="ADDRESS", help="Считать на кластере Dask, tcp://host:8786."
+    "--dask", metavar="АДРЕС", help="Считать на кластере Dask, tcp://host:8786."
 )
 
 
 def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # noqa: ANN401
     """An option whose value is a path."""
-    return click.option(*names, type=click.Path(path_type=Path), **more)
+    return click.option(*names, type=click.Path(path_type=Path), **{"metavar": "ПУТЬ", **more})
 
 
 class DecimalNumber(click.ParamType):  # type: ignore[type-arg]
@@ -59,7 +62,7 @@ def number_option(name: str, key: str, unit: str, text: str) -> Callable[[Comman
 
 
 def load(source: Path) -> Loaded:
-    """A checked input; its warnings are told."""
+    """Load a checked input; print its warnings."""
     from reports.exports.build import load_input
 
     loaded = load_input(source)
@@ -68,7 +71,7 @@ def load(source: Path) -> Loaded:
 
 
 def tell(loaded: Loaded, source: Path) -> None:
-    """What is odd about an input, and what it explains itself."""
+    """Print warnings and notes of an input."""
     from reports.exports.build import remarks_of
 
     for line in (*remarks_of(loaded), *(f"{source.name}: {note}" for note in notes_of(loaded))):
@@ -76,16 +79,15 @@ def tell(loaded: Loaded, source: Path) -> None:
 
 
 def tell_written(target: Path, more: str = "") -> None:
-    """Name a file that is there now; where it is the output itself, beside the output."""
+    """Print the path of a written file; on stderr where the file is stdout."""
     from reports.shared.files import is_output
 
     click.echo(f"{target}{more}", err=is_output(target))
 
 
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
-    """What the solution shows, ``aside`` of the output; whether it needs a person's eye."""
-    from reports.inputs.checks.flywheel import solution_remarks
-    from reports.inputs.checks.power import power_problems
+    """Print remarks on a solution, on stderr if ``aside``; return whether there is a warning."""
+    from reports.inputs.solve_input import power_problems, solution_remarks
 
     power = (f"Внимание: {problem.line()}" for problem in power_problems(loaded.model))
     lines = (*power, *solution_remarks(loaded.model))
@@ -95,10 +97,152 @@ def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:
-    """What is not calculated for an input and why."""
+    """Notes on what is not calculated for an input."""
     geometry = loaded.model.geometry
     if not getattr(geometry, "is_offset", False) and loaded.model.articulated is None:
         return ()  # without loading the tables
     from reports.tables.left_out import left_out_note
 
     return (left_out_note(loaded.model),)
+
+
+_USAGE = "Использование: "
+_WORDS = {
+    "[OPTIONS]": "[КЛЮЧИ]",
+    "[COMMAND] [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
+    "Show this message and exit.": "Показать эту справку.",
+    "[required]": "[обязательно]",
+    "[default: ": "[по умолчанию: ",
+}
+_HEADINGS = {
+    "Options": "Ключи",
+    "Commands": "Команды",
+    "Positional arguments": "Аргументы",
+    "Arguments": "Аргументы",
+}
+_ERRORS = (
+    (r"No such command '(.*?)'", "нет команды {}"),
+    (r"Missing command", "не указана команда"),
+    (r"Got unexpected extra arguments? \((.*)\)", "лишний аргумент {}"),
+    (r"Option '(.*?)' requires an argument", "ключу {} нужно значение"),
+    (r"Option '(.*?)' requires (\d+) arguments", "ключу {} нужно значений: {}"),
+    (r"Option '(.*?)' does not take a value", "ключ {} пишется без значения"),
+    (r"Argument '(.*?)' takes (\d+) values", "аргументу {} нужно значений: {}"),
+    (r"'(.*)' is not a valid (?:integer|float|boolean)", "нужно число, а задано «{}»"),
+    (r"(.*) is not in the range (.*)<=x<=(.*)\.", "{} вне пределов от {} до {}"),
+    (r"'(.*?)' is not one of (.*?)\.?$", "«{}»; допустимо: {}"),
+)
+
+
+class _Formatter(click.HelpFormatter):
+    """Translate help before its lines are wrapped."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        super().write_usage(prog, in_russian(args), _USAGE if prefix is None else prefix)
+
+    def write_heading(self, heading: str) -> None:
+        super().write_heading(_HEADINGS.get(heading, heading))
+
+    def write_text(self, text: str) -> None:
+        super().write_text(in_russian(text))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        translated = [(in_russian(first), in_russian(second)) for first, second in rows]
+        super().write_dl(translated, col_max, col_spacing)
+
+
+class _Context(click.Context):
+    formatter_class = _Formatter
+
+
+class RussianCommand(click.Command):
+    """A command whose help is Russian throughout."""
+
+    context_class = _Context
+
+    def get_short_help_str(self, limit: int = 45) -> str:
+        """Return the whole first sentence; the list of commands wraps it."""
+        del limit
+        return " ".join((self.help or "").split("\n\n")[0].split()).removesuffix(".")
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Parse; give every usage error its context."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.UsageError as error:
+            error.ctx = error.ctx or ctx
+            raise
+
+
+class RussianGroup(click.Group):
+    """A group of such commands."""
+
+    context_class = _Context
+    command_class = RussianCommand
+
+
+def in_russian(text: str) -> str:
+    """Translate click's English words in a piece of help."""
+    for english, russian in _WORDS.items():
+        text = text.replace(english, russian)
+    return re.sub(r"(\d+)<=x<=(\d+)", r"от \1 до \2", text)
+
+
+def advice(error: click.ClickException) -> str:
+    """Hint for a wrong command line: the nearest name and the help command."""
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    where = "kshm" if context is None else context.command_path
+    return "; ".join((*_meant(error, context), f"справка: {where} --help"))
+
+
+def _meant(error: click.ClickException, context: click.Context | None) -> Iterable[str]:
+    command = None if context is None else context.command
+    if isinstance(error, click.BadOptionUsage) and context is not None:
+        several = [
+            option
+            for option in context.command.params
+            if error.option_name in option.opts and option.nargs > 1
+        ]
+        yield from (f"{option.opts[-1]} {option.make_metavar(context)}" for option in several)
+        return
+    if isinstance(error, click.NoSuchOption):
+        wrong, known = error.option_name, [*(error.possibilities or ())]
+    elif isinstance(command, click.Group):
+        match = re.search(_ERRORS[0][0], error.format_message())
+        wrong, known = match[1] if match else "", [*command.commands]
+    else:
+        return
+    near = difflib.get_close_matches(wrong.lower(), known, n=1, cutoff=0.5)
+    if near:
+        yield f"возможно, {near[0]}"
+
+
+def error_text(error: click.ClickException) -> str:
+    """Russian message of a click error."""
+    if isinstance(error, click.NoSuchOption):
+        return f"нет ключа {error.option_name}"
+    if isinstance(error, click.MissingParameter):
+        kind = "ключ" if isinstance(error.param, click.Option) else "аргумент"
+        return f"не указан {kind} {_name(error)}"
+    if isinstance(error, click.BadParameter):
+        return f"неверное значение {_name(error)}: {_sentence(error.message)}"
+    return _sentence(error.format_message())
+
+
+def _name(error: click.BadParameter) -> str:
+    if error.param is None:
+        return ""
+    option = isinstance(error.param, click.Option)
+    return error.param.opts[-1] if option else in_russian(error.param.human_readable_name)
+
+
+def _sentence(message: str) -> str:
+    for english, russian in _ERRORS:
+        match = re.search(english, message)
+        if match is not None:
+            return russian.format(
+                *(group.strip("'").replace("', '", ", ") for group in match.groups())
+            )
+    return "команда записана неверно"

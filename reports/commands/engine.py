@@ -1,4 +1,4 @@
-"""Commands for one engine: its input, its numbers, its documents, the machine they need."""
+"""Commands for one engine: new, check, solve, build, doctor."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from reports.commands.common import (
     HELP,
     LOOK,
     MISSING,
+    RussianCommand,
     dask_option,
     file_argument,
     load,
@@ -26,21 +27,18 @@ from reports.commands.common import (
     tell_written,
     verbose_option,
 )
-from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 if TYPE_CHECKING:
-    from reports.grading.reading.selfcheck import Finding
+    from reports.grading.reading.selfcheck import BookFinding
     from reports.inputs.load import Loaded
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
-@click.option(
-    "-o", "--output", type=click.Path(path_type=Path), help="Куда записать (иначе на экран)."
-)
-@click.option("--sample", metavar="NAME", help="Взять за основу образец, например gots-diesel.")
-@path_option("--from", "base", metavar="FILE", help="Вариант этого двигателя по подобию.")
-@click.option("--cylinders", type=int, help="Число цилиндров, от 1 до 12.")
+@path_option("-o", "--output", help="Куда записать (иначе на экран).")
+@click.option("--sample", metavar="ИМЯ", help="Взять за основу образец, например gots-diesel.")
+@path_option("--from", "base", metavar="ФАЙЛ", help="Вариант этого двигателя по подобию.")
+@click.option("--cylinders", type=int, metavar="ЧИСЛО", help="Число цилиндров, от 1 до 12.")
 @click.option("--layout", type=click.Choice(["inline", "v", "opposed"]),
               help="Рядный, V-образный или оппозитный.")  # fmt: skip
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
@@ -62,7 +60,7 @@ def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: 
     обычных значений, давления подобраны по мощности. Вместе с --from — вариант данного
     двигателя с другим числом цилиндров.
     """
-    from reports.commands.own import new_text
+    from reports.commands.new_engine import new_text
     from reports.shared.files import is_stream, write_text
 
     given = None if base is None else (str(base), lambda: load(base).model)
@@ -78,14 +76,14 @@ def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: 
 
 
 def _with_named(source: Path, loaded: Loaded) -> Loaded:
-    """An input whose report names files that are there: templates, engines to compare with."""
+    """Check that templates and engines named by an input exist."""
     report = loaded.model.report
     if report.templates:
         from reports.exports.build import find_templates
 
         find_templates(source, loaded)
     if report.compare:
-        from reports.comparison.chapter import with_others
+        from reports.studies.comparison_page import with_others
 
         return with_others(source, loaded)
     return loaded
@@ -95,7 +93,7 @@ def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
     """Further chapters of an input's report."""
     if not loaded.model.report.compare:
         return ()
-    from reports.comparison.chapter import comparison_chapters
+    from reports.studies.comparison_page import comparison_chapters
 
     return comparison_chapters(source, loaded)
 
@@ -121,7 +119,7 @@ def check(source: Path, as_json: bool) -> int:
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
         if as_json:
-            from reports.inputs.checks.power import power_problems
+            from reports.inputs.solve_input import power_problems
 
             warnings = (*warnings, *power_problems(loaded.model))
     except InputError as error:
@@ -153,29 +151,29 @@ def _as_dict(problem: Any) -> dict[str, str]:  # noqa: ANN401
     return {"where": problem.where, "what": problem.what, "hint": problem.hint}
 
 
-def _tell_findings(source: Path, found: Sequence[Finding], *, as_json: bool) -> int:
-    """What a student is told of a work-book."""
+def _tell_findings(source: Path, findings: Sequence[BookFinding], *, as_json: bool) -> int:
+    """Print the findings of a self-check."""
     import json
 
     if as_json:
-        data = {"ok": not found, "findings": [asdict(item) for item in found]}
+        data = {"ok": not findings, "findings": [asdict(item) for item in findings]}
         click.echo(json.dumps(data, ensure_ascii=False, indent=1))
     else:
-        for item in found:
+        for item in findings:
             click.echo(f"{item.where}: {item.what}")
-        click.echo(f"{source}: замечаний {len(found)}; верны ли значения, здесь не проверяется")
-    return LOOK if found else DONE
+        click.echo(f"{source}: замечаний {len(findings)}; верны ли значения, здесь не проверяется")
+    return LOOK if findings else DONE
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @file_argument()
-@click.option("--csv", "folder", type=click.Path(path_type=Path), help="Папка для таблиц CSV.")
-@click.option("--json", "target", metavar="FILE", help="Файл JSON; «-» — на экран.")
+@path_option("--csv", "folder", help="Папка для таблиц CSV.")
+@click.option("--json", "target", metavar="ФАЙЛ", help="Файл JSON; «-» — на экран.")
 @verbose_option
 def solve(source: Path, folder: Path | None, target: str | None) -> int:
     """Посчитать числа без документов."""
     from reports.exports.numbers import csv_text, export_tables, json_text
-    from reports.inputs.solved import solved
+    from reports.inputs.solve_input import solved
     from reports.inputs.to_si.engine import smallness_of
     from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
 
@@ -221,13 +219,12 @@ def _print_summary(scalars: dict[str, float], small: int) -> None:
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @click.argument(
-    "sources", metavar="INPUT...", nargs=-1, required=True, type=click.Path(path_type=Path)
+    "sources", metavar="ФАЙЛ...", nargs=-1, required=True, type=click.Path(path_type=Path)
 )
-@click.option(
+@path_option(
     "-o",
     "--output",
     "folder",
-    type=click.Path(path_type=Path),
     default=Path(),
     help="Папка для результатов (по умолчанию текущая).",
 )
@@ -235,7 +232,7 @@ def _print_summary(scalars: dict[str, float], small: int) -> None:
     "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]), multiple=True,
     help="Только этот вид документа; можно повторить.",
 )  # fmt: skip
-@path_option("--style", metavar="FILE", help="Оформление отчёта: файл кафедры .toml.")
+@path_option("--style", metavar="ФАЙЛ", help="Оформление отчёта: файл кафедры .toml.")
 @dask_option
 @verbose_option
 def build(
@@ -246,8 +243,7 @@ def build(
     dask: str | None,
 ) -> int:
     """Сделать книгу Excel, отчёт PDF и другое по файлу .toml или по изменённой книге."""
-    from reports.exports.build import find_templates
-    from reports.exports.builds import build_each
+    from reports.exports.build import build_each, find_templates
 
     inputs = [(source, _with_named(source, load(source))) for source in sources]
     for source, loaded in inputs:

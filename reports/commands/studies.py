@@ -11,6 +11,7 @@ from reports.commands.common import (
     HELP,
     LOOK,
     MISSING,
+    RussianCommand,
     dask_option,
     file_argument,
     load,
@@ -18,7 +19,6 @@ from reports.commands.common import (
     tell_written,
     verbose_option,
 )
-from reports.commands.words import RussianCommand
 from reports.shared.errors import KshmError
 
 
@@ -32,7 +32,7 @@ from reports.shared.errors import KshmError
 @verbose_option
 def validate(folder: Path, only: tuple[str, ...]) -> int:
     """Пересчитать печатные таблицы источников и показать, что с ними сходится."""
-    from reports.validation.write import KINDS, write
+    from reports.studies.validation_page import KINDS, write
 
     book, files, missing = write(folder, only or KINDS)  # type: ignore[arg-type]
     for path in files:
@@ -55,19 +55,19 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
-@file_argument("BASE")
+@file_argument("БАЗА")
 @click.option(
     "--vary",
     multiple=True,
     required=True,
-    metavar="KEY=ОТ:ДО:N",
+    metavar="КЛЮЧ=ОТ:ДО:N",
     help="Ключ файла и N значений, например geometry.bore_mm=84:92:9; можно не один.",
 )
 @click.option(
     "--quantity",
     "quantities",
     multiple=True,
-    metavar="NAME",
+    metavar="ИМЯ",
     help="Величина: M_mean или столбец P4_1.N_MPa (по умолчанию основные).",
 )
 @click.option(
@@ -78,10 +78,10 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
     "--output",
     "target",
     required=True,
-    metavar="FILE",
+    metavar="ФАЙЛ",
     help="Файл .parquet, .csv или .xlsx (с диаграммами).",
 )
-@click.option("--jobs", default=0, help="Число процессов (по умолчанию все ядра).")
+@click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @dask_option
 @verbose_option
 def sweep(
@@ -93,14 +93,14 @@ def sweep(
     Первый ключ меняется быстрее всех; по нему строятся диаграммы, по второму — семейство
     кривых. Сочетание, которое не проходит проверку, остаётся строкой с причиной.
     """
-    from reports.studies.run import Options
-    from reports.studies.run import sweep as run_sweep
+    from reports.studies.sweep import SweepOptions
+    from reports.studies.sweep import sweep as run_sweep
 
     if jobs < 0:
         raise KshmError("--jobs не может быть отрицательным")
     done = run_sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
-        options=Options(jobs=jobs, dask=dask),
+        options=SweepOptions(jobs=jobs, dask=dask),
     )  # fmt: skip
     tell_written(target, f": сочетаний {done.points}")
     if done.failed:
@@ -111,10 +111,10 @@ def sweep(
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @click.argument(
-    "sources", metavar="INPUT...", nargs=-1, required=True, type=click.Path(path_type=Path)
+    "sources", metavar="ФАЙЛ...", nargs=-1, required=True, type=click.Path(path_type=Path)
 )
 @path_option(
-    "-o", "--output", "target", required=True, metavar="FILE", help="Файл .xlsx, .pdf или .html."
+    "-o", "--output", "target", required=True, metavar="ФАЙЛ", help="Файл .xlsx, .pdf или .html."
 )
 @verbose_option
 def compare(sources: tuple[Path, ...], target: Path) -> int:
@@ -122,8 +122,8 @@ def compare(sources: tuple[Path, ...], target: Path) -> int:
 
     От двух до шести файлов .toml или книг; проценты — отличие от первого.
     """
-    from reports.comparison.engines import check_sources
-    from reports.comparison.write import check_suffix, write
+    from reports.studies.comparison import check_sources
+    from reports.studies.comparison_page import check_suffix, write
 
     check_suffix(target)
     check_sources(sources, target)

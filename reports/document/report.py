@@ -2,7 +2,7 @@
 
 The chapters stand in ``chapters``, their prose in ``templates/report``.  Two passes: the
 draft finds out what stands where, then figures are drawn and the text is written with all
-numbers known (see :mod:`reports.document.page.writer`).
+numbers known (see :mod:`reports.document.page.numbering`).
 """
 
 from __future__ import annotations
@@ -17,39 +17,30 @@ from markupsafe import Markup
 
 from reports.document.chapters import (
     balance,
-    bearings,
     closing,
-    companions,
     cycle,
     dynamics,
-    facts,
     front,
     journals,
-    kinematics,
     oil,
     opening,
-    reference,
     regimes,
     torsion,
 )
-from reports.document.chapters import torque as torques
-from reports.document.chapters.chapter import ELSEWHERE, Chapter
-from reports.document.chapters.profiles import chosen
+from reports.document.chapters.chapter import ELSEWHERE, Chapter, chosen, pin_stems, worst_pin
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
-from reports.document.page.floating import arranged
-from reports.document.page.numbering import Draft, Name
-from reports.document.page.redrawing import redrawn
+from reports.document.page.floating import arranged, redrawn
+from reports.document.page.numbering import Draft, Name, Writer
 from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
 from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
-from reports.document.page.writer import Writer
 from reports.document.text import texts
 from reports.document.text.terms import Terms
-from reports.inputs.checks.grid import fine_columns
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection
+from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
 from reports.model.evaluation import Values
 
@@ -65,19 +56,19 @@ CHAPTERS: dict[str, Write] = {
     "introduction": opening.introduction,
     "inputs": opening.input_data,
     "cycle": cycle.cycle,
-    "kinematics": kinematics.kinematics,
+    "kinematics": dynamics.kinematics,
     "dynamics": dynamics.dynamics,
-    "torque": torques.torque,
+    "torque": dynamics.torque,
     "crankpin": journals.crankpin,
     "journals": journals.journals,
-    "bearings": bearings.bearings,
-    "running": torques.running,
+    "bearings": journals.bearings,
+    "running": dynamics.running,
     "balance": balance.balance,
     "torsion": torsion.torsion,
     "oil": oil.oil,
     "regimes": regimes.regimes,
-    "reference": reference.reference,
-    "companions": companions.companions,
+    "reference": dynamics.reference,
+    "companions": balance.companions,
     "checks": closing.checks,
     "conclusion": closing.conclusion,
     "sources": closing.sources,
@@ -166,7 +157,7 @@ class Report:
             tagged = self.model.input.report.detail != "full"
         pages = self._pages
         if (media, tagged) not in pages:
-            with overrides.told(self.templates):
+            with overrides.template_errors(self.templates):
                 pages[media, tagged] = self._written(media, tagged)
         return pages[media, tagged]
 
@@ -188,10 +179,10 @@ class Report:
 
     @cached_property
     def _draft(self) -> tuple[Draft, Chapter]:
-        """What stands where in the chapters that are written."""
+        """Draft of the chosen chapters: places and numbers."""
         env, draft = self._environment("print", tagged=True), Draft(by_chapter=self._by_chapter)
         chapter = Chapter(self._terms, Writer(env, draft), env)
-        with overrides.told(self.templates):
+        with overrides.template_errors(self.templates):
             _write(chapter, chosen(self.model.input), self.further)
         return draft, chapter
 
@@ -243,7 +234,7 @@ def _files(
 
 
 def remarks_on(model: InputFile, beside: Path, style: Path | None = None) -> tuple[str, ...]:
-    """What a person should look at in the finished report."""
+    """Remarks on the finished report."""
     return tuple(front.crowded(model, find_style(model.report, beside, style).frame))
 
 
@@ -275,7 +266,7 @@ def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
-    """The page around the written chapters; what it counts is known by now."""
+    """The whole page around the chapters."""
     terms, style = chapter.terms, cast(Style, env.globals["style"])
     return env.get_template("report/report.html.j2").render(
         doc=_info(chapter.input),
@@ -288,8 +279,8 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         exact=chapter.exact,
         chapter=chapter,
         load=chapter.worst("worst_main_load"),
-        pin=facts.worst_pin(terms),
-        pins=facts.pin_stems(chapter.shape),
+        pin=worst_pin(terms),
+        pins=pin_stems(chapter.shape),
         verdict=closing.verdict(terms),
         toc=chapter.writer.contents(),
         content=body,
@@ -301,7 +292,7 @@ def _write(chapter: Chapter, names: set[str], further: Further = ()) -> Markup:
     parts: dict[str, Markup] = {}
     for name, write in CHAPTERS.items():
         if name == "checks":
-            parts |= {f"further {n}": made(chapter) for n, made in enumerate(further)}
+            parts |= {f"further {n}": added(chapter) for n, added in enumerate(further)}
         if name in names:
             parts[name] = write(chapter)
     if "notation" in parts and not chapter.writer.draft:

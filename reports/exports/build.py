@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import gc
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, partial
 from pathlib import Path
@@ -10,16 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 from reports.inputs.load import Loaded, load_toml
 from reports.inputs.sections.report import USUAL_FORMATS, Format
-from reports.shared.aside import aside
+from reports.shared.background import aside
 from reports.shared.doctor import need_packages
-from reports.shared.errors import SystemPartMissing
-from reports.shared.files import make_dir, write_bytes
+from reports.shared.errors import KshmError, SystemPartMissing
+from reports.shared.files import make_dir, refuse_own, write_bytes
+from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
 
 if TYPE_CHECKING:
     from reports.document.report import Report
     from reports.model.blocks import Model
     from reports.model.evaluation import Values
+
 
 Kind = Format
 Further = Sequence[Callable[[Any], Any]]  # chapters, see `reports.document.report`
@@ -36,7 +41,7 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """Files written, what could not be made and why, failed checks and explained ones."""
+    """Written files, skipped ones with reasons, failed and explained checks."""
 
     files: tuple[Path, ...]
     missing: SystemPartMissing | None = None
@@ -45,7 +50,7 @@ class Built:
 
 
 def load_input(path: Path) -> Loaded:
-    """The checked input of a TOML file or of an edited workbook, told by the suffix.
+    """Load a checked input from TOML or an edited workbook, by the suffix.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -57,19 +62,19 @@ def load_input(path: Path) -> Loaded:
     else:
         loaded = load_toml(path)
     if loaded.model.bearings is not None:
-        from reports.inputs.solved import solved
+        from reports.inputs.solve_input import solved
 
         solved(loaded.model, path.name)  # whether the oil films carry their loads
     return loaded
 
 
 def kinds_of(loaded: Loaded, only: tuple[Kind, ...] = ()) -> tuple[Kind, ...]:
-    """What a person asks for, or the input, or the workbook and the PDF."""
+    """Kinds of documents: from the command, else the input, else workbook and PDF."""
     return only or loaded.model.report.formats or USUAL_FORMATS
 
 
 def find_templates(path: Path, loaded: Loaded, style: Path | None = None) -> None:
-    """Look for the folder of own templates and the style file that an input or a person names.
+    """Resolve the template folder and style file named by an input or the command.
 
     Raises:
         InputError: there is none, nothing in the folder replaces a template, or the style file
@@ -101,7 +106,7 @@ def build(
         OutputError: the folder cannot be written.
         InputError: the input gives no finite result.
     """
-    from reports.inputs.checks.flywheel import solution_remarks
+    from reports.inputs.solve_input import solution_remarks
     from reports.model.evaluation import evaluate_model
     from reports.tables.registry import build_model
     from reports.tables.verdicts import failed_checks
@@ -141,7 +146,7 @@ def build(
 
 
 def needs(kinds: Sequence[Kind]) -> None:
-    """Refuse documents whose packages are not here, before anything is written.
+    """Refuse documents whose packages are missing, before anything is written.
 
     Raises:
         SystemPartMissing: some packages are missing.
@@ -173,7 +178,7 @@ class _Making:
         self.files.insert(0 if first else len(self.files), target)
 
     def workbook(self, *, beside: bool) -> Callable[[], bytes]:
-        """What gives the workbook; a report takes longer, so both are made at the same time."""
+        """Start the workbook in the background; return what waits for it."""
         self.progress.step("Книга Excel")
         # Before the process is split: what this reads and compiles serves the report too.
         model = self.report.numbered if self.has_report else self.model
@@ -203,7 +208,7 @@ class _Making:
 
     @cached_property
     def report(self) -> Report:
-        """The report that all documents and the numbers of the charts come from."""
+        """Report shared by all documents."""
         from reports.document.report import Report
 
         return Report.of(self.model, self.values, self.path, self.style, self.further)
@@ -216,9 +221,112 @@ def _workbook(model: Model, values: Values) -> bytes:
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:
-    """Lines about an input that stand beside the checks of its calculation."""
+    """Warnings and remarks of an input."""
     return (
         *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
         *(f"К сведению: {note}" for note in loaded.notes),
     )
+
+
+Input = tuple[Path, Loaded]
+Chapters = Callable[[Path, Loaded], Further]
+
+
+def _no_chapters(_path: Path, _loaded: Loaded) -> Further:
+    return ()
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """Job for another machine: a checked input and its build options."""
+
+    name: str
+    data: bytes
+    loaded: Loaded
+    kinds: tuple[Kind, ...]
+    further: Further = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Delivery:
+    """Files by name, what the other machine lacked, failed checks and explained ones."""
+
+    files: list[tuple[str, bytes]]
+    missing: tuple[str, str, str] | None = None
+    failed: tuple[str, ...] = ()
+    accepted: tuple[str, ...] = ()
+
+
+def build_each(
+    inputs: Sequence[Input],
+    folder: Path,
+    only: tuple[Kind, ...] = (),
+    dask: str | None = None,
+    chapters: Chapters = _no_chapters,
+    style: Path | None = None,
+) -> Iterator[Built]:
+    """Build each input, locally or on Dask; results in order.
+
+    ``only`` are the kinds of documents in place of those that an input asks for.
+    ``chapters`` gives the further chapters of an input's report.
+
+    Raises:
+        KshmError: results would fall on each other or on an input, or the cluster fails.
+    """
+    _refuse_overlap([path for path, _ in inputs])
+    endings = [ending for kind in ENDINGS.values() for ending in kind]
+    results = [folder / f"{path.stem}{ending}" for path, _ in inputs for ending in endings]
+    refuse_own(results, [file for path, loaded in inputs for file in (path, *loaded.beside)])
+    if dask is None:
+        for number, (path, loaded) in enumerate(inputs):
+            if number:
+                gc.collect()  # see reports/__main__.py
+            kinds = kinds_of(loaded, only)
+            yield build(path, loaded, folder, kinds, chapters(path, loaded), style)
+        return
+    make_dir(folder)
+    orders = (
+        _order(path, loaded, kinds_of(loaded, only), chapters(path, loaded), style)
+        for path, loaded in inputs
+    )
+    for delivery in in_order(delivered, orders, dask=dask):
+        for name, data in delivery.files:
+            write_bytes(folder / name, data)
+        missing = None
+        if delivery.missing:
+            part, command, purpose = delivery.missing
+            missing = SystemPartMissing(part, command, purpose=purpose)
+        files = tuple(folder / name for name, _ in delivery.files)
+        yield Built(files, missing, delivery.failed, delivery.accepted)
+
+
+def delivered(order: Order) -> Delivery:
+    """Build an order in a folder of its own."""
+    with tempfile.TemporaryDirectory(prefix="kshm-build-") as name:
+        source, out = Path(name) / order.name, Path(name) / "out"
+        source.write_bytes(order.data)
+        built = build(source, order.loaded, out, order.kinds, order.further)
+        files = [(path.name, path.read_bytes()) for path in built.files]
+        lacks = built.missing
+        missing = (lacks.part, lacks.command, lacks.purpose) if lacks else None
+        return Delivery(files, missing, built.failed, built.accepted)
+
+
+def _order(
+    path: Path, loaded: Loaded, kinds: tuple[Kind, ...], further: Further, style: Path | None
+) -> Order:
+    if style is not None or loaded.model.report.style:
+        msg = f"{path}: файл оформления (report.style) есть только на этом компьютере; без --dask"
+        raise KshmError(msg)
+    if loaded.model.report.templates:
+        msg = f"{path}: свои шаблоны (report.templates) есть только на этом компьютере; без --dask"
+        raise KshmError(msg)
+    return Order(path.name, path.read_bytes(), loaded, kinds, further)
+
+
+def _refuse_overlap(paths: Sequence[Path]) -> None:
+    stem, count = Counter(path.stem for path in paths).most_common(1)[0]
+    if count > 1:
+        msg = f"{stem}: два файла с этим именем дали бы один результат; стройте их в разные папки"
+        raise KshmError(msg)

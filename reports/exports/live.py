@@ -13,9 +13,9 @@ import numpy as np
 from kshm import quantity
 from kshm.nomenclature.quantity import Quantity
 from kshm.results.solution import Solution
-from reports.document.figures.pen import by_direction
+from reports.document.figures.canvas import by_direction
 from reports.document.text.symbols import indexed
-from reports.inputs.checks.flywheel import solution_remarks
+from reports.inputs.solve_input import solution_remarks
 from reports.inputs.units import MM
 from reports.model.blocks import NO, Model, ScalarTable
 from reports.model.charts import ChartSpec
@@ -34,13 +34,13 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
     quick = solution.scalars if solution.engine.regimes else solution.chain_scalars
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
-            found = ((each, solution.scalar(each.key)) for each in block.scalars
+            values = ((each, solution.scalar(each.key)) for each in block.scalars
                      if each.key in quick)  # fmt: skip
             rows = [
                 {"key": each.key, "title": each.note or each.quantity.title,
                  "symbol": _symbol(each.quantity), "unit": each.quantity.unit_label,
                  "value": value, "text": written(value, each.quantity.digits)}
-                for each, value in found
+                for each, value in values
             ]  # fmt: skip
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}
@@ -114,7 +114,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
     """
     engine = solution.engine
     number = cylinder if cylinder in range(engine.cylinders) else 0
-    place, geometry = engine.arrangement[number], engine.geometry
+    arranged, geometry = engine.arrangement[number], engine.geometry
     table = f"cylinder_{number + 1}" if number else "P4_1"
     phi = solution.column(table, "phi_deg")
     phase = solution.column(table, "phase_deg") if number else phi
@@ -130,7 +130,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
             for key in forces
         },
         "radius": MM.from_si(geometry.crank_radius), "bore": MM.from_si(geometry.bore),
-        "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(place.axis)),
+        "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(arranged.axis)),
         "cylinder": number, "cylinders": engine.cylinders,
         "throws": list(by_direction(
             np.degrees([each.angle for each in engine.crankshaft.throws]).tolist()

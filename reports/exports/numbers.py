@@ -22,10 +22,10 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 def export_tables(solution: Solution) -> dict[str, dict[str, list[float | str | None]]]:
     """All tables by id, columns by key; cells that the table leaves blank are None."""
     tables: dict[str, dict[str, list[float | str | None]]] = {}
-    found: dict[str, Mapping[str, Any]] = {
+    by_file: dict[str, Mapping[str, Any]] = {
         **solution.columns, **solution.wear_sums, **reference_tables(),
     }  # fmt: skip
-    for name, columns in found.items():
+    for name, columns in by_file.items():
         tables[name] = {
             key: [_plain(value, blank_zero=key in _BLANK) for value in values]
             for key, values in columns.items()
@@ -92,13 +92,13 @@ def json_text(model: InputFile, solution: Solution, notes: Sequence[str] = ()) -
 
 def _describe(key: str) -> dict[str, str]:
     try:
-        found = quantity(key)
+        known = quantity(key)
     except KeyError:
         symbol = key.removeprefix("lambda_")
         return {"key": key, "symbol": symbol, "unit": "", "title": key}
     return {
         "key": key,
-        "symbol": found.symbol,
-        "unit": found.unit_label,
-        "title": found.title,
+        "symbol": known.symbol,
+        "unit": known.unit_label,
+        "title": known.title,
     }

@@ -168,10 +168,10 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
     return f"{_FUNCTIONS[name]}({','.join(_emit(arg, refs)[0] for arg in args)})", _ATOM
 
 
-def _index(run: str, place: str) -> str:
+def _index(run: str, position: str) -> str:
     """Cell of a range by its number; of a row with the row named, which not all programs guess."""
     rows = _ROWS.search(run)
-    return f"INDEX({run},{'1,' if rows and rows[1] == rows[2] else ''}{place})"
+    return f"INDEX({run},{'1,' if rows and rows[1] == rows[2] else ''}{position})"
 
 
 def _key(node: ast.expr) -> str:

@@ -142,7 +142,7 @@ def _made(node: ast.expr, read: Reading) -> Compiled:
         case ast.BoolOp(op=op, values=values):
             join = np.logical_and if isinstance(op, ast.And) else np.logical_or
             parts = [_made(value, read) for value in values]
-            return _applied(lambda *found: reduce(join, found), parts)
+            return _applied(lambda *operands: reduce(join, operands), parts)
         case ast.IfExp(test=test, body=body, orelse=orelse):
             return _applied(_choose, [_made(part, read) for part in (test, body, orelse)])
         case ast.Call(func=ast.Name(id=name), args=args):

@@ -110,17 +110,17 @@ def _refuse(node: ast.expr, text: str) -> None:
 @lru_cache(maxsize=4096)
 def names(text: str) -> frozenset[str]:
     """All names an expression refers to; columns of other tables as ``table.column``."""
-    found: set[str] = set()
+    used: set[str] = set()
     stack: list[ast.expr] = [parse(text)]
     while stack:
         node = stack.pop()
         match node:
             case ast.Name(id=name) if name not in CONSTANTS:
-                found.add(name)
+                used.add(name)
             case ast.Attribute(value=ast.Name(id=table), attr=column):
-                found.add(f"{table}.{column}")
+                used.add(f"{table}.{column}")
             case ast.Call():
                 stack.extend(node.args)
             case _:
                 stack.extend(c for c in ast.iter_child_nodes(node) if isinstance(c, ast.expr))
-    return frozenset(found)
+    return frozenset(used)

@@ -68,13 +68,13 @@ def to_tex_numbers(text: str, symbols: Symbols, numbers: Numbers) -> str:
 def pieces(text: str, symbols: Symbols) -> list[Piece]:
     """Branches of a nested choice in order; one piece where there is no choice."""
     printer = _Printer(symbols, None)
-    found: list[Piece] = []
+    result: list[Piece] = []
     node = parse(text)
     while isinstance(node, ast.IfExp):
-        found.append(Piece(printer.text(node.body), printer.text(node.test)))
+        result.append(Piece(printer.text(node.body), printer.text(node.test)))
         node = node.orelse
-    found.append(Piece(printer.text(node), None))
-    return found
+    result.append(Piece(printer.text(node), None))
+    return result
 
 
 def chosen(text: str, holds: Callable[[str], bool]) -> str:

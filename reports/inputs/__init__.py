@@ -1,1 +1,1 @@
-"""The input room: TOML or workbook cells in, a checked `InputFile` and the SI engine out."""
+"""Input files and workbook cells, checked and converted to the SI engine."""

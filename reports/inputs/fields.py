@@ -1,4 +1,4 @@
-"""A validated input as a flat list of fields, with the names of the workbook's cells.
+"""Fields of a validated input, the names of their cells, and cells read back.
 
 Naming (the workbook's formulas use these names).  `path` holds TOML keys and
 0-based list indices, `name` 1-based numbers:
@@ -25,6 +25,8 @@ an R1C1 token) and is unique without regard to case.
 
 from __future__ import annotations
 
+import functools
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -32,8 +34,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import smallness
-from reports.inputs.meta import Key, Meta, hints
-from reports.inputs.registry import SECTIONS
+from reports.inputs.meta import Key, Meta, Strictly, hints
+from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
 Path = tuple[str | int, ...]
@@ -112,7 +114,7 @@ def iter_fields(model: InputFile) -> Iterator[Field]:
 
 
 def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
-    """Return what fixes the shape of the workbook.
+    """Return what determines the shape of the workbook.
 
     Two inputs of equal structure have the same cells: the same names in the
     same order, and the same values of the structural fields.
@@ -123,7 +125,7 @@ def structure(model: InputFile) -> tuple[tuple[str, Value | None], ...]:
 
 
 def tables_shape(fields: Iterable[Field]) -> tuple[tuple[str, Value | None], ...]:
-    """Return all that the tables of an input follow from: everything but its plain numbers."""
+    """Return what determines the tables of an input: everything but plain numbers."""
     return tuple((field.name, _shape(field)) for field in fields)
 
 
@@ -175,12 +177,12 @@ def _regime_fields(regime: RegimeSection, index: int) -> Iterator[Field]:
         (values, "regime", ("regimes", index), 1, "Режим"),
         (regime.gas, "gas", ("regimes", index), 0, "Газы режима"),
     )
-    for part, section, place, dropped, title in parts:
+    for part, section, home, dropped, title in parts:
         for field in _fields_of(part, (section,), f"{title} {index + 2}", number=None):
             listed = f": {field.section.lower()}" if field.listed else ""
             yield replace(
                 field,
-                path=(*place, *field.path[dropped:]),
+                path=(*home, *field.path[dropped:]),
                 name=field.name + regime_suffix(index + 2),
                 section=f"{title} {index + 2}{listed}",
             )
@@ -219,3 +221,134 @@ def _field(path: Path, section: str, meta: Meta, value: Value, optional: bool) -
         structural=meta.structural or (path[-1] in _NONE_AT_ZERO and value == 0),
         optional=optional,
     )
+
+
+def from_cells(
+    data: dict[str, Any], models: dict[str, type[Strictly]]
+) -> tuple[dict[str, Any], list[Path]]:
+    """Return the data in the file's types, and the paths of cells that are empty.
+
+    A spreadsheet turns a variant "7" into 7; what else it does to numbers and choices
+    `reports.inputs.normalise` mends, as in a file.
+    """
+    empty: list[Path] = []
+    result = {
+        name: _table(part, models[name], (name,), empty)
+        if isinstance(part, dict) and name in models
+        else part
+        for name, part in data.items()
+    }
+    return result, empty
+
+
+def _table(part: dict[str, Any], model: type[Strictly], path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
+    known = hints(model)
+    result = {}
+    for key, value in part.items():
+        if key not in known:
+            result[key] = value
+            continue
+        converted = _value(value, known[key], (*path, key), empty)
+        if converted is not None:
+            result[key] = converted
+    return result
+
+
+def _value(value: object, about: Key, path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
+    if isinstance(value, list | tuple):
+        return [_value(item, about, (*path, index), empty) for index, item in enumerate(value)]
+    if isinstance(value, dict) and about.inner is not None:
+        return _table(value, about.inner, path, empty)
+    text = about.types == {str} and about.metas[0].choices is None
+    if value is None:
+        if text:
+            return ""
+        empty.append(path)
+        return None
+    if text and isinstance(value, int | float) and not isinstance(value, bool):
+        return str(int(value)) if float(value).is_integer() else str(value)
+    return value
+
+
+_PHRASES = (
+    ("обязательный ключ не задан", "ячейка не заполнена"),
+    ("удалите ключ: он для", "очистите ячейку: она для"),
+    ("удалите ключ", "очистите ячейку"),
+    ("уберите лишний ключ", "очистите лишнюю ячейку"),
+    ("уберите ключ", "очистите ячейку"),
+    ("оставьте один из двух ключей", "оставьте одну из двух ячеек"),
+    ("оставьте один ключ", "оставьте одну ячейку"),
+    ("добавьте недостающий ключ", "заполните недостающую ячейку"),
+    ("такой ключ есть", "такая ячейка есть"),
+    ("неизвестный ключ", "неизвестная ячейка"),
+    ("лишний ключ", "лишнее значение"),
+    ("ключ нужен", "ячейка нужна"),
+    ("удалите раздел", "уберите эти данные в файле .toml"),
+    ("напишите одно число", "сделайте ячейку числом"),
+)
+_CHOICE = re.compile(r'\b(?:\w+\.)?(?P<key>\w+) = "?(?P<value>\w+)"?(?: или "(?P<other>\w+)")?')
+_SECTION = re.compile(r"(?:добавьте |нужен )?раздел \[(?P<name>\w+)\]|\[(?P<bare>\w+)\]")
+_KEY = re.compile(r"\b(?:[a-z]+\.)?(?P<key>lambda|strokes|layout|source|[a-z0-9]+(?:_[a-z0-9]+)+)"
+                  r"(?:\[(?P<n>\d+)\])?")  # fmt: skip
+
+
+def in_cells(text: str) -> str:
+    """A message about keys, reworded for the cells of a workbook."""
+    for of_file, of_book in _PHRASES:
+        text = text.replace(of_file, of_book)
+    text = _CHOICE.sub(_chosen, text)
+    text = _SECTION.sub(_group, text)
+    return _KEY.sub(_titled, text)
+
+
+def _group(match: re.Match[str]) -> str:
+    name = match["name"] or match["bare"]
+    if name not in SECTIONS:
+        return match[0]
+    title = f"данные «{SECTIONS[name].title}»"
+    added = match[0].startswith("добавьте")
+    return f"{title} задаются в файле .toml: добавьте их там" if added else title
+
+
+def _chosen(match: re.Match[str]) -> str:
+    labels = _labels().get(match["key"])
+    if labels is None:
+        return match[0]
+    named = [labels.get(value, value) for value in (match["value"], match["other"]) if value]
+    return f"«{_titles()[match['key']]}»: " + " или ".join(named)
+
+
+def _titled(match: re.Match[str]) -> str:
+    title = _titles().get(match["key"])
+    if title is None:
+        return match[0]
+    return f"«{title}»" + (f" {match['n']}" if match["n"] else "")
+
+
+@functools.cache
+def _titles() -> dict[str, str]:
+    """Title by key."""
+    titles: dict[str, str] = {}
+    for section in SECTIONS.values():
+        titles |= {key: about.title for key, about in section.lists.items()}
+        for model in section.models:
+            for key, about in hints(model).items():
+                for meta in about.metas[:1]:
+                    titles.setdefault(key, meta.title.replace(" {n}", ""))
+            for _, inner in records(model):
+                for key, about in hints(inner).items():
+                    titles.setdefault(key, about.metas[0].title.partition(": ")[2])
+    return titles
+
+
+@functools.cache
+def _labels() -> dict[str, dict[str, str]]:
+    """Labels of the choices by key."""
+    labels: dict[str, dict[str, str]] = {}
+    for section in SECTIONS.values():
+        for model in section.models:
+            for key, about in hints(model).items():
+                for meta in about.metas[:1]:
+                    if meta.choices is not None:
+                        labels[key] = {**meta.choices, **labels.get(key, {})}
+    return labels

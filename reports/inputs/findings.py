@@ -1,16 +1,25 @@
-"""What the cross-checks read (`Values`) and what they say (`Finding`)."""
+"""Valid fields that the checks read, findings they yield, and accepted oddities."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
-Path = tuple[str | int, ...]
+from reports.inputs.fields import Path, iter_fields, key_text
+from reports.inputs.messages import likely_word, shown
+from reports.inputs.meta import hints
+from reports.inputs.registry import SECTIONS, records
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import CHECKS, AcceptedEntry
+from reports.shared.errors import Problem
+from reports.shared.font_coverage import REPLACEMENT, unprintable
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What is wrong (or odd, if a warning) at a path; the file's name is added later."""
+    """Error, or warning, at a path of the file."""
 
     path: Path
     what: str
@@ -19,7 +28,7 @@ class Finding:
 
 
 @dataclass(slots=True)
-class Values:
+class ValidValues:
     """The valid fields of a file by section and TOML key, defaults filled in.
 
     `broken` holds the (section, key) that are wrong in themselves, `unsure`
@@ -43,7 +52,7 @@ class Values:
         return not any((section, key) in self.broken for key in keys)
 
 
-def radius_and_rod(values: Values) -> tuple[float, float] | None:
+def radius_and_rod(values: ValidValues) -> tuple[float, float] | None:
     """Return (r, L) [mm] if the geometry fixes them."""
     radius = values.get("geometry", "crank_radius_mm")
     stroke = values.get("geometry", "stroke_mm")
@@ -56,3 +65,89 @@ def radius_and_rod(values: Values) -> tuple[float, float] | None:
     if rod is None and radius is not None and lam is not None:
         rod = radius / lam
     return None if radius is None or rod is None else (radius, rod)
+
+
+Keys = frozenset[str]
+Entry = TypeVar("Entry", bound=tuple[Any, ...])  # begins with a path
+_REGIME = re.compile(r"(?P<check>\w+?)_R[0-9]+")
+
+
+def accepted_keys(entries: Iterable[AcceptedEntry]) -> Keys:
+    """Accepted checks and keys."""
+    return frozenset(entry.what for entry in entries)
+
+
+def in_lines(entries: Iterable[Entry], accepted: Keys) -> list[list[Entry]]:
+    """Entries grouped by the lines that report them: accepted ones alone, the rest together."""
+    groups, rest = list[list[Entry]](), list[Entry]()
+    for entry in entries:
+        if key_text(entry[0]) in accepted:
+            groups.append([entry])
+        else:
+            rest.append(entry)
+    return [rest, *groups] if rest else groups
+
+
+def explained(
+    warnings: Iterable[tuple[str, Problem]], entries: Iterable[AcceptedEntry]
+) -> tuple[list[Problem], list[tuple[Problem, str]]]:
+    """Warnings without and with a reason; an entry silences one line of its key."""
+    reasons: dict[str, list[str]] = {}
+    for entry in entries:
+        reasons.setdefault(entry.what, []).append(entry.reason)
+    odd, taken = list[Problem](), list[tuple[Problem, str]]()
+    for key, problem in warnings:
+        if reasons.get(key):
+            taken.append((problem, reasons[key].pop(0)))
+        else:
+            odd.append(problem)
+    return odd, taken
+
+
+def check_accepted(values: ValidValues) -> Iterator[Finding]:
+    """Yield accepted entries that name nothing or give no reason."""
+    entries: Sequence[AcceptedEntry] = values.get("checks", "accepted") or ()
+    for index, entry in enumerate(entries):
+        path = ("checks", "accepted", index)
+        if not _known(entry.what):
+            what = f"нет проверки или ключа {shown(entry.what)}"
+            likely = likely_word(entry.what, (*CHECKS, *_keys()))
+            hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join(CHECKS)
+            yield Finding((*path, "what"), what, hint)
+        if not entry.reason.strip():
+            what = "причина не названа"
+            yield Finding((*path, "reason"), what, "напишите, почему это верно")
+
+
+def _known(name: str) -> bool:
+    regime = _REGIME.fullmatch(name)
+    if (regime["check"] if regime else name) in CHECKS:
+        return True
+    plain = re.sub(r"\[[0-9]+\]", "", name).removeprefix("regimes.")
+    return plain in _keys() or plain in SECTIONS or f"regime.{plain}" in _keys()
+
+
+def _keys() -> set[str]:
+    """Every key of the file, the numbers of lists left out."""
+    keys = set()
+    for section in SECTIONS.values():
+        for model in section.models:
+            keys |= {f"{section.name}.{key}" for key in hints(model)}
+            for key, inner in records(model):
+                keys |= {f"{section.name}.{key}.{name}" for name in hints(inner)}
+    return keys
+
+
+_MOST = 5  # signs that are listed one by one
+
+
+def check_signs(model: InputFile) -> Iterator[Finding]:
+    """Yield a warning for every text with characters that the report's font lacks."""
+    for text in iter_fields(model):
+        signs = unprintable(text.value) if isinstance(text.value, str) else ()
+        if signs:
+            listed = ", ".join(f"{sign} (U+{ord(sign):04X})" for sign in signs[:_MOST])
+            more = f" и ещё {len(signs) - _MOST}" if len(signs) > _MOST else ""
+            what = f"в шрифте отчёта нет: {listed}{more}"
+            hint = f"уберите или замените, иначе напечатается {REPLACEMENT}"
+            yield Finding(text.path, what, hint, warning=True)

@@ -1,4 +1,4 @@
-"""What may be written shorter: the firing order as text, throw angles that follow from it.
+"""Expand shorthand: a firing order as text, throw angles that follow from it.
 
 `expand` works on the raw mapping, before its sections are checked: afterwards the offsets
 and the angles stand in it as if they had been written out.
@@ -32,7 +32,7 @@ def arrangement(
     *,
     articulated: bool = False,
 ) -> Arrangement | None:
-    """Return the places of the cylinders; None where the data do not make an engine."""
+    """Return the arrangement of the cylinders; None where the data make no engine."""
     if layout == "inline":
         return in_row(cylinders)
     if cylinders % 2 or cylinders < 2:
@@ -47,7 +47,7 @@ def arrangement(
 
 
 def arrangement_of(model: InputFile) -> Arrangement:
-    """Return the places of the cylinders of a checked input."""
+    """Return the arrangement of a checked input."""
     shaft = model.crankshaft
     places = arrangement(
         model.engine.layout,
@@ -62,7 +62,7 @@ def arrangement_of(model: InputFile) -> Arrangement:
 
 
 def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
-    """Return the mapping with firing offsets and throw angles written out, and what is wrong.
+    """Return the mapping with offsets and throw angles written out, and findings.
 
     What is of a wrong type is left to the check of its section.
     """
@@ -84,9 +84,9 @@ def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
         findings += _write_out(order, cylinders, 180 * strokes, shaft)
     if "throw_angles_deg" not in shaft and not findings:
         places = _places(data, str(layout), cylinders, shaft)
-        angles = _angles(places, shaft.get("firing_offsets_deg"))
-        if angles:
-            shaft["throw_angles_deg"] = angles
+        offsets: Any = shaft.get("firing_offsets_deg")
+        if places is not None and _numbers(offsets, len(places)):
+            shaft["throw_angles_deg"] = list(throw_angles(places, offsets))
     return result, findings
 
 
@@ -125,15 +125,15 @@ def _write_out(text: str, cylinders: int, period: float, shaft: dict[str, Any]) 
     numbers = numbers[first:] + numbers[:first]
     given = shaft.get("firing_offsets_deg")
     if given is None:
-        places = {number: place for place, number in enumerate(numbers)}
+        places = {number: position for position, number in enumerate(numbers)}
         step = period / cylinders
         shaft["firing_offsets_deg"] = [places[i] * step for i in range(1, cylinders + 1)]
         return []
     if _numbers(given, cylinders) and list(sequence(given)) != numbers:
-        found = "-".join(map(str, sequence(given)))
+        order = "-".join(map(str, sequence(given)))
         what = (
             f"порядок работы {'-'.join(map(str, numbers))} противоречит firing_offsets_deg, "
-            f"по которым порядок {found}"
+            f"по которым порядок {order}"
         )
         return [Finding(_PATH, what, "оставьте один из двух ключей")]
     return []
@@ -159,15 +159,13 @@ def _places(
     return arrangement(layout, cylinders, bank, split, articulated="articulated" in data)
 
 
-def _angles(places: Arrangement | None, offsets: object) -> list[float] | None:
-    """Throw angles [deg] that fit the first cylinder on every throw."""
-    if places is None or not _numbers(offsets, len(places)):
-        return None
-    found: dict[int, float] = {}
-    for place, offset in zip(places, offsets, strict=True):  # type: ignore[call-overload]
-        angle = round(math.degrees(throw_angle(place, math.radians(offset))), 6)
-        found.setdefault(place.throw, angle % 360)
-    return [found[throw] for throw in sorted(found)]
+def throw_angles(places: Arrangement, offsets: Sequence[float]) -> tuple[float, ...]:
+    """Throw angles in 0…360 [deg] that fit the first cylinder on every throw."""
+    angles: dict[int, float] = {}
+    for cylinder, offset in zip(places, offsets, strict=True):
+        angle = round(math.degrees(throw_angle(cylinder, math.radians(offset))), 6)
+        angles.setdefault(cylinder.throw, angle % 360)
+    return tuple(angles[throw] for throw in sorted(angles))
 
 
 def fitting_angle(angle_deg: float) -> str:

@@ -8,27 +8,27 @@ warnings about what is allowed but odd.  Errors come together in one
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any, cast
 
 from pydantic import ValidationError
 
-from reports.inputs import cells, load_regimes, messages
-from reports.inputs.cell_words import in_cells
+from reports.inputs import messages
 from reports.inputs.checks import cross_checks
-from reports.inputs.checks.accepted import accepted_keys, explained
+from reports.inputs.checks.bearings import check_pairs
+from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.plausibility import check_plausibility
-from reports.inputs.checks.signs import check_signs
 from reports.inputs.diagram_file import with_points
-from reports.inputs.fields import Path, key_text
-from reports.inputs.findings import Finding, Values
+from reports.inputs.fields import Path, from_cells, in_cells, key_text
+from reports.inputs.findings import Finding, ValidValues, accepted_keys, check_signs, explained
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints
+from reports.inputs.normalise import normalise, read_text, refuse_bomb, refused
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.registry import GAS_MODELS, SECTIONS
-from reports.inputs.sections.gas import SOURCES, PolytropicGasSection
+from reports.inputs.sections.gas import SOURCES, CycleGasSection, PolytropicGasSection
 from reports.inputs.sections.input_file import (
     DesignGeometrySection,
     InputFile,
@@ -36,10 +36,60 @@ from reports.inputs.sections.input_file import (
     RegimeValues,
 )
 from reports.inputs.sections.report import FILE_KEYS
-from reports.inputs.source import read_text, refuse_bomb, refused
-from reports.inputs.to_si.geometry import sizes_of
-from reports.inputs.understood import understood
+from reports.inputs.to_si.masses import sizes_of
 from reports.shared.errors import InputError, Problem, one_line
+
+MOST_REGIMES = 4
+
+
+def inside(index: int, path: Path) -> Path:
+    """Path in the file of a path within a regime."""
+    if path and path[0] == "regime":
+        return ("regimes", index, *path[1:])
+    return ("regimes", index, *path)
+
+
+def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
+    """Numbered entries of the list, or findings about it."""
+    if not isinstance(raw, list | tuple):
+        yield Finding(("regimes",), f"нужен список разделов, а задано: {messages.kind(raw)}",
+                      "запишите [[regimes]]")  # fmt: skip
+        return
+    if len(raw) > MOST_REGIMES:
+        what = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
+        yield Finding(("regimes",), what, "уберите лишние")
+        return
+    for index, entry in enumerate(raw):
+        if not isinstance(entry, dict):
+            what = f"нужен раздел, а задано: {messages.kind(entry)}"
+            yield Finding(("regimes", index), what, "запишите [[regimes]]")
+        elif "gas" not in entry:
+            what = "у режима нет данных о газах"
+            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+        elif not isinstance(entry["gas"], dict):
+            what = f"нужен раздел, а задано: {messages.kind(entry['gas'])}"
+            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+        elif entry["gas"].get("source") == "cycle":
+            what = "расчёт цикла есть только у основного режима"
+            yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
+        else:
+            yield index, entry
+
+
+def check_regime(values: ValidValues, own: ValidValues) -> Iterator[Finding]:
+    """Findings about a regime's gas in the engine of the file."""
+    both = replace(own, sections={**values.sections, **own.sections})
+    both.sections.pop("cycle", None)
+    yield from check_gas(both)
+    yield from (finding for finding in check_pairs(both) if finding.path[0] in own.sections)
+
+
+def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:
+    """Regime of its two checked parts."""
+    if not isinstance(regime, RegimeValues) or isinstance(gas, CycleGasSection):
+        return None
+    return RegimeSection.model_construct(**{**dict(regime), "gas": gas})
+
 
 MAX_PROBLEMS = 200
 Locate = Callable[[Path], str]
@@ -47,17 +97,17 @@ Locate = Callable[[Path], str]
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """A checked input, what is odd about it, and what is odd and explained."""
+    """Checked input with its warnings and accepted oddities."""
 
     model: InputFile
     warnings: tuple[Problem, ...]
-    accepted: tuple[Accepted, ...] = ()
+    accepted: tuple[AcceptedOddity, ...] = ()
     beside: tuple[FilePath, ...] = ()  # further files that were read
     notes: tuple[str, ...] = ()  # what was made of them
 
 
 @dataclass(frozen=True, slots=True)
-class Accepted:
+class AcceptedOddity:
     """An oddity that the file itself explains."""
 
     problem: Problem
@@ -89,12 +139,12 @@ def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loade
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    filled = with_points(understood(raw, source), folder, source)
+    filled = with_points(normalise(raw, source), folder, source)
     return replace(load_mapping(filled.raw, source=source), beside=filled.files, notes=filled.notes)
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:
-    """The nested mapping of a text, whatever its values.
+    """Nested mapping of a text.
 
     Raises:
         InputError: It is no TOML, or there is nothing in it.
@@ -106,7 +156,7 @@ def parsed(text: str, *, source: str) -> dict[str, Any]:
 
 
 def tables_of(text: str, *, source: str) -> dict[str, Any]:
-    """The nested mapping of a text that may hold nothing but remarks.
+    """Nested mapping of a text that may hold comments only.
 
     Raises:
         InputError: It is no TOML.
@@ -134,8 +184,8 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     Raises:
         InputError: With everything that is wrong.
     """
-    reader = _Reader(source, locate)
-    data = understood(raw, source)
+    reader = _SectionReader(source, locate)
+    data = normalise(raw, source)
     regimes = data.pop("regimes", ())
     if locate is not None:
         data = reader.from_cells(data)
@@ -150,7 +200,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
     model = InputFile(**parts, regimes=further)
-    found = None
+    design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
         from reports.inputs.to_si.cycle import cycle_and_findings
@@ -160,10 +210,10 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         if reader.problems:
             raise InputError(reader.problems)
         if run is not None and run.design is not None:
-            found = run.design.bore, run.design.stroke
+            design_sizes = run.design.bore, run.design.stroke
     accepted = accepted_keys(() if model.checks is None else model.checks.accepted)
     known = {key for key, _ in reader.warnings} - accepted  # a line for each key
-    odd = [*check_plausibility(model, sizes_of(model, found), accepted), *check_signs(model)]
+    odd = [*check_plausibility(model, sizes_of(model, design_sizes), accepted), *check_signs(model)]
     reader.take(finding for finding in odd if key_text(finding.path) not in known)
     loaded = reader.loaded(model)
     if reader.problems:  # what else is odd may be the cause
@@ -171,8 +221,8 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     return loaded
 
 
-def load_apart(raw: Mapping[str, Any]) -> Loaded:
-    """As `load_mapping`, of a person elsewhere: problems are named by their keys alone.
+def load_remote(raw: Mapping[str, Any]) -> Loaded:
+    """Check a remote user's mapping: problems name keys alone, files are refused.
 
     Raises:
         InputError: With everything that is wrong, or that names files of this machine.
@@ -185,8 +235,8 @@ def load_apart(raw: Mapping[str, Any]) -> Loaded:
     return loaded
 
 
-class _Reader:
-    """Collects the problems of one file, section by section."""
+class _SectionReader:
+    """Reader of one file that collects its problems section by section."""
 
     def __init__(self, source: str, locate: Locate | None, regime: int | None = None) -> None:
         self.source = one_line(source, 120)
@@ -194,24 +244,24 @@ class _Reader:
         self.regime = regime
         self.problems: list[Problem] = []
         self.warnings: list[tuple[str, Problem]] = []
-        self.values = Values()
+        self.values = ValidValues()
         self.empty: set[Path] = set()
         self.uncounted = 0
 
     def key(self, path: Path) -> str:
         if self.regime is not None:
-            path = load_regimes.inside(self.regime, path)
+            path = inside(self.regime, path)
         return one_line(key_text(path), 100)
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
         key = self.key(path)
         if self.regime is not None:
-            path = load_regimes.inside(self.regime, path)
+            path = inside(self.regime, path)
         if self.locate is not None:
             what, hint = in_cells(what), in_cells(hint)
         cell = self.locate(path) if self.locate is not None and path else ""
-        place = f"{cell} ({key})" if cell else key
-        return Problem(": ".join(part for part in (self.source, place) if part), what, hint)
+        address = f"{cell} ({key})" if cell else key
+        return Problem(": ".join(part for part in (self.source, address) if part), what, hint)
 
     def take(self, findings: Iterable[Finding]) -> None:
         for finding in findings:
@@ -222,10 +272,10 @@ class _Reader:
                 self.problems.append(problem)
 
     def loaded(self, model: InputFile) -> Loaded:
-        """The model with its oddities, those it explains itself apart."""
+        """The model with its warnings and accepted oddities."""
         entries = () if model.checks is None else model.checks.accepted
         odd, taken = explained(self.warnings, entries)
-        return Loaded(model, tuple(odd), tuple(Accepted(*each) for each in taken))
+        return Loaded(model, tuple(odd), tuple(AcceptedOddity(*each) for each in taken))
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
@@ -233,7 +283,7 @@ class _Reader:
         known["gas"] = GAS_MODELS.get(source, PolytropicGasSection)
         if self.regime is not None:
             known["regime"] = RegimeValues
-        result, empty = cells.from_cells(data, known)
+        result, empty = from_cells(data, known)
         self.problems += [self.problem(path, "ячейка пуста", "впишите значение") for path in empty]
         self.empty = set(empty)
         self.values.broken |= {(str(path[0]), str(path[1])) for path in empty}
@@ -270,21 +320,21 @@ class _Reader:
 
     def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
         """The further regimes; each is read like a file with the same engine."""
-        made = []
-        for item in load_regimes.regime_data(raw):
+        regimes = []
+        for item in regime_data(raw):
             if isinstance(item, Finding):
                 self.take([item])
                 continue
             index, entry = item
-            inner = _Reader(self.source, self.locate, index)
-            found = inner.one_regime(entry, self.values)
+            inner = _SectionReader(self.source, self.locate, index)
+            regime = inner.one_regime(entry, self.values)
             self.problems += inner.problems
             self.warnings += inner.warnings
-            if found is not None:
-                made.append(found)
-        return tuple(made)
+            if regime is not None:
+                regimes.append(regime)
+        return tuple(regimes)
 
-    def one_regime(self, entry: dict[str, Any], engine: Values) -> RegimeSection | None:
+    def one_regime(self, entry: dict[str, Any], engine: ValidValues) -> RegimeSection | None:
         """One regime of the engine whose values are given."""
         data = {"regime": {k: v for k, v in entry.items() if k != "gas"}, "gas": entry["gas"]}
         if self.locate is not None:
@@ -293,10 +343,10 @@ class _Reader:
         parts = [self._section("regime", RegimeValues, data["regime"])]
         if gas is not None:
             parts.append(self._section("gas", gas, data["gas"]))
-            self.take(load_regimes.checked(engine, self.values))
+            self.take(check_regime(engine, self.values))
         if self.problems or len(parts) < 2 or parts[0] is None or parts[1] is None:
             return None
-        return load_regimes.joined(parts[0], parts[1])
+        return joined(parts[0], parts[1])
 
     def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
         if not isinstance(raw, dict):
@@ -361,7 +411,7 @@ class _Reader:
 
 
 def _sizes_are_wanted(data: dict[str, Any]) -> bool:
-    """Whether bore and stroke are to be found for a given power."""
+    """Whether bore and stroke follow from a given power."""
     cycle = data.get("cycle")
     return isinstance(cycle, dict) and "power_kw" in cycle
 

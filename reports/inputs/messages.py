@@ -1,4 +1,4 @@
-"""Russian words for what pydantic and the TOML parser find."""
+"""Russian messages for errors of pydantic and the TOML parser."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pydantic_core import ErrorDetails
 
 from reports.inputs import units
 from reports.inputs.meta import MAX_TEXT, Key, Meta, Strictly, hints
+from reports.inputs.normalise import is_ambiguous
 from reports.inputs.registry import homes
-from reports.inputs.understood import is_ambiguous
 from reports.shared.errors import one_line
 
 
@@ -45,38 +45,38 @@ def kind(value: object) -> str:
 
 def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) -> tuple[str, str]:
     """Return (what, hint) for one pydantic error of a field with this metadata."""
-    found = error["type"]
+    fault = error["type"]
     value = error["input"]
     hint = meta.range_text(labels=in_book) if meta is not None else ""
-    if found == "missing":
+    if fault == "missing":
         title = f" ({meta.title})" if meta is not None and "{" not in meta.title else ""
         return f"обязательный ключ не задан{title}", hint
-    if found in ("greater_than_equal", "less_than_equal", "greater_than", "less_than"):
+    if fault in ("greater_than_equal", "less_than_equal", "greater_than", "less_than"):
         return f"значение {shown(value)} вне допустимых пределов", hint
-    if found == "finite_number":
+    if fault == "finite_number":
         return "нужно конечное число, а не inf или nan", hint
-    if found == "literal_error":
+    if fault == "literal_error":
         return f"недопустимое значение {shown(value)}", hint
-    if found in ("float_type", "int_type", "int_from_float", "int_parsing_size"):
-        number = "целое число" if found.startswith("int") else "число"
+    if fault in ("float_type", "int_type", "int_from_float", "int_parsing_size"):
+        number = "целое число" if fault.startswith("int") else "число"
         return f"нужно {number}, а задано: {_given(value)}", _number_hint(
             value, in_book=in_book
         ) or hint
-    if found == "string_type":
+    if fault == "string_type":
         return f"нужна строка в кавычках, а задано: {_given(value)}", ""
-    if found == "string_too_long":
+    if fault == "string_too_long":
         return f"слишком длинная строка, {len(str(value))} знаков", f"допустимо до {MAX_TEXT}"
-    if found == "control_character":
+    if fault == "control_character":
         return "в строке есть управляющие символы", "оставьте одну строку обычного текста"
-    return _explain_shape(found, value)
+    return _explain_shape(fault, value)
 
 
-def _explain_shape(found: str, value: object) -> tuple[str, str]:
-    if found in ("model_type", "model_attributes_type", "dict_type"):
+def _explain_shape(fault: str, value: object) -> tuple[str, str]:
+    if fault in ("model_type", "model_attributes_type", "dict_type"):
         return f"нужна таблица ключей, а задано: {_given(value)}", ""
-    if found in ("tuple_type", "list_type"):
+    if fault in ("tuple_type", "list_type"):
         return f"нужен список, а задано: {_given(value)}", "запишите в квадратных скобках"
-    if found in ("too_long", "too_short"):
+    if fault in ("too_long", "too_short"):
         return "нужна пара чисел [угол, давление]", "например [360.0, 8.4]"
     return f"недопустимое значение {shown(value)}", ""
 
@@ -170,12 +170,12 @@ def toml_error(error: Exception, text: str) -> tuple[str, str]:
     """Return (what, hint) for an error of the TOML parser."""
     message = str(error)
     what = next((russian for english, russian in _TOML if english in message), "ошибка записи TOML")
-    place = re.search(r"\(at line (\d+), column (\d+)\)", message)
-    if place is None:
+    position = re.search(r"\(at line (\d+), column (\d+)\)", message)
+    if position is None:
         if "end of document" in message:
             return "файл обрывается на середине записи", "восстановите его конец"
         return what, "проверьте запись по примеру из «kshm new»"
-    row, column = int(place[1]), int(place[2])
+    row, column = int(position[1]), int(position[2])
     # tomllib counts lines by "\n" only; splitlines() would also cut at other breaks.
     lines = text.replace("\r\n", "\n").split("\n")
     line = lines[row - 1] if row <= len(lines) else ""

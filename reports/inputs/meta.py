@@ -1,4 +1,4 @@
-"""What a person is told about an input field; also carries its hard limits into pydantic."""
+"""Metadata of input fields: words, unit, limits, solver's name; limits enter pydantic's schema."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import functools
 import typing
 import unicodedata
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
@@ -15,10 +15,11 @@ from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, c
 
 from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
-from reports.inputs.units import Unit
+from reports.inputs.units import InputUnit
 from reports.shared.russian import capital
 
 MAX_TEXT = 300
+USUAL = object()  # the default of a key is that of the solver
 _MOST_LISTED = 8  # choices that a message lists one by one
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 
@@ -38,6 +39,16 @@ class Strictly(BaseModel):
         frozen=True,
     )
 
+    def __init_subclass__(cls, usual: tuple[type, ...] = (), **kwargs: Any) -> None:  # noqa: ANN401
+        """Give the keys whose default is `USUAL` that of the solver's dataclasses `usual`."""
+        super().__init_subclass__(**kwargs)
+        for key, info in list(vars(cls).items()):
+            if isinstance(info, FieldInfo) and info.default is USUAL:
+                meta = next(part for part in info.metadata if isinstance(part, Meta))
+                name = solver_name(key, meta)
+                given: Any = next(f.default for t in usual for f in fields(t) if f.name == name)
+                setattr(cls, key, _field(meta, meta.unit.from_si(given)))
+
 
 @dataclass(frozen=True, slots=True)
 class Meta:
@@ -45,16 +56,19 @@ class Meta:
 
     `title` and `symbol` of a list entry contain ``{n}``, its 1-based number.
     A subscript in `symbol` follows an underscore.  `structural` marks a field
-    whose value changes the shape of the workbook.
+    whose value changes the shape of the workbook.  `solver` names the solver's
+    input that the value gives, with its owner before a dot, where it is not
+    the key without its unit.
     """
 
     title: str
     symbol: str = ""
-    unit: Unit = units.NONE
+    unit: InputUnit = units.NONE
     minimum: float | None = None
     maximum: float | None = None
     choices: Mapping[str, str] | None = field(default=None, hash=False)  # a dict: no hash
     structural: bool = False
+    solver: str = ""
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
@@ -100,15 +114,7 @@ class Meta:
 
     def numbered(self, number: int) -> Meta:
         """Return the metadata of the list entry with this 1-based number."""
-        return Meta(
-            self.title.format(n=number),
-            self.symbol.format(n=number),
-            self.unit,
-            self.minimum,
-            self.maximum,
-            self.choices,
-            self.structural,
-        )
+        return replace(self, title=self.title.format(n=number), symbol=self.symbol.format(n=number))
 
 
 def _printable(value: str) -> str:
@@ -128,16 +134,18 @@ def _whole_number(value: object) -> object:
 def number(
     title: str,
     symbol: str,
-    unit: Unit,
+    unit: InputUnit,
     low: float,
     high: float,
     default: object = ...,
     *,
     structural: bool = False,
+    solver: str = "",
     alias: str | None = None,
 ) -> Any:  # noqa: ANN401 - of the field's own type, as pydantic's Field
     """Return the field of a number, or of a list of them, with inclusive hard limits."""
-    return _field(Meta(title, symbol, unit, low, high, structural=structural), default, alias)
+    meta = Meta(title, symbol, unit, low, high, structural=structural, solver=solver)
+    return _field(meta, default, alias)
 
 
 def text(title: str, default: object = ...) -> Any:  # noqa: ANN401
@@ -152,9 +160,11 @@ def choice(
     *,
     structural: bool = False,
     symbol: str = "",
+    solver: str = "",
 ) -> Any:  # noqa: ANN401
     """Return the field of a choice; `options` maps each value to its Russian label."""
-    return _field(Meta(title, symbol, choices=options, structural=structural), default)
+    meta = Meta(title, symbol, choices=options, structural=structural, solver=solver)
+    return _field(meta, default)
 
 
 def _field(meta: Meta, default: object, alias: str | None = None) -> Any:  # noqa: ANN401
@@ -165,7 +175,7 @@ def _field(meta: Meta, default: object, alias: str | None = None) -> Any:  # noq
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """What a model says of one TOML key.
+    """Description of one TOML key of a model.
 
     Attributes:
         name: The model's own name of it.
@@ -184,7 +194,7 @@ class Key:
 
 @functools.cache
 def hints(model: type[BaseModel]) -> dict[str, Key]:
-    """Return what a model says of its TOML keys, in the order of the file (do not change)."""
+    """Return the descriptions of a model's TOML keys, in the order of the file (do not change)."""
     return {info.alias or name: _key(name, info) for name, info in model.model_fields.items()}
 
 
@@ -201,7 +211,7 @@ def _key(name: str, info: FieldInfo) -> Key:
 
 
 def _parts(annotation: object) -> Iterator[object]:
-    """Types of single values inside an annotation, and what is told about them."""
+    """Types of single values inside an annotation, and their metadata."""
     parts = typing.get_args(annotation)
     if typing.get_origin(annotation) is typing.Literal:
         parts = tuple(map(type, parts))
@@ -209,3 +219,32 @@ def _parts(annotation: object) -> Iterator[object]:
         yield from _parts(part)
     if not parts:
         yield annotation
+
+
+def solver_name(key: str, meta: Meta) -> str:
+    """Return the name of the solver's input that a key gives: ``pin_width`` of ``pin_width_mm``."""
+    return meta.solver or key.removesuffix(f"_{meta.unit.suffix}")
+
+
+def solver_values(section: BaseModel, target: type, owner: str = "") -> dict[str, Any]:
+    """Return the values of a section in SI that a dataclass of the solver has fields for.
+
+    A key that is left out takes the solver's own default, so it is left out here as well.
+
+    Args:
+        section: A section of the input, or a record of one of its lists.
+        target: The dataclass.
+        owner: What stands before the dot of the solver's names of its fields.
+    """
+    names = {field.name for field in fields(target)}
+    values = {}
+    for key, about in hints(type(section)).items():
+        value = getattr(section, about.name)
+        if value is None or about.inner is not None or len(about.metas) != 1:
+            continue
+        meta = about.metas[0]
+        before, _, name = solver_name(key, meta).rpartition(".")
+        if before == owner and name in names:
+            many = isinstance(value, tuple)
+            values[name] = tuple(map(meta.unit.si, value)) if many else meta.unit.si(value)
+    return values

@@ -1,4 +1,4 @@
-"""The section [variants] of a base file: which parameters differ from student to student."""
+"""Section [variants] of a base file: parameters that differ between students."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _IDLE = ("report", "sheet", "checks")  # sections that nothing is calculated fro
 
 
 @dataclass(frozen=True, slots=True)
-class Range:
-    """Values that a parameter may take; ``path`` as in ``reports.inputs.fields``."""
+class ParameterRange:
+    """Values of a parameter; ``path`` as in ``reports.inputs.fields``."""
 
     key: str
     path: tuple[str | int, ...]
@@ -36,8 +36,8 @@ def split_ranges(raw: Mapping[str, Any]) -> tuple[dict[str, Any], Any]:
 
 def read_ranges(
     section: object, base: Mapping[str, Any], source: str
-) -> tuple[list[Range], list[Problem]]:
-    """Ranges of a base file, and what is wrong with them.
+) -> tuple[list[ParameterRange], list[Problem]]:
+    """Ranges of a base file, and problems with them.
 
     Each key names a parameter of the file, ``"geometry.bore_mm"``; lists count from 1:
     ``"crankshaft.webs.1.mass_kg"``.  Its value is ``{min, max, step}`` or ``{values = [...]}``.
@@ -48,24 +48,24 @@ def read_ranges(
         return [], [
             Problem(where, text, 'пример: "geometry.bore_mm" = {min = 84, max = 92, step = 1}')
         ]
-    ranges: list[Range] = []
+    ranges: list[ParameterRange] = []
     problems: list[Problem] = []
     for key, given in section.items():
-        place = f"{where}: variants.{one_line(str(key), 80)}"
-        path = Range.path_of(str(key))
+        spot = f"{where}: variants.{one_line(str(key), 80)}"
+        path = ParameterRange.path_of(str(key))
         current = _at(base, path)
         if current is None:
-            problems.append(Problem(place, "в файле нет такого параметра", "задайте его значение"))
+            problems.append(Problem(spot, "в файле нет такого параметра", "задайте его значение"))
             continue
         if path[0] in _IDLE or path == ("engine", "name"):
             what = "расчёт от этого параметра не зависит"
-            problems.append(Problem(place, what, "назовите другой параметр"))
+            problems.append(Problem(spot, what, "назовите другой параметр"))
             continue
         values, what, hint = _values(given, current)
         if what:
-            problems.append(Problem(place, what, hint))
+            problems.append(Problem(spot, what, hint))
         else:
-            ranges.append(Range(str(key), path, values))
+            ranges.append(ParameterRange(str(key), path, values))
     return ranges, problems
 
 
@@ -84,7 +84,7 @@ def _at(base: Mapping[str, Any], path: tuple[str | int, ...]) -> float | int | s
 def _values(
     given: object, current: float | int | str
 ) -> tuple[tuple[float | int | str, ...], str, str]:
-    """Values, or what is wrong and how to mend it."""
+    """Values, or the error and a hint."""
     example = "нужно {min = 84, max = 92, step = 1} или {values = [84, 88]}"
     if not isinstance(given, Mapping):
         return (), "это не диапазон", example
@@ -124,7 +124,7 @@ def _digits(number: float) -> int:
 
 
 def _like(value: float | int | str, current: float | int | str) -> float | int | str:
-    """Whole numbers stay whole where the file has a whole number."""
+    """A value as an integer where the file has an integer."""
     if isinstance(value, str):
         return value
     if isinstance(current, int) and float(value).is_integer():

@@ -1,4 +1,4 @@
-"""The sections of the input file in their order: all that is known of each stands here once."""
+"""Registry of the sections of the input file in their order."""
 
 from __future__ import annotations
 
@@ -6,14 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reports.inputs.meta import Strictly, hints
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.bearings import BearingsSection
-from reports.inputs.sections.checks import ChecksSection
-from reports.inputs.sections.crankshaft import CrankshaftSection
-from reports.inputs.sections.cycle import CycleSection
 from reports.inputs.sections.gas import (
     CycleGasSection,
+    CycleSection,
     PolytropicGasSection,
     RoundedGasSection,
     TableGasSection,
@@ -24,10 +20,18 @@ from reports.inputs.sections.input_file import (
     GeometrySection,
     Regime,
 )
-from reports.inputs.sections.masses import MassesSection
-from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import ReportSection
-from reports.inputs.sections.sheet import SheetSection
+from reports.inputs.sections.mechanism import (
+    ArticulatedSection,
+    BalanceSection,
+    CrankshaftSection,
+    MassesSection,
+)
+from reports.inputs.sections.report import (
+    ChecksSection,
+    ReferenceSection,
+    ReportSection,
+    SheetSection,
+)
 from reports.inputs.sections.torsion import TorsionSection
 
 
@@ -40,7 +44,7 @@ class ListKey:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class InputSection:
     """A section of the input file.
 
     Attributes:
@@ -70,7 +74,7 @@ class Section:
 
 
 _ALL = (
-    Section(
+    InputSection(
         "report",
         "Сведения о работе",
         ReportSection,
@@ -80,11 +84,11 @@ _ALL = (
             "formats": ListKey("Документы", "report_format_{n}"),
         },
     ),
-    Section("engine", "Двигатель", EngineSection),
-    Section("calculation", "Расчёт", Calculation, optional=True),
-    Section("geometry", "Геометрия", GeometrySection),
-    Section("regime", "Режим", Regime),
-    Section(
+    InputSection("engine", "Двигатель", EngineSection),
+    InputSection("calculation", "Расчёт", Calculation, optional=True),
+    InputSection("geometry", "Геометрия", GeometrySection),
+    InputSection("regime", "Режим", Regime),
+    InputSection(
         "gas",
         "Газы",
         PolytropicGasSection,
@@ -106,7 +110,7 @@ _ALL = (
             "gots-regimes.",
         ),
     ),
-    Section(
+    InputSection(
         "cycle",
         "Рабочий цикл",
         CycleSection,
@@ -117,7 +121,7 @@ _ALL = (
             "готовый пример даёт команда kshm new --sample cycle-turbo-diesel.",
         ),
     ),
-    Section(
+    InputSection(
         "masses",
         "Массы",
         MassesSection,
@@ -126,7 +130,7 @@ _ALL = (
             "rod_weighed_small_end_kg, или качания; чего нет — оценит estimate_fuel по таблице 4.",
         ),
     ),
-    Section(
+    InputSection(
         "articulated",
         "Прицепной шатун",
         ArticulatedSection,
@@ -134,7 +138,7 @@ _ALL = (
         absent=True,
         words=("Если шатуны правого ряда V-образного двигателя висят на главных:",),
     ),
-    Section(
+    InputSection(
         "crankshaft",
         "Коленчатый вал",
         CrankshaftSection,
@@ -150,8 +154,8 @@ _ALL = (
             "arms": ListKey("Плечи колен", "throw_{n}_{key}"),
         },
     ),
-    Section("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
-    Section(
+    InputSection("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
+    InputSection(
         "torsion",
         "Крутильные колебания",
         TorsionSection,
@@ -169,7 +173,7 @@ _ALL = (
             "задают записи [[torsion.masses]], пример — образец mwm-6.",
         ),
     ),
-    Section(
+    InputSection(
         "bearings",
         "Подшипники и прочность шеек",
         BearingsSection,
@@ -180,7 +184,7 @@ _ALL = (
             "ключи необязательны: чего нет, то принято по правилу, названному в книге.",
         ),
     ),
-    Section(
+    InputSection(
         "reference",
         "Справочные таблицы",
         ReferenceSection,
@@ -189,7 +193,7 @@ _ALL = (
         lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
         words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
     ),
-    Section(
+    InputSection(
         "sheet",
         "Лист динамики",
         SheetSection,
@@ -198,7 +202,7 @@ _ALL = (
         lists={"diagrams": ListKey("Лист динамики", "sheet_diagram_{n}")},
         words=("Лист A1 или A2 с диаграммами: kshm build --only sheet (PDF и DXF):",),
     ),
-    Section(
+    InputSection(
         "checks",
         "Принятые расхождения",
         ChecksSection,
@@ -212,7 +216,7 @@ _ALL = (
         ),
     ),
 )
-SECTIONS: dict[str, Section] = {section.name: section for section in _ALL}
+SECTIONS: dict[str, InputSection] = {section.name: section for section in _ALL}
 GAS_MODELS = SECTIONS["gas"].sources
 
 
@@ -224,7 +228,7 @@ def records(model: type[Strictly]) -> Iterator[tuple[str, type[Strictly]]]:
 
 
 def homes() -> Iterator[tuple[str, tuple[type[Strictly], ...]]]:
-    """Every place of keys as it is headed in the file, with its models."""
+    """Headings of the file with the models of their keys."""
     for section in SECTIONS.values():
         yield f"[{section.name}]", section.models
         for key, inner in records(section.model):

@@ -1,4 +1,4 @@
-"""The input files `kshm new` writes: a sample of the house, or every key explained."""
+"""Input files that `kshm new` writes: a sample, or every key explained."""
 
 from __future__ import annotations
 
@@ -12,15 +12,14 @@ from tomlkit.items import Table
 
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import Meta, Strictly, hints
-from reports.inputs.registry import SECTIONS, Section, records
+from reports.inputs.registry import SECTIONS, InputSection, records
 from reports.shared.errors import InputError, Problem
 from reports.shared.resources import samples_dir
 
 # How the report is set, not who wrote it.
 _KEPT = ("title", "year", "frame", "detail", "chapters", "formats")
 BLANK_SAMPLE = "gots-diesel"
-_HEAD = (
-    "Исходные данные двигателя для kshm. Впишите свои значения вместо примера.",
+NUMBER_WORDS = (
     "Число пишется с точкой; окончание ключа называет единицу:",
     "_mm — мм, _kg — кг, _mpa — МПа, _deg — градусы, _rpm — мин⁻¹, _kw — кВт.",
 )
@@ -69,7 +68,8 @@ def _explained() -> str:
     values["engine"]["name"] = "Двигатель"
     del values["regime"]["indicated_power_kw"]  # the book's own, of another diagram
     document = tomlkit.document()
-    for line in _HEAD:
+    head = "Исходные данные двигателя для kshm. Впишите свои значения вместо примера."
+    for line in (head, *NUMBER_WORDS):
         document.add(tomlkit.comment(line))
     for section in SECTIONS.values():
         document.add(tomlkit.nl())
@@ -83,7 +83,7 @@ def _explained() -> str:
     return tomlkit.dumps(document)
 
 
-def _commented(section: Section) -> Iterator[str]:
+def _commented(section: InputSection) -> Iterator[str]:
     """An optional section as comments: its words, its head, its keys."""
     yield from section.words
     lists = dict(records(section.model))

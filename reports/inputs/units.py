@@ -1,4 +1,4 @@
-"""Units people write and read, and their conversion to SI.
+"""Units of the input file and their conversion to SI.
 
 An input key ends in the `suffix` of its unit (``bore_mm``); a header or a
 message shows the Russian `label`.
@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from kshm.nomenclature.quantity import UNITS
 from reports.shared.russian import power_of_ten, short
 
 
 @dataclass(frozen=True, slots=True)
-class Unit:
+class InputUnit:
     """A unit of the input file: SI value = value * `times` / `over`.
 
     Two factors, because 47 / 1000 is the double nearest to 0.047 and
@@ -32,8 +33,12 @@ class Unit:
             return math.radians(value)
         return value * self.times / self.over
 
+    def si(self, value: Any) -> Any:  # noqa: ANN401 - texts and choices have no unit
+        """Convert to SI; keep values without a unit."""
+        return value if self is NONE else self.to_si(value)
+
     def given(self, value: float | None) -> float | None:
-        """Convert to SI what a file may leave out."""
+        """Convert an optional value to SI."""
         return None if value is None else self.to_si(value)
 
     def from_si(self, value: float) -> float:
@@ -56,29 +61,29 @@ class Unit:
         return number + self.label if self is DEG else f"{number} {self.label}"
 
 
-NONE = Unit("", "")
-MM = Unit("mm", "мм", over=1000.0)
-KG = Unit("kg", "кг")
-DEG = Unit("deg", "°", times=math.pi, over=180.0)
-MPA = Unit("mpa", UNITS["MPa"].label, times=UNITS["MPa"].si)
-RPM = Unit("rpm", "мин⁻¹", times=math.pi, over=30.0)
-KW = Unit("kw", "кВт", times=1000.0)
-KELVIN = Unit("k", "К")
-MJ_KG = Unit("mj_kg", "МДж/кг", times=1e6)
-KG_KMOL = Unit("kg_kmol", "кг/кмоль")
-KJ_KG_K = Unit("kj_kg_k", "кДж/(кг·К)", times=1000.0)
-PERCENT = Unit("percent", "%", over=100.0)
-PER_MIN = Unit("per_min", "мин⁻¹", over=60.0)
-KG_M2 = Unit("kg_m2", "кг·м²")
-NM_RAD = Unit("nm_rad", "Н·м/рад")
-NMS_RAD = Unit("nms_rad", "Н·м·с/рад")
-KG_PER_M2 = Unit("kg_per_m2", "кг/м²")
-UM = Unit("um", "мкм", over=1e6)
-CELSIUS = Unit("c", "°C")
-MPA_S = Unit("mpa_s", "мПа·с", over=1000.0)
-KG_M3 = Unit("kg_m3", "кг/м³")
-J_KG_K = Unit("j_kg_k", "Дж/(кг·К)")
-MPA_S_M = Unit("mpa_s_m", f"{MPA.label}·с/м", times=MPA.times)
+NONE = InputUnit("", "")
+MM = InputUnit("mm", "мм", over=1000.0)
+KG = InputUnit("kg", "кг")
+DEG = InputUnit("deg", "°", times=math.pi, over=180.0)
+MPA = InputUnit("mpa", UNITS["MPa"].label, times=UNITS["MPa"].si)
+RPM = InputUnit("rpm", "мин⁻¹", times=math.pi, over=30.0)
+KW = InputUnit("kw", "кВт", times=1000.0)
+KELVIN = InputUnit("k", "К")
+MJ_KG = InputUnit("mj_kg", "МДж/кг", times=1e6)
+KG_KMOL = InputUnit("kg_kmol", "кг/кмоль")
+KJ_KG_K = InputUnit("kj_kg_k", "кДж/(кг·К)", times=1000.0)
+PERCENT = InputUnit("percent", "%", over=100.0)
+PER_MIN = InputUnit("per_min", "мин⁻¹", over=60.0)
+KG_M2 = InputUnit("kg_m2", "кг·м²")
+NM_RAD = InputUnit("nm_rad", "Н·м/рад")
+NMS_RAD = InputUnit("nms_rad", "Н·м·с/рад")
+KG_PER_M2 = InputUnit("kg_per_m2", "кг/м²")
+UM = InputUnit("um", "мкм", over=1e6)
+CELSIUS = InputUnit("c", "°C")
+MPA_S = InputUnit("mpa_s", "мПа·с", over=1000.0)
+KG_M3 = InputUnit("kg_m3", "кг/м³")
+J_KG_K = InputUnit("j_kg_k", "Дж/(кг·К)")
+MPA_S_M = InputUnit("mpa_s_m", f"{MPA.label}·с/м", times=MPA.times)
 
 
 def is_within(value: float, span: tuple[float, float]) -> bool:

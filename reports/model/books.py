@@ -12,7 +12,7 @@ from kshm.arrays import Columns
 from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, parse
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.model.blocks import (
     NO,
     TURN,
@@ -81,7 +81,7 @@ def read_book(
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    reader = _Reader(shelf, names, places)
+    reader = _BookReader(shelf, names, places)
     for line in lines_of(name, shelf, names):
         reader.take(line)
     return reader.part()
@@ -101,7 +101,7 @@ class _Open:
     last: tuple[str, ...] = ()
 
 
-class _Reader:
+class _BookReader:
     """Takes line after line and keeps the blocks."""
 
     def __init__(

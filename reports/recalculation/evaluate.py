@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.recalculation.formulas import PLACES, TEXT_NUMBER, is_doubtful
-from reports.recalculation.grid import Area, Grid, Run, is_backwards
-from reports.recalculation.language import UnknownFormula
-from reports.recalculation.lifted import NOT_LIFTED, WRONG, register
-from reports.recalculation.plain_book import plain_book
+from reports.recalculation.array_functions import NOT_LIFTED, WRONG, register
+from reports.recalculation.formulas import PLACES, TEXT_NUMBER, UnknownFormula, is_doubtful
+from reports.recalculation.grid import Area, CellGrid, Run, is_backwards
+from reports.recalculation.minimal_xlsx import plain_book
 
 if TYPE_CHECKING:
     from formualizer import Workbook
@@ -35,14 +34,14 @@ _LIMIT_MS = 40_000
 ONE_WANTED = "диапазон там, где нужно одно значение"
 
 
-class Engine:
+class Evaluator:
     """Values of a grid's cells.
 
     A formula that cannot be calculated for certain raises ``UnknownFormula`` from every
     method that needs its value.
     """
 
-    def __init__(self, grid: Grid) -> None:
+    def __init__(self, grid: CellGrid) -> None:
         self.grid = grid
         self._singly: dict[tuple[str, int, int], Any] = {}  # calculated cell by cell
 
@@ -64,10 +63,10 @@ class Engine:
             if first <= row <= last:
                 kinds[row - first] = ERROR
         for run in known.runs_in(first, last):
-            found, letters = self._of(run)
+            block, letters = self._of(run)
             low, high = max(first, run.first), min(last, run.last)
             inside = slice(low - run.first, high - run.first + 1)
-            numbers[low - first : high - first + 1] = found[inside]
+            numbers[low - first : high - first + 1] = block[inside]
             kinds[low - first : high - first + 1] = letters[inside]
         return numbers, "".join(kinds)
 
@@ -122,29 +121,29 @@ class Engine:
     @cached_property
     def _values(self) -> dict[Run, tuple[Array, str]]:
         """Numbers and kinds of every run that is known; fills ``_unknown``."""
-        found = {}
+        values_by_cell = {}
         for run, values in self._raw.items():
             try:
-                found[run] = _numbers(values)
+                values_by_cell[run] = _numbers(values)
             except UnknownFormula as error:
                 self._unknown[run] = str(error)
-        if len(found) < len(self._raw):
+        if len(values_by_cell) < len(self._raw):
             self._spread(self._unknown)
-        return found
+        return values_by_cell
 
     @cached_property
     def _unknown(self) -> dict[Run, str]:
         """Runs that are not calculated, and why."""
-        found: dict[Run, str] = {}
+        refused: dict[Run, str] = {}
         for run in self.grid.runs():
             reason = self._refusal(run)
             if reason:
-                found[run] = reason
-        self._spread(found)
-        return found
+                refused[run] = reason
+        self._spread(refused)
+        return refused
 
     def _spread(self, unknown: dict[Run, str]) -> None:
-        """What depends on an unknown cell is unknown."""
+        """Mark dependents of unknown cells as unknown."""
         if not unknown:
             return
         dependents: dict[Run, list[Run]] = {}
@@ -171,16 +170,16 @@ class Engine:
             return str(error)
         if run.formula.refusal:
             return run.formula.refusal
-        for found in references:
-            if "[" in (found.sheet or ""):
+        for reference in references:
+            if "[" in (reference.sheet or ""):
                 return "ссылка на другую книгу"
-            area = self.grid.named(found.name) if found.name else None
-            if found.name and area is None and "LET" not in run.formula.functions:
-                return f"имя {found.name}"
-            one = found.first == found.last if area is None else _is_cell(area)
-            if not (one or run.array or found.whole or found.spread):
+            area = self.grid.named(reference.name) if reference.name else None
+            if reference.name and area is None and "LET" not in run.formula.functions:
+                return f"имя {reference.name}"
+            one = reference.first == reference.last if area is None else _is_cell(area)
+            if not (one or run.array or reference.whole or reference.spread):
                 return ONE_WANTED
-            if area is None and is_backwards(run, found):
+            if area is None and is_backwards(run, reference):
                 return "диапазон кончается раньше, чем начинается"
         spread = run.array is not None or run.formula.takes_arrays
         if spread and not run.formula.functions.isdisjoint(PLACES):
@@ -195,9 +194,9 @@ class Engine:
             area.sheet == sheet
             and area.first_column <= column <= area.last_column
             and area.first_row <= row <= area.last_row
-            and (found.spread or is_doubtful(text))
-            for found, area in (self.grid.located(run) if self._doubtful else ())
-            if not found.whole
+            and (reference.spread or is_doubtful(text))
+            for reference, area in (self.grid.located(run) if self._doubtful else ())
+            if not reference.whole
             for sheet, column, row, text in self._doubtful
         )
 
@@ -234,12 +233,12 @@ class Engine:
     @staticmethod
     def _replaced(runs: list[Run]) -> frozenset[str]:
         """Functions that formualizer would get wrong in some of these runs."""
-        found: frozenset[str] = frozenset()
+        names: frozenset[str] = frozenset()
         for run in runs:
             assert run.formula is not None
             over_rectangles = run.array is not None or run.formula.takes_arrays
-            found |= run.formula.functions & (NOT_LIFTED if over_rectangles else WRONG)
-        return found
+            names |= run.formula.functions & (NOT_LIFTED if over_rectangles else WRONG)
+        return names
 
     @cached_property
     def _raw(self) -> dict[Run, list[Any]]:
@@ -253,7 +252,7 @@ class Engine:
         return {run: self._read(run.sheet, run) for run in runs}
 
     def _evaluate(self, cells: Iterable[tuple[str, int, int]]) -> None:
-        """Everything at once; cell by cell where one formula keeps the others from it."""
+        """Evaluate all runs at once, cell by cell after a failure."""
         from formualizer import ExcelEvaluationError
 
         try:

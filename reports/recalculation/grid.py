@@ -1,4 +1,4 @@
-"""The cells of a workbook, column by column: what was typed, runs of formulas, saved values."""
+"""Cells of a workbook by columns: constants, runs of formulas, saved values."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class _Order:
 
 
 @dataclass(slots=True)
-class Column:
+class CellColumn:
     """One column of a sheet: typed-in values, runs of formulas, claims of their values."""
 
     constants: dict[int, Constant] = field(default_factory=dict)
@@ -98,10 +98,10 @@ class Column:
     def saved_of(self, run: Run) -> NDArray[np.float64]:
         """Numbers saved for the cells of a run; NaN where nothing or something else was saved."""
         rows = np.array(self.saved_rows, dtype=np.intp)
-        found = np.full(run.count, np.nan)
+        saved = np.full(run.count, np.nan)
         inside = (rows >= run.first) & (rows <= run.last)
-        found[rows[inside] - run.first] = np.array(self.saved)[inside]
-        return found
+        saved[rows[inside] - run.first] = np.array(self.saved)[inside]
+        return saved
 
     def runs_in(self, first: int, last: int) -> list[Run]:
         """The runs with cells in some rows."""
@@ -122,17 +122,17 @@ class Column:
 
 
 @dataclass(slots=True)
-class Grid:
+class CellGrid:
     """A workbook: sheets by title, columns by number; defined names, folded by case."""
 
-    sheets: dict[str, dict[int, Column]] = field(default_factory=dict)
+    sheets: dict[str, dict[int, CellColumn]] = field(default_factory=dict)
     names: dict[str, tuple[str, int, int]] = field(default_factory=dict)  # of single cells
     areas: dict[str, Area] = field(default_factory=dict)  # names of more than one cell
     cells: int = 0
 
-    def column(self, sheet: str, number: int) -> Column:
+    def column(self, sheet: str, number: int) -> CellColumn:
         """A column, empty where there is none."""
-        return self.sheets.get(sheet, {}).get(number) or Column()
+        return self.sheets.get(sheet, {}).get(number) or CellColumn()
 
     def constant(self, sheet: str, row: int, column: int) -> Constant | None:
         """Typed-in value of a cell."""
@@ -176,25 +176,25 @@ class Grid:
 
     def located(self, run: Run) -> Iterator[tuple[Reference, Area]]:
         """References of a run with the cells that they name, over all its rows."""
-        for found in run.formula.references if run.formula is not None else ():
-            if found.name:
-                area = self.named(found.name)
+        for reference in run.formula.references if run.formula is not None else ():
+            if reference.name:
+                area = self.named(reference.name)
                 if area is not None:
-                    yield found, area
+                    yield reference, area
                 continue
             top, bottom = (run.first, run.first) if run.array else (run.first, run.last)
             left = run.array.first_column if run.array else run.column
-            ends = (found.first, found.last)
+            ends = (reference.first, reference.last)
             rows = [r.row if r.row_fixed else at + r.row for r in ends for at in (top, bottom)]
             columns = [r.column if r.column_fixed else left + r.column for r in ends]
-            sheet = run.sheet if found.sheet is None else self.title(found.sheet)
+            sheet = run.sheet if reference.sheet is None else self.title(reference.sheet)
             if sheet is not None:
-                yield found, Area(sheet, min(rows), max(rows), min(columns), max(columns))
+                yield reference, Area(sheet, min(rows), max(rows), min(columns), max(columns))
 
 
-def is_backwards(run: Run, found: Reference) -> bool:
+def is_backwards(run: Run, reference: Reference) -> bool:
     """Whether a range ends before it begins in some row of a run."""
-    first, last = found.first, found.last
+    first, last = reference.first, reference.last
 
     def place(fixed: bool, at: int, cell: int) -> int:
         return at if fixed else cell + at

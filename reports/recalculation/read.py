@@ -1,22 +1,161 @@
-"""A workbook's parts put together: its sheets by title, its defined names, its strings."""
+"""Read a workbook into a grid: sheets, defined names, strings."""
 
 from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from posixpath import join, normpath
 
 from lxml import etree
 
-from reports.recalculation.crossing import cross
-from reports.recalculation.forms import Forms
-from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, Grid
-from reports.recalculation.language import column_number
-from reports.recalculation.meanings import local_names, meanings, put_in, put_local
-from reports.recalculation.picked import pick
-from reports.recalculation.sheets import MAIN, parse_xml, read_sheet, rich_text
-from reports.workbook.package import Package
+from reports.recalculation.formulas import (
+    Token,
+    UnknownFormula,
+    column_number,
+    formula_of,
+    pattern,
+    ref_of,
+    unquoted,
+)
+from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, CellGrid
+from reports.recalculation.ranges import cross, pick
+from reports.recalculation.sheets import MAIN, Forms, parse_xml, read_sheet, rich_text
+from reports.workbook.intake import Package
+
+_MOST = 60  # tokens of a name: nobody calls more than that by one word
+
+Meanings = Mapping[str, tuple[Token, ...]]
+Local = Mapping[str, Meanings]  # of a sheet by its title
+
+
+def meanings(grid: CellGrid, root: etree._Element) -> Meanings:
+    """Names of the whole book that stand for a formula of constants and fixed cells."""
+    names: dict[str, tuple[Token, ...]] = {}
+    for name in root.iter("{*}definedName"):
+        folded = str(name.get("name")).casefold()
+        if name.get("localSheetId") is not None or grid.named(folded) is not None:
+            continue
+        try:
+            tokens = pattern(str(name.text or "").strip(), 1, 1)
+        except UnknownFormula:
+            continue
+        if 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid):
+            names[folded] = tokens
+    return names
+
+
+def _is_fixed(tokens: tuple[Token, ...], grid: CellGrid) -> bool:
+    """Whether a name means the same in every cell, and names no other such name."""
+    for before, (kind, value), after in zip(
+        (("", ""), *tokens), tokens, (*tokens[1:], ("", "")), strict=False
+    ):
+        if kind == "ref":
+            ref = ref_of(value)
+            alone = before[0] != "sheet" and before != ("op", ":")
+            if alone or not (ref.row_fixed and ref.column_fixed):
+                return False
+        elif kind in ("columns", "rows", "error"):
+            return False
+        elif kind == "name" and after != ("op", "("):
+            plain = value.upper() in ("TRUE", "FALSE") or grid.named(value.casefold()) is not None
+            if not plain or before[0] == "sheet":
+                return False
+    return True
+
+
+def local_names(grid: CellGrid, root: etree._Element) -> Local:
+    """Names that a sheet has of its own: there they hide those of the book.
+
+    What stands for something else in every cell, or names a name, is a name that nobody knows.
+    """
+    titles = [str(sheet.get("name")) for sheet in root.iter("{*}sheet")]
+    names: dict[str, dict[str, tuple[Token, ...]]] = {}
+    for name in root.iter("{*}definedName"):
+        sheet = str(name.get("localSheetId") or "")
+        if not (sheet.isdecimal() and int(sheet) < len(titles)):
+            continue
+        title, own = titles[int(sheet)], str(name.get("name")).casefold()
+        tokens: tuple[Token, ...] = ()
+        with suppress(UnknownFormula):
+            tokens = pattern(str(name.text or "").strip(), 1, 1)
+        fixed = 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid) and not _names(tokens)
+        names.setdefault(title, {})[own] = tokens if fixed else _unknown(title, own)
+    return names
+
+
+def _unknown(title: str, name: str) -> tuple[Token, ...]:
+    return (("name", f"{title}!{name}"),)
+
+
+def put_local(grid: CellGrid, local: Local) -> None:
+    """The formulas of a grid with the names of single sheets replaced by what they stand for."""
+    folded = {title.casefold(): known for title, known in local.items()}
+    nobody = {title.casefold(): {name: _unknown(title, name) for name in known}
+              for title, known in local.items()}  # fmt: skip
+    for run in grid.runs():
+        if run.formula is None:
+            continue
+        pattern = _localized(run.formula.pattern, run.sheet, folded)
+        if pattern != run.formula.pattern:
+            refers = any(formula_of(pattern).references)
+            pattern = pattern if refers else _localized(run.formula.pattern, run.sheet, nobody)
+            run.formula = formula_of(pattern)
+
+
+def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Token, ...]:
+    pattern: list[Token] = []
+    for token, after in zip(tokens, (*tokens[1:], ("", "")), strict=True):
+        before = pattern[-1] if pattern else ("", "")
+        where = unquoted(before[1]) if before[0] == "sheet" else sheet
+        known = local.get(where.casefold(), {})
+        inner = known.get(token[1].casefold()) if token[0] == "name" else None
+        if inner is None or after == ("op", "("):
+            pattern.append(token)
+            continue
+        if before[0] == "sheet":
+            pattern.pop()
+        cells = all(kind in ("sheet", "ref", "name") or value == ":" for kind, value in inner)
+        pattern += inner if cells else [("op", "("), *inner, ("op", ")")]
+    return tuple(pattern)
+
+
+def put_in(grid: CellGrid, known: Meanings, local: Local) -> None:
+    """The formulas of a grid with names replaced by what they stand for.
+
+    A formula that then refers to no cell is left: a number by a name is for a person to see.
+    """
+    for run in grid.runs():
+        hidden = local.get(run.sheet, {}).keys()
+        here = {name: inner for name, inner in known.items() if hidden.isdisjoint(_names(inner))}
+        if run.formula is not None and not here.keys().isdisjoint(_names(run.formula.pattern)):
+            formula = formula_of(_replaced(run.formula.pattern, here))
+            if any(formula.references):
+                run.formula = formula
+
+
+def _names(tokens: tuple[Token, ...]) -> set[str]:
+    return {value.casefold() for at, (kind, value) in enumerate(tokens)
+            if kind == "name" and not _is_called(tokens, at)}  # fmt: skip
+
+
+def _is_called(tokens: Sequence[Token], at: int) -> bool:
+    return tuple(tokens[at + 1 : at + 2]) == (("op", "("),)
+
+
+def _replaced(tokens: tuple[Token, ...], known: Meanings) -> tuple[Token, ...]:
+    pattern: list[Token] = []
+    for before, token, after in zip(
+        (("", ""), *tokens), tokens, (*tokens[1:], ("", "")), strict=False
+    ):
+        inner = known.get(token[1].casefold()) if token[0] == "name" else None
+        if inner is None or after == ("op", "(") or before[0] == "sheet":
+            pattern.append(token)
+        else:
+            pattern += [("op", "("), *inner, ("op", ")")]
+    return tuple(pattern)
+
 
 _STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
 _REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
@@ -26,7 +165,7 @@ _ADDRESS = re.compile(  # without a $ a name means another cell in every cell
 )
 
 
-def read_grid(book: bytes | Package, forms: Forms | None = None) -> Grid:
+def read_grid(book: bytes | Package, forms: Forms | None = None) -> CellGrid:
     """All cells of a workbook that has passed the intake; ``forms`` are those of its class.
 
     Raises:
@@ -38,7 +177,7 @@ def read_grid(book: bytes | Package, forms: Forms | None = None) -> Grid:
         raise BadBook("файл .xlsx повреждён") from None
 
 
-def _read(package: Package, forms: Forms | None) -> Grid:
+def _read(package: Package, forms: Forms | None) -> CellGrid:
     root = parse_xml(package.read("xl/workbook.xml"))
     if str(root.tag).startswith(_STRICT):
         raise BadBook("книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx")
@@ -46,7 +185,7 @@ def _read(package: Package, forms: Forms | None) -> Grid:
     sheets = list(root.iter(f"{MAIN}sheet"))
     if len(sheets) > MAX_SHEETS:
         raise BadBook(f"в книге больше {MAX_SHEETS} листов")
-    grid = Grid()
+    grid = CellGrid()
     _read_names(grid, root)
     texts = [part for rel in targets.values() if (part := _part(rel, "sharedStrings"))]
     strings: list[str] = []
@@ -92,7 +231,7 @@ def _part(relation: etree._Element, kind: str) -> str:
     return target[1:] if target.startswith("/") else normpath(join("xl", target))
 
 
-def _read_names(grid: Grid, root: etree._Element) -> None:
+def _read_names(grid: CellGrid, root: etree._Element) -> None:
     for name in root.iter(f"{MAIN}definedName"):
         match = _ADDRESS.fullmatch(str(name.text or "").strip())
         if match is None or name.get("localSheetId") is not None:

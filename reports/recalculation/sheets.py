@@ -1,27 +1,171 @@
-"""The cells of a sheet into a grid: formulas that were filled down become one run."""
+"""Parse a sheet into a grid: a filled-down formula is one run, a known form is parsed once."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from math import nan
+from hashlib import blake2b
+from itertools import count
+from math import isfinite, nan
 
 from lxml import etree
 
-from reports.recalculation.forms import Forms, Slot, value_of
-from reports.recalculation.formulas import formula_at
+from reports.recalculation.formulas import (
+    UnknownFormula,
+    column_number,
+    filled,
+    formula_at,
+    row_template,
+)
 from reports.recalculation.grid import (
     MAX_CELLS,
     MAX_COLUMN,
     MAX_ROW,
     Area,
     BadBook,
-    Column,
+    CellColumn,
+    CellGrid,
     Constant,
-    Grid,
     Run,
 )
-from reports.recalculation.language import UnknownFormula, column_number, filled, row_template
+
+_SAVED = re.compile(rb"<v>([^<]+)</v>")
+_UTF8 = re.compile(rb"\s*(<\?xml[^>]*encoding=[\"'](?i:utf-8)[\"'][^>]*\?>|<(?!\?))")
+_DIGITS = b"0123456789+-.eE"  # of numbers as programs save them
+_KEPT = 400  # a class of thirty has some twenty
+
+Slot = tuple[int, int, str, bool, str]  # row, column, kind and text of a value, of a formula or not
+Parser = Callable[[CellGrid, str, bytes, list[str]], list[Slot]]
+
+
+def value_of(kind: str, text: str | None, strings: list[str]) -> Constant | None:
+    """Value of a cell as a number, a text or a flag; ``ValueError`` where it is none."""
+    if not text:
+        return None
+    if kind == "n":
+        number = float(text)
+        if not isfinite(number) or "_" in text:
+            raise ValueError
+        return number
+    if kind == "s":
+        number = int(text)
+        return strings[number] if number >= 0 else None
+    return text.strip() == "1" if kind == "b" else text
+
+
+@dataclass(frozen=True, slots=True)
+class _FormColumn:
+    """A column of a form, and which of the sheet's values stand where."""
+
+    column: CellColumn  # with the texts that stand in cells themselves, without values
+    saved: tuple[int, ...]  # numbers of the values, -1 where none is a number
+    constants: tuple[tuple[int, int, str], ...]  # row, number of the value, kind
+    errors: tuple[tuple[int, int], ...]
+
+
+@dataclass
+class Forms:
+    """Cache of known forms, bounded."""
+
+    _known: dict[tuple[str, bytes], tuple[dict[int, _FormColumn], int] | None] = field(
+        default_factory=dict  # None where it was seen once
+    )
+
+    def fill(self, grid: CellGrid, title: str, data: bytes, strings: list[str]) -> bool:
+        """Put a sheet of a known form into a grid; False where it must be parsed."""
+        form = self._known.get(_key(title, data))
+        if form is None or grid.cells + form[1] > MAX_CELLS:
+            return False
+        parts, cells = form
+        texts = _SAVED.findall(data)
+        try:
+            columns = {number: _filled(part, texts, strings) for number, part in parts.items()}
+        except (ValueError, IndexError):  # the parser says what is wrong
+            return False
+        grid.sheets[title].update(columns)
+        grid.cells += cells
+        return True
+
+    def learn(self, grid: CellGrid, title: str, data: bytes, cells: int, parse: Parser) -> None:
+        """Keep the form of a sheet that was just parsed, when it has come for the second time."""
+        key = _key(title, data)
+        while len(self._known) >= _KEPT:
+            self._known.pop(next(iter(self._known)))
+        if key not in self._known:
+            self._known[key] = None
+            return
+        columns = grid.sheets[title]
+        plain = not any(run.array for column in columns.values() for run in column.runs)
+        once = cells == sum(len(c.saved) + len(c.constants) + len(c.errors)
+                            for c in columns.values())  # fmt: skip
+        if not (plain and once and _UTF8.match(data)):
+            return
+        # Each value's number in its place shows which value the parser finds in which cell:
+        # one that is written in another manner, or in a comment, would shift them.
+        numbers = count()
+        probe = _SAVED.sub(lambda _: b"<v>%d</v>" % next(numbers), data)
+        many = next(numbers)
+        slots = parse(CellGrid(sheets={title: {}}), title, probe, [""] * many)
+        if [slot[-1] for slot in slots] != [str(k) for k in range(many)] or not columns.keys() >= {
+            slot[1] for slot in slots
+        }:
+            return
+        of_column: dict[int, list[tuple[int, Slot]]] = {number: [] for number in columns}
+        for index, slot in enumerate(slots):
+            of_column[slot[1]].append((index, slot))
+        parts = {number: _part(columns[number], found) for number, found in of_column.items()}
+        self._known[key] = (parts, cells)
+
+
+def _key(title: str, data: bytes) -> tuple[str, bytes]:
+    return title, blake2b(_SAVED.sub(b"<v/>", data)).digest()
+
+
+def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:
+    numbers = {row: k for k, (row, _, kind, formula, _) in slots if formula and kind == "n"}
+    typed = [(row, k, kind) for k, (row, _, kind, formula, _) in slots if not formula]
+    constants = tuple(entry for entry in typed if entry[2] != "e")
+    errors = tuple((row, k) for row, k, kind in typed if kind == "e")
+    own = {row: v for row, v in column.constants.items() if row not in {c[0] for c in constants}}
+    form = CellColumn(own, {}, [replace(run) for run in column.runs], list(column.saved_rows))
+    return _FormColumn(
+        form, tuple(numbers.get(r, -1) for r in column.saved_rows), constants, errors
+    )
+
+
+def _filled(part: _FormColumn, texts: list[bytes], strings: list[str]) -> CellColumn:
+    """A column with the values of another book.
+
+    Raises:
+        ValueError: a value that is none, or is not written plainly.
+        IndexError: no such string.
+    """
+    form = part.column
+    saved = [float(texts[k]) if k >= 0 else nan for k in part.saved]
+    plain = b"".join([texts[k] for k in part.saved if k >= 0])
+    if plain.translate(None, _DIGITS) or float("inf") in map(abs, saved):
+        raise ValueError
+    column = CellColumn(dict(form.constants), {}, [], list(form.saved_rows), saved)
+    column.runs = [Run(r.sheet, r.column, r.first, r.count, r.formula, r.text, r.problem)
+                 for r in form.runs]  # fmt: skip
+    for row, k, kind in part.constants:
+        value = value_of(kind, _text(texts[k]), strings)
+        if value is None:
+            raise ValueError
+        if value != "":
+            column.constants[row] = value
+    for row, k in part.errors:
+        column.errors[row] = _text(texts[k])
+    return column
+
+
+def _text(data: bytes) -> str:
+    if b"&" in data:  # an entity is the parser's
+        raise ValueError
+    return data.decode()
+
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _ROW, _CELL, _FORMULA, _VALUE, _INLINE = (f"{MAIN}{tag}" for tag in ("row", "c", "f", "v", "is"))
@@ -56,7 +200,7 @@ def rich_text(item: etree._Element) -> str:
 
 
 def read_sheet(
-    grid: Grid, title: str, data: bytes, strings: list[str], forms: Forms | None = None
+    grid: CellGrid, title: str, data: bytes, strings: list[str], forms: Forms | None = None
 ) -> None:
     """Put a sheet into a grid; ``forms`` are those of the class, known and to be learnt.
 
@@ -71,7 +215,7 @@ def read_sheet(
         forms.learn(grid, title, data, grid.cells - before, _parsed)
 
 
-def _parsed(grid: Grid, title: str, data: bytes, strings: list[str]) -> list[Slot]:
+def _parsed(grid: CellGrid, title: str, data: bytes, strings: list[str]) -> list[Slot]:
     """Read all cells; the values of the sheet in their order."""
     sheet = _Sheet(grid, title)
     slots: list[Slot] = []
@@ -126,7 +270,7 @@ def _place(address: str) -> tuple[int, int]:
 class _Sheet:
     """Takes the cells of one sheet."""
 
-    def __init__(self, grid: Grid, title: str) -> None:
+    def __init__(self, grid: CellGrid, title: str) -> None:
         self.grid, self.title = grid, title
         self.columns = grid.sheets[title]
         self._shared: dict[str, tuple[str, int, int]] = {}  # si → text, row, column
@@ -150,7 +294,7 @@ class _Sheet:
             raise BadBook(f"в книге больше {MAX_CELLS} заполненных ячеек")
         known = self.columns.get(column)
         if known is None:
-            known = self.columns[column] = Column()
+            known = self.columns[column] = CellColumn()
         if about is not None:
             known.saved_rows.append(row)
             is_number = isinstance(value, float) and kind == "n"
@@ -167,7 +311,7 @@ class _Sheet:
             area = run.array
             assert area is not None
             for number in range(area.first_column, area.last_column + 1):
-                column = self.columns.setdefault(number, Column())
+                column = self.columns.setdefault(number, CellColumn())
                 if len(column.runs_in(area.first_row, area.last_row)) > (number == run.column):
                     run.problem = "формула массива поверх других формул"
                 for row in range(area.first_row, area.last_row + 1):
@@ -182,7 +326,7 @@ class _Sheet:
                     column.runs.append(copy)
 
     def _formula(
-        self, known: Column, row: int, column: int, kind: str, text: str, key: str, extent: str
+        self, known: CellColumn, row: int, column: int, kind: str, text: str, key: str, extent: str
     ) -> None:
         run, template, shared = self._open.get(column, (None, None, ""))
         follows = run is not None and run.first + run.count == row
@@ -211,7 +355,7 @@ class _Sheet:
         else:
             self._start(known, row, column, text, "", key if kind == "shared" else "")
 
-    def _array(self, known: Column, row: int, column: int, text: str, extent: str) -> None:
+    def _array(self, known: CellColumn, row: int, column: int, text: str, extent: str) -> None:
         first, _, last = extent.partition(":")
         ends = [_place(cell) for cell in (first, last or first)]
         (top, left), (bottom, right) = ends
@@ -224,19 +368,19 @@ class _Sheet:
         self._arrays.append(run)
 
     def _start(
-        self, known: Column, row: int, column: int, text: str, problem: str, key: str,
+        self, known: CellColumn, row: int, column: int, text: str, problem: str, key: str,
         origin: tuple[int, int] | None = None,
     ) -> Run:  # fmt: skip
-        made = None
+        opened = None
         if not problem and not text.strip(" ="):
             problem = "пустая формула"
         if not problem:
             try:
-                made = formula_at(text.removeprefix("="), *(origin or (row, column)))
+                opened = formula_at(text.removeprefix("="), *(origin or (row, column)))
             except UnknownFormula as error:
                 problem = str(error)
-        run = Run(self.title, column, row, 1, made, text, problem)
+        run = Run(self.title, column, row, 1, opened, text, problem)
         known.runs.append(run)
-        template = row_template(text, row) if made is not None and origin is None else None
+        template = row_template(text, row) if opened is not None and origin is None else None
         self._open[column] = (run, template, key)
         return run

@@ -1,4 +1,4 @@
-"""What this machine has and lacks, and the command that installs it."""
+"""Check the parts of the system and name the command that installs a missing one."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FONTS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class SystemPart:
     """One part of the system.
 
     Attributes:
@@ -52,7 +52,7 @@ class Part:
         return text if self.ok or not self.install_command else f"{text}; {self.install_command}"
 
 
-def check_system() -> list[Part]:
+def check_system() -> list[SystemPart]:
     """Return every part, present or missing, in the order to show."""
     return [_python(), _fonts(), _pango(), _office(), _uno()]
 
@@ -90,14 +90,14 @@ def pango_loads() -> bool:
     return not _missing_libraries()
 
 
-def _python() -> Part:
+def _python() -> SystemPart:
     version = ".".join(str(part) for part in sys.version_info[:3])
     ok = sys.version_info >= MIN_PYTHON
     command = "" if ok else "sudo apt-get install -y python3 python3-venv"
-    return Part("Python", ok, f"{version}, нужен 3.11 или новее", command)
+    return SystemPart("Python", ok, f"{version}, нужен 3.11 или новее", command)
 
 
-def _fonts() -> Part:
+def _fonts() -> SystemPart:
     # The package is found without importing it: matplotlib takes half a second.
     spec = importlib.util.find_spec("matplotlib")
     places = list(spec.submodule_search_locations or ()) if spec is not None else []
@@ -105,15 +105,15 @@ def _fonts() -> Part:
     missing = [name for name in _FONTS if folder is None or not (folder / name).is_file()]
     detail = "нет " + ", ".join(missing) if missing else "STIXGeneral из matplotlib"
     command = f'"{sys.executable}" -m pip install --force-reinstall matplotlib' if missing else ""
-    return Part("шрифты", not missing, detail, command)
+    return SystemPart("шрифты", not missing, detail, command)
 
 
-def _pango() -> Part:
+def _pango() -> SystemPart:
     missing = _missing_libraries()
     if not missing:
-        return Part("pango", True, "библиотеки для PDF загружаются")
+        return SystemPart("pango", True, "библиотеки для PDF загружаются")
     detail = f"для PDF не загружается {', '.join(missing)}"
-    return Part("pango", False, detail, _pango_command())
+    return SystemPart("pango", False, detail, _pango_command())
 
 
 def _pango_command() -> str:
@@ -149,19 +149,19 @@ def _loads(file: str) -> bool:
     return True
 
 
-def _office() -> Part:
+def _office() -> SystemPart:
     program = shutil.which("soffice") or shutil.which("libreoffice")
     command = "" if program else OFFICE_COMMAND
     detail = program or "нужен только для сверки книги в тестах"
-    return Part("LibreOffice", program is not None, detail, command, required=False)
+    return SystemPart("LibreOffice", program is not None, detail, command, required=False)
 
 
-def _uno() -> Part:
+def _uno() -> SystemPart:
     # python3-uno belongs to the system's Python, not to this one.
     python = "/usr/bin/python3"
     ok = Path(python).exists() and _runs([python, "-c", "import uno"])
     detail = "есть у системного Python" if ok else "нужен только для сверки книги в тестах"
-    return Part("python3-uno", ok, detail, "" if ok else OFFICE_COMMAND, required=False)
+    return SystemPart("python3-uno", ok, detail, "" if ok else OFFICE_COMMAND, required=False)
 
 
 def _runs(command: list[str]) -> bool:

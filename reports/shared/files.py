@@ -71,10 +71,10 @@ def write_json(path: Path, data: Mapping[str, Any]) -> None:
 def read_json(path: Path) -> dict[str, Any]:
     """Return what a file of `write_json` says, nothing if it is not there or damaged."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        data = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return data if isinstance(data, dict) else {}
 
 
 def write_zip(path: Path, files: Mapping[str, Path], more: Path | None = None) -> None:
@@ -120,7 +120,7 @@ def atomic_path(path: Path) -> Iterator[Path]:
 
 
 def is_stream(path: Path) -> bool:
-    """Whether a place takes what it is given as it comes: a pipe, a device, an open stream."""
+    """Whether a path is a pipe, a device or an open stream."""
     with contextlib.suppress(OSError):
         if _descriptor(path) is not None:
             return True
@@ -130,7 +130,7 @@ def is_stream(path: Path) -> bool:
 
 
 def is_output(path: Path) -> bool:
-    """Whether a place is what the program prints to, by whatever name: no word may follow there."""
+    """Whether a path is stdout, by whatever name."""
     with contextlib.suppress(OSError, ValueError):
         return os.path.samestat(path.stat(), os.fstat(1))
     return False
@@ -176,16 +176,16 @@ def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
 
 
 def _places(path: Path) -> set[object]:
-    """What tells a file from another: its path without links, its place on the disk."""
+    """Identity of a file: resolved path and inode."""
     places: set[object] = {os.path.realpath(path)}
     with contextlib.suppress(OSError):
-        found = path.stat()
-        places.add((found.st_dev, found.st_ino))
+        status = path.stat()
+        places.add((status.st_dev, status.st_ino))
     return places
 
 
 def no_file(path: Path) -> str:
-    """What a path is, in Russian, when it is no file that can be read to its end; else empty.
+    """Russian word for a path that is no readable file; empty for a file.
 
     Raises:
         OSError: the system does not let it be looked at.
@@ -313,19 +313,19 @@ def _create(temporary: Path, like: Path | None) -> None:
         temporary.chmod(like.stat().st_mode & 0o777)
 
 
-def _remove(place: Path) -> None:
-    if place.is_dir():
-        shutil.rmtree(place, ignore_errors=True)
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
     else:
         with contextlib.suppress(OSError):
-            place.unlink()
-    _unfinished.discard(place)
+            path.unlink()
+    _unfinished.discard(path)
 
 
 @atexit.register
 def _remove_unfinished() -> None:
-    for place in list(_unfinished):
-        _remove(place)
+    for path in list(_unfinished):
+        _remove(path)
 
 
 def _replace(temporary: Path, path: Path) -> None:

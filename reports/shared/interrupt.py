@@ -1,4 +1,4 @@
-"""Ctrl-C and the system's request to stop: one line, and nothing half-written left behind."""
+"""Handle SIGINT and SIGTERM: clean up, then stop."""
 
 from __future__ import annotations
 
@@ -53,24 +53,24 @@ def _stop(_: int, frame: FrameType | None) -> None:
 
 
 def asked() -> bool:
-    """Whether a signal to stop has come, wherever it went."""
+    """Whether a stop signal has come in this block."""
     return _state["stopped"]
 
 
 def ever() -> bool:
-    """Whether a signal to stop has ever come to this process."""
+    """Whether a stop signal has ever come to this process."""
     return _state["ever"]
 
 
 def check() -> None:
-    """Stop here if a signal was lost in a place that lets no exception through."""
+    """Raise ``Stopped`` for a signal that was swallowed."""
     if asked():
         raise Stopped
 
 
 @contextmanager
 def held(*numbers: signal.Signals) -> Iterator[None]:
-    """Hold signals back, also from processes that are started meanwhile: these never see them."""
+    """Block signals in this block and in processes started inside it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return

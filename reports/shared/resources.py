@@ -1,9 +1,12 @@
-"""Where templates, samples and printed numbers lie: in the bundle, else in the checkout."""
+"""Folders of templates, samples and printed numbers; digest of the sources."""
 
 from __future__ import annotations
 
+import hashlib
+from functools import lru_cache
 from pathlib import Path
 
+import kshm
 from reports.shared.errors import KshmError
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -33,4 +36,15 @@ def samples_dir() -> Path:
 
 def validation_dir() -> Path:
     """Return the folder of printed numbers; it lies inside the package itself."""
-    return _PACKAGE / "validation" / "data"
+    return _PACKAGE / "studies" / "data"
+
+
+@lru_cache(maxsize=1)
+def source_digest() -> str:
+    """Digest of the sources and templates; invalidates caches."""
+    digest = hashlib.sha256()
+    for folder in (Path(kshm.__file__).parent, Path(__file__).parents[1], templates_dir()):
+        for path in sorted(folder.rglob("*")):
+            if path.suffix in (".py", ".j2"):
+                digest.update(path.read_bytes())
+    return digest.hexdigest()

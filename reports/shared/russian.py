@@ -133,13 +133,13 @@ def runs(numbers: Sequence[str]) -> list[tuple[int, int]]:
 
     «4», «5», «6», «9» gives (0, 2), (3, 3); «Б.5» is followed by «Б.6».
     """
-    found: list[tuple[int, int]] = []
-    for place, number in enumerate(numbers):
-        if found and _follows(numbers[place - 1], number):
-            found[-1] = (found[-1][0], place)
+    spans: list[tuple[int, int]] = []
+    for index, number in enumerate(numbers):
+        if spans and _follows(numbers[index - 1], number):
+            spans[-1] = (spans[-1][0], index)
         else:
-            found.append((place, place))
-    return found
+            spans.append((index, index))
+    return spans
 
 
 def _follows(before: str, after: str) -> bool:

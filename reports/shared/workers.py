@@ -6,6 +6,7 @@ They look at people's files and inputs: little memory, no network, no other prog
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import os
 import signal
 import sys
@@ -14,15 +15,28 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from reports.shared.errors import KshmError, one_line
 from reports.shared.interrupt import held
-from reports.shared.processes import processes
+
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
+
+
+def processes(needs: str) -> ForkServerContext | SpawnContext:
+    """Context whose processes have a module imported: forkserver on Linux, else spawn."""
+    if sys.platform != "linux":
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([needs])  # heard before the first copy
+    return context
+
 
 MEMORY = 2 * 2**30  # bytes of address space beyond what the ready process has
 _START_S = 120.0  # a cold start on a loaded machine
 _STARTS = 4
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "RAYON_NUM_THREADS")
 _FORBIDDEN = (
     "socket.connect", "socket.bind", "socket.getaddrinfo", "socket.sendto", "subprocess.Popen",
     "os.system", "os.exec", "os.posix_spawn", "os.spawn", "os.fork", "os.forkpty",
@@ -39,14 +53,14 @@ class NeverStarted(Exception):  # noqa: N818 - what happened to the process
 
 
 class Workers:
-    """So many processes, each with one question at a time, as long as the block lasts.
+    """Pool of processes for one block, each with one question at a time.
 
     Args:
         count: how many.
         begin: what makes a process ready; it returns what answers the questions.
         given: arguments of ``begin``.
         needs: a module that ``begin`` imports, if it is not its own.
-        memory: bytes that a ready process may take besides.
+        memory: bytes that a ready process may take besides; without it nothing is forbidden.
         most: answers of a process; then a new one: whatever a library leaks is given back.
     """
 
@@ -56,18 +70,18 @@ class Workers:
         begin: Callable[..., Callable[..., Any]],
         *given: Any,  # noqa: ANN401
         needs: str = "",
-        memory: int = MEMORY,
-        most: int = 500,
+        memory: int | None = MEMORY,
+        most: int | None = 500,
     ) -> None:
         self._threads = ThreadPoolExecutor(count)  # one waits for each process
         self._all = [
             _Worker(most, needs or begin.__module__, memory, begin, *given) for _ in range(count)
         ]
-        self._idle = SimpleQueue[_Worker]()
+        self._idle, self._guarded = SimpleQueue[_Worker](), memory is not None
 
     def __enter__(self) -> Workers:
         # One thread each: the processes are the parallelism.
-        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "RAYON_NUM_THREADS"):
+        for name in _THREADS if self._guarded else ():
             os.environ.setdefault(name, "1")
         for worker in self._all:
             worker.launch()
@@ -81,8 +95,8 @@ class Workers:
             worker.end()
         self._threads.shutdown()
 
-    def ask(self, *question: Any, seconds: float) -> Future[Any]:  # noqa: ANN401
-        """What a process that has nothing else to do will answer.
+    def ask(self, *question: Any, seconds: float | None) -> Future[Any]:  # noqa: ANN401
+        """Future answer of an idle process.
 
         Raises:
             TimeoutError: it took more than so many seconds, the start of the process apart.
@@ -93,7 +107,7 @@ class Workers:
         """
         return self._threads.submit(self._ask, question, seconds)
 
-    def _ask(self, question: tuple[Any, ...], seconds: float) -> Any:  # noqa: ANN401
+    def _ask(self, question: tuple[Any, ...], seconds: float | None) -> Any:  # noqa: ANN401
         worker = self._idle.get()
         try:
             good, said = worker.ask(question, seconds)
@@ -105,9 +119,9 @@ class Workers:
 
 
 class _Worker:
-    """A process and its pipe, alone with each other: its death harms no other's answers."""
+    """A process with its own pipe."""
 
-    def __init__(self, most: int, needs: str, *given: Any) -> None:  # noqa: ANN401
+    def __init__(self, most: int | None, needs: str, *given: Any) -> None:  # noqa: ANN401
         self.most, self.needs, self.given, self.over = most, needs, given, False
 
     def launch(self) -> None:
@@ -125,7 +139,7 @@ class _Worker:
         self.process.kill()
         self.process.join()
 
-    def ask(self, question: tuple[Any, ...], seconds: float) -> tuple[bool, Any]:
+    def ask(self, question: tuple[Any, ...], seconds: float | None) -> tuple[bool, Any]:
         for _ in range(_STARTS):
             if self._is_ready():
                 break
@@ -149,18 +163,20 @@ class _Worker:
         with contextlib.suppress(EOFError, OSError):
             if not self.ready and self.connection.poll(_START_S):
                 self.ready = self.connection.recv()
-        return self.ready and self.process.is_alive() and self.answers < self.most
+        fresh = self.most is None or self.answers < self.most
+        return self.ready and self.process.is_alive() and fresh
 
 
 def _serve(
     connection: Connection,
-    memory: int,
+    memory: int | None,
     begin: Callable[..., Callable[..., Any]],
     *given: Any,  # noqa: ANN401
 ) -> None:
     answer = begin(*given)
-    limit_memory(memory)
-    forbid_the_world()
+    if memory is not None:
+        limit_memory(memory)
+        forbid_the_world()
     with contextlib.suppress(EOFError, OSError):  # who asks is gone
         connection.send(True)
         while True:
@@ -190,7 +206,7 @@ def limit_memory(extra: int) -> None:
 
 
 def forbid_the_world() -> None:
-    """Refuse network and programs from here on, whatever a parser may try."""
+    """Forbid network and subprocesses in this process."""
 
     def hook(event: str, _: tuple[Any, ...]) -> None:
         if event in _FORBIDDEN:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import cast
 
@@ -11,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.nomenclature.quantity import roman
-from reports.document.figures.wear import outline
+from reports.document.figures.polar import outline
 from reports.document.text.mathsvg import plain
 from reports.document.text.terms import Terms
-from reports.drawing.lettering import width_of
-from reports.drawing.primitives import (
+from reports.draw.canvas import (
     AXES,
     CENTRE,
     CONTOUR,
@@ -31,11 +31,94 @@ from reports.drawing.primitives import (
     Words,
     polar,
 )
-from reports.drawing.scales import STEP, Scale, round_scale, unit_text
+from reports.draw.fonts import width_of
 from reports.formula.numeric import evaluate
 from reports.model.charts import ChartSpec, Series
 from reports.shared.russian import fixed
-from reports.sheet.cell import TEXT, Name, Room, headed, legend
+from reports.sheet.cell import TEXT, CellArea, Name, headed, legend
+
+_ROUND = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0)
+_ANGLE_STEPS = (
+    0.5,
+    1.0,
+    1.5,
+    2.0,
+    2.5,
+    3.0,
+    4.0,
+    4.5,
+    5.0,
+    6.0,
+    8.0,
+    9.0,
+    10.0,
+    12.0,
+    15.0,
+    18.0,
+    20.0,
+)
+STEP = 10.0  # mm between the lines of the grid
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """Values along an axis: ``unit`` in a millimetre, from ``low`` to ``high``."""
+
+    unit: float
+    low: float
+    high: float
+
+    @property
+    def length(self) -> float:
+        """Length of the axis [mm]."""
+        return (self.high - self.low) / self.unit
+
+    def at(self, value: float) -> float:
+        """Distance of a value from the beginning of the axis [mm]."""
+        return (value - self.low) / self.unit
+
+    def marks(self) -> list[float]:
+        """Values at the lines of the grid."""
+        count = round(self.length / STEP)
+        return [self.low + n * STEP * self.unit for n in range(count + 1)]
+
+    def text(self, value: float) -> str:
+        """A value at a line of the grid as it is written."""
+        return fixed(value, decimals(STEP * self.unit))
+
+
+def round_scale(low: float, high: float, room: float, *, angle: bool = False) -> Scale:
+    """The largest round scale at which values fit a room [mm]; ends at lines of the grid."""
+    units = iter(_ANGLE_STEPS) if angle else _units((high - low) / room)
+    for unit in units:
+        step = STEP * unit
+        ends = (math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step)
+        scale = Scale(unit, ends[0], ends[1] if ends[1] > ends[0] else ends[0] + step)
+        if angle:
+            scale = Scale(unit, low, high)
+        if scale.length <= room + 1e-9:
+            return scale
+    raise ValueError(f"no scale for {low}…{high} in {room} mm")
+
+
+def _units(least: float) -> Iterator[float]:
+    power = math.floor(math.log10(least)) if least > 0 else -3
+    for exponent in range(power - 1, power + 4):
+        for digit in _ROUND:
+            unit = digit * 10.0**exponent
+            if unit >= least * 0.999:
+                yield unit
+
+
+def decimals(step: float) -> int:
+    """Decimals that a step of round digits needs."""
+    return next((n for n in range(9) if abs(round(step, n) - step) < 1e-9 * step), 9)
+
+
+def unit_text(unit: float) -> str:
+    """A scale as it is written."""
+    return fixed(unit, decimals(unit))
+
 
 _DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
 _ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)
@@ -59,7 +142,7 @@ def _unit(terms: Terms, name: str) -> str:
     return f"{symbol(terms, name)}, {unit}" if unit else symbol(terms, name)
 
 
-def curves(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec, *, closed: bool) -> None:
+def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, closed: bool) -> None:
     """Columns over an abscissa, with means and other levels across."""
     drawn = chart.drawn_by("report")
     x, *ys = terms.curves([drawn[0].x, *(series.y for series in drawn)])
@@ -136,7 +219,7 @@ def _field(canvas: Canvas, origin: Point, across: Scale, up: Scale, angle: bool)
     canvas.arrow((left, top + 4), (0.0, 1.0), layer=THIN)
 
 
-def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
+def path(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None:
     """Path of a force's end in one scale with the pole and the crank angles."""
     (drawn,) = chart.drawn_by("report")
     x, y = terms.curves([drawn.x, drawn.y])
@@ -167,39 +250,39 @@ def path(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
 
 def _poles(canvas: Canvas, poles: dict[str, Point], within: Box) -> None:
     """Small circles, each with its name nearer to it than to the others, or at a thin line."""
-    for place in poles.values():
-        canvas.circle(place, _POLE, layer=CONTOUR)
-    for name, place in poles.items():
+    for pole in poles.values():
+        canvas.circle(pole, _POLE, layer=CONTOUR)
+    for name, pole in poles.items():
         half = width_of(name, TEXT) / 2
         near = {
             at: (at[0] + half, at[1] + TEXT / 2)
-            for at in _beside(place, name, TEXT, (45, 135, -45, -135, 90, -90), (2.5, 5, 8, 12, 18))
+            for at in _beside(pole, name, TEXT, (45, 135, -45, -135, 90, -90), (2.5, 5, 8, 12, 18))
         }
         own = [at for at, middle in near.items()
-               if min(poles.values(), key=partial(math.dist, middle)) == place]  # fmt: skip
+               if min(poles.values(), key=partial(math.dist, middle)) == pole]  # fmt: skip
         if not canvas.words_where_free(own, name, TEXT, within):
             continue
         middle = near[cast(Words, canvas.items[-1]).place]
-        far = math.dist(place, middle)
+        far = math.dist(pole, middle)
         if far > _FAR:
-            along = np.subtract(middle, place) / far
-            ends = place + np.outer((_POLE, far - half - 0.5), along)
+            along = np.subtract(middle, pole) / far
+            ends = pole + np.outer((_POLE, far - half - 0.5), along)
             canvas.line(*map(tuple, ends.tolist()), layer=THIN)
 
 
-def _equal(xs: Values, ys: Sequence[float], room: Room) -> tuple[Scale, Scale]:
+def _equal(xs: Values, ys: Sequence[float], room: CellArea) -> tuple[Scale, Scale]:
     """Scales of one unit by which both extents fit."""
     spans = (min(0.0, float(xs.min())), max(0.0, float(xs.max()))), (min(0.0, *ys), max(0.0, *ys))
     free = room.width - 24, room.height - _FOOT - 2 * TEXT - 4
     unit = max(round_scale(*span, size).unit for span, size in zip(spans, free, strict=True))
     while True:
         step = STEP * unit
-        made = []
+        scales = []
         for low, high in spans:
             first, last = np.floor(low / step + 1e-9), np.ceil(high / step - 1e-9)
-            made.append(Scale(unit, first * step, max(last, first + 2) * step))
-        if all(s.length <= size + 1e-9 for s, size in zip(made, free, strict=True)):
-            return made[0], made[1]
+            scales.append(Scale(unit, first * step, max(last, first + 2) * step))
+        if all(s.length <= size + 1e-9 for s, size in zip(scales, free, strict=True)):
+            return scales[0], scales[1]
         unit = round_scale(0.0, unit * 1.001, 1.0).unit
 
 
@@ -261,7 +344,7 @@ def _beside(
     ]  # fmt: skip
 
 
-def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
+def wear(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None:
     """Sums of the forces laid off from the journal's circle inwards in a round scale."""
     grid = chart.series[0].x.partition(".")[0]
     sums, rays = (
@@ -285,6 +368,6 @@ def wear(canvas: Canvas, room: Room, terms: Terms, chart: ChartSpec) -> None:
     for number, (angle, depth) in enumerate(zip(angles.tolist(), sums.tolist(), strict=True), 1):
         canvas.line(centre, polar(centre, radius + 3, -angle), layer=AXES)
         canvas.circle(polar(centre, radius - depth / unit, -angle), 0.6, layer=THIN, filled=True)
-        place = polar(centre, radius + 6.5, -angle)
-        canvas.words((place[0], place[1] - TEXT / 2), roman(number), TEXT, align=0.5)
+        anchor = polar(centre, radius + 6.5, -angle)
+        canvas.words((anchor[0], anchor[1] - TEXT / 2), roman(number), TEXT, align=0.5)
     canvas.line(polar(centre, radius * 0.55, -hole), polar(centre, radius, -hole), layer=CONTOUR)

@@ -1,23 +1,209 @@
-"""The sheet of dynamics as PDF and DXF from one list of primitives."""
+"""The sheet of dynamics: cells, frame and title block (form 1 of ГОСТ 2.104), PDF and DXF."""
 
 from __future__ import annotations
 
 import base64
+import itertools
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
-from reports.document.figures.parts import mechanism_of, throws_of
+from reports.document.chapters.chapter import worst_pin
+from reports.document.page.charts import mechanism_of, throws_of
 from reports.document.page.render import render_pdf
-from reports.document.text import fonts
 from reports.document.text.terms import Terms
-from reports.drawing.dxf import dxf_bytes
-from reports.drawing.parts import Mechanism, Throw, mechanism_drawing, throw_drawing
-from reports.drawing.primitives import Item, Words, bounds, moved
-from reports.drawing.svg import svg_of
-from reports.inputs.checks.grid import fine_columns
+from reports.draw import fonts
+from reports.draw.canvas import FRAME, THIN, Canvas, Item, Words, bounds, moved
+from reports.draw.fonts import fitted, wrapped
+from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
+from reports.draw.writers import dxf_bytes, svg_of
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import USUAL, SheetSection
+from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
 from reports.model.evaluation import Values
-from reports.shared.signs import printable
-from reports.sheet.layout import sheet_items
+from reports.model.shape import pin_figure
+from reports.shared.errors import InputError, Problem
+from reports.shared.font_coverage import printable
+from reports.shared.russian import surname
+from reports.sheet import diagrams
+from reports.sheet.cell import CellArea, balance, mechanism, results, running, shaft, throw
+
+STAMP_WIDTH, STAMP_HEIGHT = 185.0, 55.0
+MARGINS = (20.0, 5.0, 5.0, 5.0)  # left, right, top, bottom of the frame
+_COLUMNS = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)
+_HEADS = ("Изм.", "Лист", "№ докум.", "Подп.", "Дата")
+_NAME = (65.0, 135.0)
+_LEAST_HEIGHT = 1.0  # height of letters
+_READABLE = 2.0  # of a name; one that would be smaller leaves the surname alone
+
+
+def frame(canvas: Canvas, width: float, height: float) -> None:
+    """Outer edge and frame."""
+    canvas.box(0, 0, width, height, THIN)
+    left, right, top, bottom = MARGINS
+    canvas.box(left, bottom, width - right, height - top, FRAME)
+
+
+def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> None:
+    """Form 1 with its lower left corner at a place."""
+    report = model.report
+
+    def line(x1: float, y1: float, x2: float, y2: float, *, thick: bool = True) -> None:
+        layer = FRAME if thick else THIN
+        canvas.line((left + x1, low + y1), (left + x2, low + y2), layer=layer)
+
+    def cell(text: str, box: tuple[float, float, float, float], most: float = 2.5) -> None:
+        x1, y1, x2, y2 = box
+        room = x2 - x1 - 1
+        height = most
+        lines = wrapped(text, room, height, hyphens=True)
+        while (len(lines) * 1.7 * height > y2 - y1) and height > _LEAST_HEIGHT:
+            height -= 0.25
+            lines = wrapped(text, room, height, hyphens=True)
+        y = (y1 + y2) / 2 + (len(lines) * 1.7 * height) / 2 - 1.4 * height
+        for words in lines:
+            size = fitted(words, room, height, 0.5)
+            canvas.words((left + (x1 + x2) / 2, low + y), words, size, align=0.5)
+            y -= 1.7 * height
+
+    canvas.box(left, low, left + STAMP_WIDTH, low + STAMP_HEIGHT, FRAME)
+    for x in (17.0, 40.0, 55.0, 65.0):
+        line(x, 0, x, STAMP_HEIGHT)
+    line(7, 30, 7, STAMP_HEIGHT)
+    for row in range(1, 11):
+        y = 5.0 * row
+        line(0, y, 65, y, thick=row in (6, 7))
+    for number, word in enumerate(_HEADS):
+        cell(word, (_COLUMNS[number], 30, _COLUMNS[number + 1], 35))
+    people = (("Разраб.", report.student), ("Пров.", report.supervisor), ("Т. контр.", ""),
+              ("", ""), ("Н. контр.", report.controller),
+              ("Утв.", report.approver or report.head))  # fmt: skip
+    for row, (post, name) in enumerate(people):
+        y = 25.0 - 5.0 * row
+        cell(post, (0, y, 17, y + 5))
+        small = fitted(name, 22, 2.5) < _READABLE
+        cell(surname(name) if small else name, (17, y, 40, y + 5))
+    line(65, 40, STAMP_WIDTH, 40)
+    line(65, 15, STAMP_WIDTH, 15)
+    line(135, 0, 135, 40)
+    line(135, 35, STAMP_WIDTH, 35)
+    line(135, 20, STAMP_WIDTH, 20)
+    for x in (150.0, 167.0):
+        line(x, 20, x, 40)
+    line(155, 15, 155, 20)
+    for x in (140.0, 145.0):
+        line(x, 20, x, 35, thick=False)
+    for word, x1, x2 in (("Лит.", 135, 150), ("Масса", 150, 167), ("Масштаб", 167, 185)):
+        cell(word, (x1, 35, x2, 40))
+    cell("Лист", (135, 15, 155, 20))
+    cell("Листов 1", (155, 15, STAMP_WIDTH, 20))
+    cell("У", (140, 20, 145, 35), 3.5)
+    cell(report.designation, (65, 40, STAMP_WIDTH, 55), 5.0)
+    cell(f"Динамический расчёт двигателя. {model.engine.name}", (*_NAME[:1], 15, _NAME[1], 40), 5.0)
+    places = (report.institution, report.department, report.group)
+    cell(", ".join(filter(None, places)), (135, 0, STAMP_WIDTH, 15), 3.5)
+
+
+SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
+_GAP = 6.0
+_LEAST = (120.0, 92.0)  # of a cell [mm]
+Draw = Callable[[Canvas, CellArea, Terms], None]
+
+
+def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
+    """The whole sheet; its width and height [mm].
+
+    Raises:
+        InputError: the sheet cannot hold what was picked.
+    """
+    section = terms.model.input.sheet or SheetSection()
+    width, height = SIZES[section.size]
+    if section.orientation == "portrait":
+        width, height = height, width
+    wanted = blocks(terms, section)
+    canvas = Canvas()
+    frame(canvas, width, height)
+    rooms = cells(width, height, len(wanted), section)
+    for draw, room in zip(wanted, rooms, strict=False):
+        draw(canvas, room, terms)
+    left, low = width - MARGINS[1] - STAMP_WIDTH, MARGINS[3]
+    title_block(canvas, terms.model.input, left, low)
+    return canvas, width, height
+
+
+def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
+    """Chosen diagrams in order; by default all available."""
+    known = available(terms)
+    picked: tuple[str, ...] = section.diagrams or tuple(name for name in USUAL if name in known)
+    missing = [name for name in picked if name not in known]
+    if missing:
+        what = f"у этого двигателя нет: {', '.join(missing)}"
+        raise InputError(Problem("sheet.diagrams", what, "уберите из списка"))
+    return [known[name] for name in picked]
+
+
+def available(terms: Terms) -> dict[str, Draw]:
+    """Available diagrams of an engine by name."""
+    pin = worst_pin(terms)
+    main = round(terms.value("worst_main_load"))
+    folded = partial(diagrams.curves, closed=True)
+    curves = partial(diagrams.curves, closed=False)
+    charts: dict[str, tuple[str, Callable[..., None]]] = {
+        "pv": ("pv", folded), "p_phi": ("p_phi", curves), "forces": ("fig46", curves),
+        "side": ("fig47", curves), "crank": ("fig48", curves), "torque": ("fig49", curves),
+        "pin_polar": (pin_figure("fig50", pin), diagrams.path),
+        "pin_load": (pin_figure("fig51", pin), curves),
+        "pin_wear": (pin_figure("fig52", pin), diagrams.wear),
+        "main_polar": (f"fig53_{main}", diagrams.path),
+        "main_load": (f"fig55_{main}", curves), "main_wear": (f"fig54_{main}", diagrams.wear),
+    }  # fmt: skip
+    known: dict[str, Draw] = {
+        name: partial(draw, chart=terms.model.charts_by_id[key])
+        for name, (key, draw) in charts.items()
+        if key in terms.model.charts_by_id
+    }
+    return known | {"shaft": shaft, "balance": balance,
+                    "running": running, "results": results,
+                    "throw": throw, "mechanism": mechanism}  # fmt: skip
+
+
+def cells(width: float, height: float, count: int, section: SheetSection) -> list[CellArea]:
+    """Equal cells for so many blocks, row by row from the top; none under the title block.
+
+    What was not picked one by one gives way where the sheet is too small for all of it.
+
+    Raises:
+        InputError: the cells would be too small.
+    """
+    grids = [g for g in _grids(width, height) if g]
+    most = max(map(len, grids), default=0)
+    if count > most and section.diagrams:
+        way = "альбомный" if width > height else "книжный"
+        what = f"на лист {section.size} ({way}) помещается {most}, выбрано {count}"
+        hint = "уберите лишнее" + ("" if section.size == "A1" else ' или выберите size = "A1"')
+        raise InputError(Problem("sheet.diagrams", what, hint))
+    fitting = [g for g in grids if len(g) >= min(count, most)]
+    return max(fitting, key=lambda g: min(g[0].width / 1.4, g[0].height))
+
+
+def _grids(width: float, height: float) -> Iterator[list[CellArea]]:
+    """Free cells of every division of the sheet into columns and rows."""
+    left, right, top, bottom = MARGINS
+    wide, tall = width - left - right - _GAP, height - top - bottom - _GAP
+    for columns, rows in itertools.product(range(1, 9), repeat=2):
+        across, down = wide / columns, tall / rows
+        if across < _LEAST[0] or down < _LEAST[1]:
+            continue
+        taken = math.ceil((STAMP_WIDTH + _GAP) / across), math.ceil((STAMP_HEIGHT + _GAP) / down)
+        yield [
+            CellArea(left + _GAP + c * across, height - top - (r + 1) * down, across - _GAP,
+                 down - _GAP)
+            for r in range(rows) for c in range(columns)
+            if not (c >= columns - taken[0] and r >= rows - taken[1])
+        ]  # fmt: skip
+
 
 _LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
 _PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
@@ -47,21 +233,21 @@ def sheet_files(model: Model, values: Values) -> dict[str, bytes]:
     }
 
 
-def _throws(throws: list[Throw]) -> bytes:
+def _throws(throws: list[ThrowSizes]) -> bytes:
     """Every throw true to size beside the one before it; letters in proportion."""
     items: list[Item] = []
-    letters, place = _LETTERS * max(throw.size for throw in throws), 0.0
-    for number, throw in enumerate(throws, 1):
-        drawn = throw_drawing(throw, letters=letters)
+    letters, left_end = _LETTERS * max(sizes.size for sizes in throws), 0.0
+    for number, sizes in enumerate(throws, 1):
+        drawn = throw_drawing(sizes, letters=letters)
         left, low, right, _ = bounds(drawn)
-        items += moved(drawn, place - left, 0.0)
-        middle = place + (right - left) / 2
+        items += moved(drawn, left_end - left, 0.0)
+        middle = left_end + (right - left) / 2
         items.append(Words((middle, low - 4 * letters), f"Колено {number}", 1.4 * letters, 0.5))
-        place += right - left + 12 * letters
+        left_end += right - left + 12 * letters
     return dxf_bytes(items, letters / _PRINTED)
 
 
-def _mechanism(mechanism: Mechanism) -> bytes:
+def _mechanism(mechanism: MechanismSizes) -> bytes:
     letters = _LETTERS * mechanism.size
     return dxf_bytes(mechanism_drawing(mechanism, letters=letters), letters / _PRINTED)
 

@@ -1,1 +1,1 @@
-"""Parameter studies: extremes and means of results against varied inputs."""
+"""Many numbers at once: parameter studies, comparison of engines, validation against print."""

@@ -1,17 +1,27 @@
-"""What a parameter study varies: axes, their combinations, and the base they change."""
+"""Axes of a study, their combinations, and solving them in chunks."""
 
 from __future__ import annotations
 
+import copy
 import difflib
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from reports.inputs.fields import Field, Path, iter_fields, to_mapping
+import numpy as np
+from numpy.typing import NDArray
+
+from kshm.chain.solve import solve_chunks
+from kshm.cycle.cycle import CycleRun
+from kshm.engine.engine import Engine
+from reports.inputs.fields import Field, Path, iter_fields, set_value, to_mapping
+from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.units import number_text
-from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.errors import InputError, KshmError, Problem, one_line
+from reports.studies.quantities import ChosenQuantities, of_batch
 
 MOST_POINTS = 10_000_000
 _EXAMPLE = "пример: --vary geometry.bore_mm=84:92:9"
@@ -48,11 +58,11 @@ class Plan:
         """Values of the axes in a combination, counted from 0."""
         if self.pairwise:
             return tuple(axis.values[number] for axis in self.axes)
-        found = []
+        values = []
         for axis in self.axes:
-            number, place = divmod(number, len(axis.values))
-            found.append(axis.values[place])
-        return tuple(found)
+            number, index = divmod(number, len(axis.values))
+            values.append(axis.values[index])
+        return tuple(values)
 
     def chunks(self, size: int) -> Iterator[list[tuple[float | int, ...]]]:
         """All combinations in order, so many at a time."""
@@ -135,3 +145,76 @@ def span_text(axis: Axis) -> str:
 
 def _wrong(text: str, what: str, hint: str) -> InputError:
     return InputError(Problem(f"--vary {one_line(text, 80)}", what, hint))
+
+
+Array = NDArray[np.float64]
+NOT_FINITE = "расчёт не дал конечного числа"
+
+
+@dataclass(frozen=True, slots=True)
+class SweepTask:
+    """A chunk of combinations with all that solving them needs, here or on another machine."""
+
+    raw: dict[str, Any]
+    source: str
+    paths: tuple[Path, ...]
+    wanted: ChosenQuantities
+    rows: list[tuple[float | int, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Combinations and their results; ``errors`` says why a row has none."""
+
+    rows: list[tuple[float | int, ...]]
+    values: dict[str, Array]
+    errors: list[str] = field(default_factory=list)
+
+
+def tasks(plan: Plan, wanted: ChosenQuantities, size: int) -> Any:  # noqa: ANN401
+    """The tasks of a plan in order, made as they are needed."""
+    paths = tuple(axis.path for axis in plan.axes)
+    return (SweepTask(plan.raw, plan.source, paths, wanted, rows) for rows in plan.chunks(size))
+
+
+def solved(task: SweepTask) -> Chunk:
+    """Every combination is checked like an input file; those that fail keep their reason."""
+    errors = [""] * len(task.rows)
+    engines, places = _engines(task, errors)
+    cycles = [cycle for _, cycle in engines]
+    values = {name: np.full(len(task.rows), np.nan) for name in task.wanted.names}
+    begin = 0
+    for raw in solve_chunks(engine for engine, _ in engines):
+        these = slice(begin, begin + len(raw.batch.engines))
+        begin, here = these.stop, places[these]
+        numbers_of, reasons = of_batch(raw, task.wanted, cycles[these])
+        for name, numbers in numbers_of.items():
+            values[name][here] = numbers
+        for row, reason in zip(here, reasons, strict=True):
+            errors[row] = reason
+    for row in places:
+        if not all(np.isfinite(each[row]) for each in values.values()):
+            errors[row] = errors[row] or NOT_FINITE
+    return Chunk(task.rows, values, errors)
+
+
+def _engines(
+    task: SweepTask, errors: list[str]
+) -> tuple[list[tuple[Engine, CycleRun | None]], list[int]]:
+    raw = copy.deepcopy(task.raw)
+    engines: list[tuple[Engine, CycleRun | None]] = []
+    places: list[int] = []
+    for number, row in enumerate(task.rows):
+        _put(raw, task.paths, row)
+        try:
+            engines.append(engine_and_cycle(load_mapping(raw, source=task.source).model))
+        except KshmError as error:
+            errors[number] = error.lines()[0]
+        else:
+            places.append(number)
+    return engines, places
+
+
+def _put(raw: dict[str, Any], paths: Sequence[Path], row: Sequence[float | int]) -> None:
+    for path, value in zip(paths, row, strict=True):
+        set_value(raw, path, value)

@@ -1,4 +1,4 @@
-"""What a parameter study gives for each combination: scalars, extremes and means of columns."""
+"""Quantities of a study: scalars, extremes and means of columns."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kshm.chain.result import ChainArrays
-from kshm.cycle.run import CycleRun
+from kshm.chain.solve import ChainArrays
+from kshm.cycle.cycle import CycleRun
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.nomenclature.quantity import quantity
-from kshm.results.extremes import first_extremes
+from kshm.results.case import first_extremes
 from kshm.results.forces import force_tables
 from kshm.results.loads import chain_scalars
 from kshm.results.solution import Solution, in_units
-from reports.inputs.solved import film_lost
+from reports.inputs.solve_input import film_lost
 from reports.shared.errors import InputError, Problem, one_line
 from reports.workbook.styles import excel_format
 
@@ -31,7 +31,7 @@ _DEFAULT_TABLES = ("P4_1", "P4_2", "P4_4", "P4_5")
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ChosenQuantities:
     """Scalars and ``table.column`` pairs; ``slow`` ones need every table of every engine."""
 
     scalars: tuple[str, ...]
@@ -45,19 +45,21 @@ class Wanted:
         return [*self.scalars, *pairs]
 
 
-def choose(base: ChainArrays, asked: Sequence[str], cycle: CycleRun | None = None) -> Wanted:
-    """What is asked for, or what the chain of forces gives for every engine at once.
+def choose(
+    base: ChainArrays, names: Sequence[str], cycle: CycleRun | None = None
+) -> ChosenQuantities:
+    """Choose quantities by name, by default the scalars of the chain.
 
     Args:
         base: the solved base, which tells what there is.
-        asked: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
+        names: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
         cycle: the calculation that the base's gas comes from.
 
     Raises:
         InputError: there is no such quantity.
     """
     quick_scalars, quick_tables = list(chain_scalars(base)), force_tables(base)
-    if not asked:
+    if not names:
         scalars = tuple(key for key in quick_scalars if not key.startswith(_HIDDEN))
         columns = tuple(
             (table, key)
@@ -65,7 +67,7 @@ def choose(base: ChainArrays, asked: Sequence[str], cycle: CycleRun | None = Non
             for key in quick_tables.get(table, ())
             if _summed_up(key)
         )
-        return Wanted(scalars, columns, slow=False)
+        return ChosenQuantities(scalars, columns, slow=False)
     solution = Solution(base.batch.engines[0], base, cycle=cycle)
     pairs = {
         f"{table}.{key}": (table, key)
@@ -76,7 +78,7 @@ def choose(base: ChainArrays, asked: Sequence[str], cycle: CycleRun | None = Non
     keys: list[str] = []
     chosen: list[tuple[str, str]] = []
     slow = False
-    for name in dict.fromkeys(asked):
+    for name in dict.fromkeys(names):
         if name in pairs:
             table, key = pairs[name]
             chosen.append((table, key))
@@ -86,7 +88,7 @@ def choose(base: ChainArrays, asked: Sequence[str], cycle: CycleRun | None = Non
             slow |= name not in quick_scalars
         else:
             raise _unknown(name, [*solution.scalars, *pairs])
-    return Wanted(tuple(keys), tuple(chosen), slow)
+    return ChosenQuantities(tuple(keys), tuple(chosen), slow)
 
 
 def _summed_up(key: str) -> bool:
@@ -101,7 +103,7 @@ def _unknown(name: str, known: list[str]) -> InputError:
 
 
 def of_batch(
-    raw: ChainArrays, wanted: Wanted, cycles: Sequence[CycleRun | None]
+    raw: ChainArrays, wanted: ChosenQuantities, cycles: Sequence[CycleRun | None]
 ) -> tuple[dict[str, Array], list[str]]:
     """Values of all engines of a batch in the units of the tables, by name, and why one has none.
 
@@ -122,8 +124,8 @@ def of_batch(
                 for name, number in one.items():
                     values[name][i] = number
         return values, reasons
-    found = chain_scalars(raw)
-    values = {key: found[key] / quantity(key).si for key in wanted.scalars}
+    scalars = chain_scalars(raw)
+    values = {key: scalars[key] / quantity(key).si for key in wanted.scalars}
     tables = force_tables(raw) if wanted.columns else {}
     for table, key in wanted.columns:
         columns = in_units({name: tables[table][name] for name in ("phi_deg", key)})
@@ -131,12 +133,12 @@ def of_batch(
     return values, reasons
 
 
-def _of_one(solution: Solution, wanted: Wanted) -> dict[str, float]:
+def _of_one(solution: Solution, wanted: ChosenQuantities) -> dict[str, float]:
     values = {key: solution.scalars[key] for key in wanted.scalars}
     for table, key in wanted.columns:
         columns = solution.columns[table]
-        found = _summary(table, key, columns[key][None], columns["phi_deg"])
-        values |= {name: float(numbers[0]) for name, numbers in found.items()}
+        summary = _summary(table, key, columns[key][None], columns["phi_deg"])
+        values |= {name: float(numbers[0]) for name, numbers in summary.items()}
     return values
 
 

@@ -7,17 +7,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from kshm.cycle.fuel import FUELS
-from kshm.cycle.heat import SPECIES, TEMPERATURE_PASSES
+from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
-from kshm.mechanics.pin_bearing import PLANES
-from kshm.mechanics.rod_masses import BORES, PISTON, ROD, STROKE_BORE, THROW
-from reports.inputs.checks.power import MOST
-from reports.inputs.sections.cycle import PUMPING, ROUNDINGS
-from reports.inputs.sections.gas import RoundedGasSection
+from kshm.mechanics.journals import PLANES
+from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
-from reports.inputs.to_si.gas import places
+from reports.inputs.solve_input import MOST_POWER_ERROR
+from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
 from reports.model.book_text import BookLine
@@ -106,7 +104,7 @@ def _summary(scope: Scope) -> dict[str, Any]:
     return {
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
-        "power_gap": MOST,
+        "power_gap": MOST_POWER_ERROR,
         **_surfaces(scope),
     }
 

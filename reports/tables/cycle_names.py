@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.gas import CycleSection
 from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
 
 # What the formulas of the indicator diagram call their parameters when the cycle gives them.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kshm.cycle.usual_ranges import usual_ranges
+from kshm.cycle.inputs import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
-from reports.inputs.sections.cycle import CycleSection
+from reports.inputs.sections.gas import CycleSection
 from reports.shared.russian import short
 from reports.tables.cycle_names import is_boosted
 
@@ -41,7 +41,7 @@ _RANGE_NAMES = {
 
 
 @dataclass(frozen=True, slots=True)
-class UsualRange:
+class CycleRange:
     """Limits [unit of the tables] of a scalar or an input, what they are of and from where."""
 
     name: str
@@ -51,7 +51,7 @@ class UsualRange:
     source: str
 
 
-def ranges_of(section: CycleSection) -> Iterator[UsualRange]:
+def ranges_of(section: CycleSection) -> Iterator[CycleRange]:
     """Usual ranges of a cycle of this kind."""
     titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
     titles |= {f"inputs.{q.key}": q for q in INPUTS}
@@ -61,4 +61,4 @@ def ranges_of(section: CycleSection) -> Iterator[UsualRange]:
         limits = f"{short(usual.low)}…{short(usual.high)}"
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {limits}"
         source = usual.reference or UNCHECKED
-        yield UsualRange(_RANGE_NAMES[key], usual.low, usual.high, note, source)
+        yield CycleRange(_RANGE_NAMES[key], usual.low, usual.high, note, source)

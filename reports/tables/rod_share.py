@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.engine.usual import SMALL_END_SHARE
+from kshm.engine.engine import SMALL_END_SHARE
 from reports.inputs.units import number_text
 
 USUAL_SHARE = f"доля массы шатуна на поршневом пальце {'…'.join(map(number_text, SMALL_END_SHARE))}"

@@ -25,7 +25,7 @@ _MODES = 3
 
 
 @dataclass(frozen=True, slots=True)
-class TrainMass:
+class TorsionMass:
     """A mass of the train: what it is, its throw from 1 or 0, diameter of the shaft behind [mm]."""
 
     label: str
@@ -38,7 +38,7 @@ class TrainMass:
 class TrainMasses:
     """Masses of a train from the nose; ``own`` says that they are given one by one."""
 
-    masses: tuple[TrainMass, ...]
+    masses: tuple[TorsionMass, ...]
     is_free: bool
     own: bool
 
@@ -109,7 +109,7 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
         for k, mass in enumerate(section.masses[:-1], 1)
     ]
     masses = (
-        TrainMass(
+        TorsionMass(
             mass.name or f"масса {k}", "given", int(mass.throw), diameters[min(k, count - 1) - 1]
         )
         for k, mass in enumerate(section.masses, 1)
@@ -123,15 +123,15 @@ def _equivalent(section: TorsionSection, scope: Scope) -> TrainMasses:
     last = scope.shape.throws
     rear = f"main_diameter_{last + 1}_mm"
     masses = [
-        TrainMass("шкив", "pulley", 0, "main_diameter_1_mm"),
+        TorsionMass("шкив", "pulley", 0, "main_diameter_1_mm"),
         *(
-            TrainMass(f"колено {k}", "throw", k, f"main_diameter_{k + 1}_mm")
+            TorsionMass(f"колено {k}", "throw", k, f"main_diameter_{k + 1}_mm")
             for k in scope.shape.throw_numbers
         ),
-        TrainMass("маховик", "flywheel", 0, rear),
+        TorsionMass("маховик", "flywheel", 0, rear),
     ]
     if section.driven_kg_m2 is not None:
-        masses.append(TrainMass("за маховиком", "driven", 0, rear))
+        masses.append(TorsionMass("за маховиком", "driven", 0, rear))
     return TrainMasses(tuple(masses), section.ground_nm_rad == 0, own=False)
 
 

@@ -1,1 +1,1 @@
-"""The page in the browser: a face of the commands, with no calculation of its own."""
+"""Web pages over the commands; no calculation of their own."""

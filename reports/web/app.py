@@ -1,4 +1,4 @@
-"""The pages and what they ask for."""
+"""Application: pages, static files, routes."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
-from reports.grading.issuing.ticket import SECRET, kept_secret
-from reports.inputs.described import Data
-from reports.inputs.sections.cycle import KINDS
+from reports.grading.issuing.register import SECRET, kept_secret
+from reports.inputs.form_fields import Data
+from reports.inputs.sections.gas import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
-from reports.shared.aside import processors
+from reports.shared.background import processors
 from reports.shared.errors import KshmError
 from reports.shared.files import private_dir
 from reports.shared.resources import resource_dir

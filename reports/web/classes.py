@@ -16,14 +16,12 @@ from starlette.requests import Request
 from starlette.routing import Route
 
 from reports.grading.batch.grade import PAGES
-from reports.grading.issuing.register import FILE, load_register
-from reports.grading.issuing.ticket import SECRET, kept_secret
-from reports.inputs.described import Data
+from reports.grading.issuing.register import FILE, SECRET, kept_secret, load_register
+from reports.inputs.form_fields import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
-from reports.web.doors import Rate, Shown, ask, body, caller, get, post, shown
-from reports.web.history import earlier
+from reports.web.doors import Rate, Shown, ask, body, caller, earlier, get, post, shown
 from reports.web.jobs import Queue
 
 _TEXTS, _ROSTER = ("base.toml", "rubric.toml"), "Список"
@@ -31,7 +29,7 @@ _SECRET = ("--secret", SECRET)
 
 
 def token_of(secret: bytes) -> str:
-    """What the instructor logs in with; the same as long as the server keeps its secret."""
+    """Instructor's token, derived from the server's secret."""
     return hmac.digest(secret, b"teacher", "sha256").hex()[:32]
 
 
@@ -46,7 +44,7 @@ class Classes(Queue):
         self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
 
     def routes(self) -> list[Route]:
-        """Doors of the instructor, all but the first behind the key, and of the students."""
+        """Routes of the instructor, behind the key but for the first, and of students."""
         return [
             post("/api/login", self._login),
             get("/api/teacher", self._listed),
@@ -78,9 +76,9 @@ class Classes(Queue):
         return self._find(name) if name else self.folder
 
     async def _listed(self, request: Request) -> Data:
-        found = [{"name": path.parent.name, **read_json(path)}
+        entries = [{"name": path.parent.name, **read_json(path)}
                  for path in self._inside(request).glob("*/about.json")]  # fmt: skip
-        return {"classes": sorted(found, key=lambda each: str(each.get("date")), reverse=True)}
+        return {"classes": sorted(entries, key=lambda each: str(each.get("date")), reverse=True)}
 
     async def _issue(self, request: Request) -> Data:
         folder, data = self._inside(request), await body(request)
@@ -127,7 +125,7 @@ class Classes(Queue):
     def _whole(self, request: Request) -> Shown:
         folder = self._inside(request)
         results, issued = folder / "results", folder / "issued"
-        made = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
+        files = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
         pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
         students = [
             {"name": book.student.full, "group": book.student.group,
@@ -138,8 +136,8 @@ class Classes(Queue):
         return Shown(
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
              "rows": read_json(results / "summary.json").get("rows", []),
-             "files": [*made], "graded": len(pages)},
-            {**made, **pages, "issued.zip": folder / "issued.zip"},
+             "files": [*files], "graded": len(pages)},
+            {**files, **pages, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip
 
@@ -156,13 +154,13 @@ class Classes(Queue):
         row: Data = next((row for row in rows if row["number"] == number), {})
         files = {"book": folder / "issued" / book.folder / book.file,
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
-        told = {
+        entry = {
             "title": about["title"], "student": book.student.full, "file": book.file,
             **_handed(work), "open": bool(row.get("page")),
             "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
-        told["handed"] = told["handed"] or bool(row.get("file"))
-        return Shown(told, files, {"work": work})
+        entry["handed"] = entry["handed"] or bool(row.get("file"))
+        return Shown(entry, files, {"work": work})
 
 
 def _handed(work: Path) -> Data:

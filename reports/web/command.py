@@ -1,4 +1,4 @@
-"""``kshm serve``: the page for those who have no terminal."""
+"""Command ``kshm serve``."""
 
 from __future__ import annotations
 
@@ -11,21 +11,27 @@ from urllib.parse import urlsplit
 
 import click
 
-from reports.commands.common import DONE, HELP, dask_option, path_option, verbose_option
-from reports.commands.words import RussianCommand
+from reports.commands.common import (
+    DONE,
+    HELP,
+    RussianCommand,
+    dask_option,
+    path_option,
+    verbose_option,
+)
 from reports.shared.doctor import need_packages
 from reports.shared.errors import KshmError
 from reports.shared.files import private_dir, reason
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
-@click.option("--port", type=click.IntRange(1, 65535), default=8321, show_default=True,
-              help="Порт.")  # fmt: skip
-@click.option("--host", default="127.0.0.1", show_default=True, metavar="NAME",
+@click.option("--port", type=click.IntRange(1, 65535), metavar="ЧИСЛО", default=8321,
+              show_default=True, help="Порт.")  # fmt: skip
+@click.option("--host", default="127.0.0.1", show_default=True, metavar="ИМЯ",
               help="Адрес, на котором ждать; 0.0.0.0 — вся сеть.")  # fmt: skip
-@path_option("--data", "folder", metavar="DIR", default=Path("kshm-data"),
+@path_option("--data", "folder", metavar="ПАПКА", default=Path("kshm-data"),
              help="Папка, где лежат файлы и группы (по умолчанию kshm-data).")  # fmt: skip
-@click.option("--public", metavar="URL", default="",
+@click.option("--public", metavar="АДРЕС", default="",
               help="Адрес за прокси, например https://kafedra.example/kshm.")  # fmt: skip
 @dask_option
 @verbose_option
@@ -42,7 +48,7 @@ def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> 
 
 @contextlib.contextmanager
 def _private() -> Iterator[None]:
-    """All that the server and its commands write is for its own account: rosters and works."""
+    """Set the umask to private: rosters and works are written."""
     before = os.umask(0o077)
     try:
         yield
@@ -52,7 +58,7 @@ def _private() -> Iterator[None]:
 
 def _served(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
     """Serve until somebody ends it."""
-    from reports.grading.issuing.ticket import SECRET, kept_secret
+    from reports.grading.issuing.register import SECRET, kept_secret
 
     private_dir(folder, SECRET)
     bound = _bound(host, port)
@@ -79,7 +85,7 @@ def _served(port: int, host: str, folder: Path, public: str, dask: str | None) -
 
 
 def _bound(host: str, port: int) -> socket.socket:
-    """A socket at an address, or a line that says why there is none."""
+    """Bind a socket; KshmError in one line if it fails."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     try:
         return socket.create_server((host, port), family=family, dualstack_ipv6=":" in host)

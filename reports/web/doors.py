@@ -1,4 +1,4 @@
-"""Every door: what is let in, read within bounds, asked, handed out and refused."""
+"""Routes: guards, bounded bodies, rate limits, answers and refusals."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import asyncio
 import contextlib
 import io
 import json
+import shutil
 import tempfile
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import asdict, dataclass, field
+from datetime import datetime
 from functools import partial
 from ipaddress import ip_address
 from pathlib import Path
@@ -26,11 +28,35 @@ from starlette.types import ASGIApp
 
 from reports.grading.pages.moodle import check_upload
 from reports.grading.reading.selfcheck import refuse_foreign, remarks
-from reports.inputs.described import Data
+from reports.inputs.form_fields import Data
 from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.files import make_dir
 from reports.shared.workers import Died, NeverStarted
 from reports.web import engine
-from reports.web.history import keep_earlier
+
+_FOLDER = "earlier"
+_MOST = 20  # of one student: thirty megabytes each
+
+
+def keep_earlier(work: Path, coming: Path) -> None:
+    """Copy a work that counts aside before ``coming`` takes its place; the same file once."""
+    if not work.exists() or work.read_bytes() == coming.read_bytes():
+        return
+    make_dir(_folder(work))
+    when = datetime.fromtimestamp(work.stat().st_mtime)
+    shutil.copy2(work, _folder(work) / f"{when:%Y-%m-%d %H-%M-%S-%f}{work.suffix}")
+    for old in earlier(work)[:-_MOST]:
+        old.unlink(missing_ok=True)
+
+
+def earlier(work: Path) -> list[Path]:
+    """Works of the same student that have counted before, the first first."""
+    return sorted(_folder(work).glob(f"*{work.suffix}"))
+
+
+def _folder(work: Path) -> Path:
+    return work.parent / _FOLDER / work.stem
+
 
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
@@ -71,7 +97,7 @@ class Settings:
 
 
 class Rate:
-    """So many requests of one address in so many seconds, counted anew after them."""
+    """Rate limit of an address in a fixed window."""
 
     def __init__(self, most: float, seconds: float) -> None:
         self.most, self.seconds = most, seconds
@@ -86,7 +112,7 @@ class Rate:
 
 
 class Guard(BaseHTTPMiddleware):
-    """Lets through what a person's own page may ask for; every answer has headers of safety."""
+    """Check host, origin and rate; add security headers."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         super().__init__(app)
@@ -124,7 +150,7 @@ class Guard(BaseHTTPMiddleware):
         return None
 
     def _known(self, host: str) -> bool:
-        """Whether a host is ours; a bare address, unlike a name, cannot be made to lead here."""
+        """Whether a host is allowed: bare addresses cannot be rebound by DNS."""
         with contextlib.suppress(ValueError):
             name = urlsplit(f"//{host}").hostname or ""
             return name in self.hosts or ("*" in self.hosts and bool(ip_address(name)))
@@ -137,7 +163,7 @@ def caller(request: Request) -> str:
 
 
 def refusal(code: int, why: KshmError | str) -> JSONResponse:
-    """An answer that says why not, a line for each problem, never a traceback."""
+    """Error response with one line a problem."""
     error = KshmError(why) if isinstance(why, str) else why
     return JSONResponse({"errors": [asdict(problem) for problem in error.problems]}, code)
 
@@ -153,11 +179,11 @@ async def failed(_: Request, error: Exception) -> Response:
 
 
 def route(method: str, path: str, door: Door, *given: Any) -> Route:  # noqa: ANN401
-    """A door at a path, which takes a request and what is given; its plain data go as JSON."""
+    """Route that passes a request and given values to a handler; data go as JSON."""
 
     async def answer(request: Request) -> Response:
-        found = await door(request, *given)
-        return found if isinstance(found, Response) else JSONResponse(found or {})
+        answer_body = await door(request, *given)
+        return answer_body if isinstance(answer_body, Response) else JSONResponse(answer_body or {})
 
     return Route(path, answer, methods=[method])
 
@@ -168,14 +194,14 @@ get, post = partial(route, "GET"), partial(route, "POST")
 async def ask(
     request: Request, function: Callable[..., Data], *values: object, seconds: float = ANSWER_S
 ) -> Data:
-    """A function's answer from a solving process; HTTPException if there was none in time."""
-    asked = request.app.state.workers.ask(function, *values, seconds=seconds)
+    """Answer of a worker process; HTTPException after the time limit."""
+    future = request.app.state.workers.ask(function, *values, seconds=seconds)
     try:
-        found: Data = await asyncio.wait_for(asyncio.wrap_future(asked), WAIT_S + seconds)
+        reply: Data = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_S + seconds)
     except (TimeoutError, Died, NeverStarted):
         what = "сервер занят или данные не считаются за отведённое время; повторите"
         raise HTTPException(503, what) from None
-    return found
+    return reply
 
 
 async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -> None:
@@ -191,14 +217,14 @@ async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -
 
 async def body(request: Request) -> Data:
     """The JSON object of a request; InputError if it is none."""
-    found: Any = None
+    content: Any = None
     stream = io.BytesIO()
     await _read(request, stream, MOST_JSON, request.app.state.settings.body_s)
     with contextlib.suppress(ValueError, RecursionError):
-        found = json.loads(stream.getvalue(), parse_constant=int)  # no NaN
-    if not isinstance(found, dict):
+        content = json.loads(stream.getvalue(), parse_constant=int)  # no NaN
+    if not isinstance(content, dict):
         raise InputError(Problem("", "запрос не читается", "обновите страницу"))
-    return found
+    return content
 
 
 @contextlib.asynccontextmanager
@@ -212,7 +238,7 @@ async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -
 
 
 async def asked(request: Request, function: Callable[..., Data], *keys: str) -> Response | Data:
-    """A question to the solving processes: values of these keys of a request, or all of it."""
+    """Handler that asks a worker with values of these keys, or the whole body."""
     data = await body(request)
     try:
         return await ask(request, function, *([data.get(key) for key in keys] or [data]))
@@ -221,7 +247,7 @@ async def asked(request: Request, function: Callable[..., Data], *keys: str) -> 
 
 
 async def book(request: Request) -> Data:
-    """The input that an edited workbook holds, read by a solving process."""
+    """Read the input of an edited workbook in a worker."""
     async with uploaded(request, MOST_BOOK) as path:
         return await ask(request, engine.read_book, str(path), seconds=BOOK_S)
 
@@ -238,7 +264,7 @@ class Shown:
 def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -> list[Route]:
     """Doors of things that ``find`` finds; HTTPException where there is no such file."""
 
-    async def told(request: Request) -> Data:
+    async def data(request: Request) -> Data:
         return find(request).told
 
     async def given(request: Request) -> Response:
@@ -250,20 +276,20 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
 
     async def taken(request: Request) -> Data:
-        found = find(request)
-        if (place := found.takes.get(request.path_params["file"])) is None:
+        job = find(request)
+        if (place := job.takes.get(request.path_params["file"])) is None:
             raise HTTPException(404, "такого файла здесь не ждут")
-        is_book, told = place.suffix == ".xlsx", Data()
+        is_book, data = place.suffix == ".xlsx", Data()
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
-                    own = str(found.gives["book"])
+                    own = str(job.gives["book"])
                     await ask(request, refuse_foreign, str(file), own)
-                    told = await ask(request, remarks, str(file), own)
+                    data = await ask(request, remarks, str(file), own)
                 keep_earlier(place, file)
             else:
                 check_upload(file, place.suffix)
             file.replace(place)
-        return told
+        return data
 
-    return [get(path, told), get(f"{path}{files}", given), post(f"{path}{files}", taken)]
+    return [get(path, data), get(f"{path}{files}", given), post(f"{path}{files}", taken)]

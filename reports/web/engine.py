@@ -1,4 +1,4 @@
-"""What the page of an engine asks for, as plain data, in processes of their own."""
+"""Answers for the engine page as plain data, computed in workers."""
 
 from __future__ import annotations
 
@@ -10,18 +10,17 @@ from typing import Any
 
 import click
 
+from reports.commands.common import error_text
 from reports.commands.engine import new
-from reports.commands.own import new_text
-from reports.commands.words import error_text
+from reports.commands.new_engine import new_text
 from reports.exports import live
-from reports.inputs.described import Data, absent, groups, without_foreign
 from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_apart, parsed
-from reports.inputs.own_engine import Made
-from reports.inputs.own_file import file_text
+from reports.inputs.form_fields import Data, absent, groups, without_foreign
+from reports.inputs.load import load_remote, parsed
+from reports.inputs.normalise import normalise
 from reports.inputs.ranges import split_ranges
-from reports.inputs.solved import solved
-from reports.inputs.understood import understood
+from reports.inputs.solve_input import solved
+from reports.new.generate import NewEngine, file_text
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
 from reports.workbook.read import load_workbook_input
@@ -52,22 +51,22 @@ def start(raw: Mapping[str, Any]) -> Data:
 
     What is wrong with its values stands among the errors; the fields are shown all the same.
     """
-    plain = without_foreign(understood(raw))
-    found: Data = {"errors": []}
+    plain = without_foreign(normalise(raw))
+    state: Data = {"errors": []}
     try:
-        model = load_apart(plain).model
+        model = load_remote(plain).model
         plain, sheets = to_mapping(model), dict[str, str]()
         for chart in kept_model(model).charts:
             sheets.setdefault(chart.sheet, chart.title)
-        found["sheets"] = list(sheets.items())
+        state["sheets"] = list(sheets.items())
     except InputError as error:
-        found["errors"] = [asdict(problem) for problem in error.problems]
-    return {**found, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
+        state["errors"] = [asdict(problem) for problem in error.problems]
+    return {**state, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
 
 
 def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data:
     """Numbers of an engine, the charts of a sheet, what moves; without a sheet the checks alone."""
-    loaded = load_apart(raw)
+    loaded = load_remote(raw)
     model, solution = kept_model(loaded.model), solved(loaded.model)
     if sheet is None:  # the checks take longer
         return live.checks(model)
@@ -81,7 +80,7 @@ def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data
 
 def as_toml(raw: Mapping[str, Any]) -> Data:
     """The commented file of an input."""
-    return {"text": file_text(Made(to_mapping(load_apart(raw).model), {}, HEAD))}
+    return {"text": file_text(NewEngine(to_mapping(load_remote(raw).model), {}, HEAD))}
 
 
 def fresh(wanted: Mapping[str, Any]) -> Data:
@@ -90,7 +89,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
     if "sample" not in wanted:
         given["cylinders"] = repr(wanted.get("cylinders"))
     options = [f"--{key}={value}" for key, value in given.items()]
-    base = ("исходном двигателе", lambda: load_apart(wanted["raw"]).model)
+    base = ("исходном двигателе", lambda: load_remote(wanted["raw"]).model)
     try:
         params = new.make_context("new", options).params
         del params["output"]
@@ -112,6 +111,6 @@ def _of_page(words: str) -> str:
 
 
 def ready() -> Callable[..., Data]:
-    """What answers in a process: any function, all imported and solved once before."""
+    """Prepare a worker: import everything, solve once; return the caller."""
     answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")
     return operator.call

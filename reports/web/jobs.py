@@ -1,4 +1,4 @@
-"""Commands that run in processes of their own, in queues that stand on the disk; files they make.
+"""Commands run in subprocesses with limits, queued on disk; the files they make.
 
 A job is a folder.  Its ``order.json`` stands from the beginning, ``done.json`` at the end; what
 has the first alone when the server starts is done again.
@@ -12,6 +12,8 @@ import hmac
 import json
 import os
 import shutil
+import signal
+import sys
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping, Sequence
@@ -22,14 +24,76 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.routing import Route
 
-from reports.commands.apart import failed, run
-from reports.inputs.described import Data
+from reports.inputs.form_fields import Data
 from reports.inputs.sections.report import FORMATS
-from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
-from reports.shared.program import program
+from reports.shared.resources import source_digest
 from reports.web import engine
 from reports.web.doors import Shown, ask, body, caller, post, shown
+
+_LINES = 40  # of what a command said
+# The command with little memory, which ends with a server that is killed; who waits for a number
+# comes before who waits for a file.
+_KSHM = """
+import ctypes, os, sys
+server = int(sys.argv.pop(1))
+if sys.platform == "linux":
+    ctypes.CDLL(None).prctl(1, 9)
+    if os.getppid() != server:  # it had gone before; in Windows a launcher stands between the two
+        sys.exit("server is gone")
+from reports.shared.workers import limit_memory
+from reports.__main__ import start
+limit_memory(3 * 2**30)
+getattr(os, "nice", abs)(5)
+start()
+"""
+_SYSTEM = (
+    "PATH", "HOME", "LANG", "LC_ALL", "TMPDIR", "PYTHONPATH", "FONTCONFIG_PATH", "FONTCONFIG_FILE",
+    "XDG_CACHE_HOME",
+    # Windows: where programs, fonts, settings, temporary files and the parts of WeasyPrint are
+    "SYSTEMROOT", "WINDIR", "USERPROFILE", "LOCALAPPDATA", "TEMP", "WEASYPRINT_DLL_DIRECTORIES",
+)  # fmt: skip
+
+
+def failed(why: str) -> dict[str, Any]:
+    """How a command ended that could not be done."""
+    return {"state": "failed", "lines": [why]}
+
+
+async def run(arguments: Sequence[str], folder: Path, timeout_s: float) -> dict[str, Any]:
+    """Run a command of kshm in a folder with limits; kill its process group at the end.
+
+    Returns:
+        Whether it is done or failed, and what it said.
+    """
+    kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
+    home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
+    kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
+    kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", _KSHM, str(os.getpid()), *arguments, cwd=folder, env=kept,
+        start_new_session=True, stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
+    )  # fmt: skip
+    try:
+        _, said = await asyncio.wait_for(process.communicate(), timeout_s)
+    except TimeoutError:
+        return failed(f"не сделано за {timeout_s:.0f} с: уменьшите расчёт")
+    finally:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL) if hasattr(os, "killpg") else process.kill()
+        with contextlib.suppress(asyncio.CancelledError):
+            await process.wait()
+    code = process.returncode or 0
+    if code < 0:
+        return failed("процесс прерван: повторите")
+    lines = said.decode("utf-8", "replace").replace(f"{folder}{os.sep}", "").splitlines()
+    return {
+        "state": "done" if code in (0, 1) else "failed",
+        "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],
+    }
+
 
 Texts = Mapping[str, str]  # of files by name
 MOST_WAITING, MOST_OWN = 500, 6
@@ -64,7 +128,7 @@ class Queue:
 
     @contextlib.asynccontextmanager
     async def working(self) -> AsyncIterator[None]:
-        """Take up what an earlier server has left; what runs at the end is left to the next."""
+        """Resume queued jobs of an earlier server; leave running ones to the next server."""
         make_dir(self.folder)
         left = [path for path in self.folder.glob("*/order.json")
                 if not path.with_name("done.json").exists()]  # fmt: skip
@@ -122,9 +186,9 @@ class Queue:
     async def _make(self, folder: Path) -> dict[str, Any]:
         command = read_json(folder / "order.json").get("command", ())
         done = await run(command, folder, self.timeout_s)
-        target, place, pattern = self.pack
-        files = {path.relative_to(folder / place).as_posix(): path
-                 for path in sorted((folder / place).glob(pattern))}  # fmt: skip
+        target, into, pattern = self.pack
+        files = {path.relative_to(folder / into).as_posix(): path
+                 for path in sorted((folder / into).glob(pattern))}  # fmt: skip
         if files:
             await asyncio.to_thread(write_zip, folder / target, files)
         return done
@@ -141,7 +205,7 @@ class Jobs(Queue):
 
     def add(self, files: Texts, command: Sequence[str], visitor: str) -> str:
         """The name of a job: a command beside files; InputError where enough jobs wait already."""
-        text = json.dumps([files, command, program()], ensure_ascii=False, sort_keys=True)
+        text = json.dumps([files, command, source_digest()], ensure_ascii=False, sort_keys=True)
         name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
         if state == "done":
@@ -167,7 +231,7 @@ class Jobs(Queue):
                 shutil.rmtree(path.parent, ignore_errors=True)
 
     def routes(self) -> list[Route]:
-        """Doors at which files are ordered, asked after and taken."""
+        """Routes to order, poll and download files."""
         return [post("/api/files", self._ordered), *shown("/api/files/{name}", self._made)]
 
     async def _ordered(self, request: Request) -> Data:
@@ -187,6 +251,6 @@ class Jobs(Queue):
         name = request.path_params["name"]
         if not (about := self.about(name)):
             raise HTTPException(404, "нет такого файла; закажите заново")
-        made = sorted((self.folder / name / "out").glob("[!.]*"))
-        sizes = [{"name": path.name, "size": path.stat().st_size} for path in made]
-        return Shown({**about, "files": sizes}, {path.name: path for path in made})
+        files = sorted((self.folder / name / "out").glob("[!.]*"))
+        sizes = [{"name": path.name, "size": path.stat().st_size} for path in files]
+        return Shown({**about, "files": sizes}, {path.name: path for path in files})

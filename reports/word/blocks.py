@@ -3,26 +3,182 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from reports.document.page.style import Style
-from reports.word import omml, tables
+from reports.word import omml
 from reports.word.inline import Lines, letter_name
 from reports.word.markup import (
     Element,
+    Rectangle,
     bookmark_name,
     field,
     paragraph,
+    rectangle,
     run,
     twips,
     w,
 )
 from reports.word.pictures import Pictures
-from reports.word.shapes import Place, rectangle
+from reports.word.styles import cell_style
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
+
+_WIDTH = re.compile(r"width:([\d.]+)(%|mm|px)")
+CONTINUED_MM = 6.5  # height of the row «Продолжение таблицы»
+_SHORT = 6  # rows of a table that stay together anyhow
+_RULES = {"top": "single", "bottom": "single"}
+
+
+def table_of(
+    lines: Lines, source: HtmlElement, width: int, continued: Sequence[Element] = ()
+) -> Element:
+    """A data table.
+
+    Args:
+        lines: what writes the content of cells.
+        source: the ``table`` of the page.
+        width: its width [twips].
+        continued: «Продолжение таблицы N», which stands above its heading on later sheets; on
+            the first one the caption covers it.
+    """
+    names = source.get("class", "").split()
+    size = next((name for name in ("dense", "tiny") if name in names), "")
+    style = "ReportTableLined" if "lined" in names else "ReportTable"
+    widths = _shares(source, width)
+    heads = [row for row in source.iterfind("thead/tr") if row.get("class") != "gap"]
+    rows = source.findall("tbody/tr")
+    keep = "keep" in names
+    table = frame_of(style, widths)
+    if continued:
+        table.append(_continued(continued, widths))
+    for row in heads:
+        table.append(_row(lines, row, widths, size, head=True, keep=True))
+    for number, row in enumerate(rows):
+        follows = number + 1 < len(rows) and "ba" in rows[number + 1].get("class", "").split()
+        stays = (keep and number + 1 < len(rows)) or "aa" in row.get("class", "") or follows
+        table.append(_row(lines, row, widths, size, keep=stays))
+    return table
+
+
+def frame_of(style: str, widths: Sequence[int], indent: int = 0) -> Element:
+    """A table of fixed widths without rows [twips]."""
+    about = w("tblPr", w("tblStyle", val=style), w("tblW", w=sum(widths), type="dxa"),
+              *([w("tblInd", w=indent, type="dxa")] if indent else []),
+              w("tblLayout", type="fixed"), w("tblLook", val="0000"))  # fmt: skip
+    return w("tbl", about, w("tblGrid", *(w("gridCol", w=width) for width in widths)))
+
+
+def table_cell(
+    width: int, content: Sequence[Element], *more: Element, middle: bool = True
+) -> Element:
+    """A cell with its paragraphs; ``more`` are further properties in the schema's order."""
+    about = w("tcPr", w("tcW", w=width, type="dxa"), *more)
+    if middle:
+        about.append(w("vAlign", val="center"))
+    return w("tc", about, *content)
+
+
+def _continued(words: Sequence[Element], widths: Sequence[int]) -> Element:
+    """A row of the heading without rules."""
+    bare = w("tcBorders", *(w(side, val="nil") for side in ("top", "left", "right")))
+    about = w("trPr", w("cantSplit"), w("trHeight", val=twips(CONTINUED_MM), hRule="exact"),
+              w("tblHeader"))  # fmt: skip
+    content = paragraph("TableContinued", words, w("keepNext"))
+    across = w("gridSpan", val=len(widths))
+    return w("tr", about, table_cell(sum(widths), [content], across, bare))
+
+
+def may_break(source: HtmlElement) -> bool:
+    """Whether a table is long enough to go on over the end of a sheet."""
+    kept = "keep" in source.get("class", "").split()
+    return not kept and len(source.findall("tbody/tr")) > _SHORT
+
+
+def _row(
+    lines: Lines, row: HtmlElement, widths: Sequence[int], size: str,
+    *, keep: bool, head: bool = False,
+) -> Element:  # fmt: skip
+    about = w("trPr", w("cantSplit"), *([w("tblHeader")] if head else []))
+    row_element = w("tr", about)
+    for source, width in zip(row, widths, strict=True):
+        text = source.get("class") == "t"
+        more = [w("keepNext")] if keep else []
+        content = paragraph(cell_style(size, text=text), lines.runs(source), *more)
+        rules = [w("tcBorders", *(w(side, val=kind, sz=4, space=0, color="auto")
+                                  for side, kind in _RULES.items()))] if head else []  # fmt: skip
+        row_element.append(table_cell(width, [content], *rules))
+    return row_element
+
+
+def _shares(source: HtmlElement, width: int) -> list[int]:
+    """Widths of the columns [twips]."""
+    shares = [float(_found(column)[1]) for column in source.iterfind("colgroup/col")]
+    return [round(width * share / sum(shares)) for share in shares]
+
+
+def _found(column: HtmlElement) -> re.Match[str]:
+    match = _WIDTH.search(column.get("style", ""))
+    if match is None:
+        msg = "a column of a table has no width"
+        raise ValueError(msg)
+    return match
+
+
+def stamp_table(lines: Lines, source: HtmlElement, indent: int) -> Element:
+    """A title block by ГОСТ 2.104: widths in millimetres, cells over several rows and columns.
+
+    Args:
+        lines: what writes the content of cells.
+        source: the ``table`` of the page.
+        indent: where it begins, from the left margin [twips].
+    """
+    widths = [twips(float(_found(column)[1])) for column in source.iterfind("colgroup/col")]
+    table = frame_of("ReportTableLined", widths, indent)
+    open_down: dict[int, tuple[int, int]] = {}  # column: rows still covered, width in columns
+    for row in source.iter("tr"):
+        height = w("trPr", w("trHeight", val=twips(5), hRule="exact"))
+        table.append(w("tr", height, *_stamp_cells(lines, row, widths, open_down)))
+    return table
+
+
+def _stamp_cells(
+    lines: Lines, row: HtmlElement, widths: Sequence[int], open_down: dict[int, tuple[int, int]]
+) -> Iterator[Element]:
+    column = 0
+    waiting = list(row)
+    while column < len(widths):
+        left, span = open_down.get(column, (0, 0))
+        if left:
+            open_down[column] = (left - 1, span)
+            merged = [w("vMerge")]
+            content = [paragraph("Stamp")]
+        else:
+            source = waiting.pop(0)
+            span, rows = int(source.get("colspan", "1")), int(source.get("rowspan", "1"))
+            open_down[column] = (rows - 1, span)
+            merged = [w("vMerge", val="restart")] if rows > 1 else []
+            jc = [w("jc", val="left")] if source.get("class") == "l" else []
+            content = [paragraph("Stamp", _sized(lines.runs(source), source), *jc)]
+        across = [w("gridSpan", val=span)] if span > 1 else []
+        yield table_cell(sum(widths[column : column + span]), content, *across, *merged)
+        column += span
+
+
+def _sized(runs: list[Element], source: HtmlElement) -> list[Element]:
+    """Runs in the type size of their cell."""
+    match = re.search(r"font-size:([\d.]+)pt", source.get("style", ""))
+    for piece in runs if match else []:
+        about = piece.find(f"{{{piece.nsmap['w']}}}rPr")
+        if about is None:
+            about = w("rPr")
+            piece.insert(0, about)
+        points = round(2 * float(match[1])) if match else 0
+        about.extend([w("sz", val=points), w("szCs", val=points)])
+    return runs
+
 
 # Paragraph styles of the elements of the page by class, and of sections by what they hold.
 _DIVS = {"kind": "CoverKind", "title": "Title", "people": "CoverPeople", "approve": "TaskApprove",
@@ -48,11 +204,11 @@ class Blocks:
         """Elements as blocks; formulas that follow one another share a table."""
         out: list[Element] = []
         for element in elements:
-            for made in self._block(element, usual):
-                if _is_formula(made) and out and _is_formula(out[-1]):
-                    out[-1].append(made[-1])
+            for block in self._block(element, usual):
+                if _is_formula(block) and out and _is_formula(out[-1]):
+                    out[-1].append(block[-1])
                 else:
-                    out.append(made)
+                    out.append(block)
         return out
 
     def _block(self, element: HtmlElement, usual: str) -> Iterator[Element]:
@@ -68,7 +224,7 @@ class Blocks:
             yield from self._figure(element)
         elif tag == "table":
             words, self._continued = self._continued, []
-            yield tables.table(self.lines, element, self.width, words)
+            yield table_of(self.lines, element, self.width, words)
             yield paragraph("AfterTable")
         elif tag in ("ul", "ol"):
             style = "Source" if "sources" in names else "ListBullet"
@@ -119,13 +275,13 @@ class Blocks:
     def _appendix(self, element: HtmlElement) -> list[Element]:
         """«Приложение А» with its letter as a bookmark: the tables' numbers show it."""
         name, title = ("".join(span.itertext()) for span in element.iterfind("span"))
-        found = _APPENDIX.match(name)
+        match = _APPENDIX.match(name)
         caps = frozenset({"caps"})
-        if found is None:
+        if match is None:
             return [run(f"{name}\n", caps), run(title)]
-        self.lines.letters.add(found[2])
-        letter = self.lines.bookmarks.around(letter_name(found[2]), [run(found[2], caps)])
-        return [run(found[1], caps), *letter, run(f"\n{title}")]
+        self.lines.letters.add(match[2])
+        letter = self.lines.bookmarks.around(letter_name(match[2]), [run(match[2], caps)])
+        return [run(match[1], caps), *letter, run(f"\n{title}")]
 
     def _figure(self, element: HtmlElement) -> Iterator[Element]:
         for image in element.iterfind(".//img"):
@@ -142,7 +298,7 @@ class Blocks:
         else:
             content = [run(element.text or ""), *self._number(number)]
         source = element.getnext().find("table")
-        if self.style.table_continuation and tables.may_break(source):
+        if self.style.table_continuation and may_break(source):
             self._continued = [run("Продолжение таблицы "), *self._number(number)]
             self._covers += 1
             content.append(w("r", w("drawing", self._cover())))
@@ -152,30 +308,30 @@ class Blocks:
         return field(f"REF {self._table} \\h", shown)
 
     def _cover(self) -> Element:
-        """White over the first row of a table on the sheet where it begins."""
+        """White rectangle over a table's continuation row on its first sheet."""
         line = self.style.font_size_pt * 1.3 * 1.15 * 25.4 / 72  # the face is 1.15 em high
-        place = Place("margin", -1.0, "line", line + 0.2, self.style.width_mm + 2.0,
-                      tables.CONTINUED_MM + 0.2)  # fmt: skip
-        return rectangle(place, 1000 + self._covers, "Начало таблицы", line=False)
+        area = Rectangle("margin", -1.0, "line", line + 0.2, self.style.width_mm + 2.0,
+                      CONTINUED_MM + 0.2)  # fmt: skip
+        return rectangle(area, 1000 + self._covers, "Начало таблицы", line=False)
 
     def _formula(self, element: HtmlElement) -> Iterator[Element]:
         """A displayed formula line by line; a numbered one in a row without rules."""
         end = "".join(element.find("span").itertext()).strip()
         sources = [s.get("data-tex") for s in element.iter("span") if s.get("data-tex")]
-        made = [
+        lines = [
             paragraph("Formula", [omml.displayed(tex, end if tex is sources[-1] else "")])
             for tex in sources
         ]
         number = element.find("span[@class='n']")
         if number is None:
-            yield from made
+            yield from lines
             return
         widths = [round(self.width * share) for share in _BESIDE]
         numbered = paragraph("FormulaNumber", self.lines.runs(number))
         row = w("tr", w("trPr", w("cantSplit")))
-        for width, content in zip(widths, ([paragraph("Formula")], made, [numbered]), strict=True):
-            row.append(tables.cell(width, content))
-        table = tables.frame_of("FormulaTable", widths)
+        for width, content in zip(widths, ([paragraph("Formula")], lines, [numbered]), strict=True):
+            row.append(table_cell(width, content))
+        table = frame_of("FormulaTable", widths)
         table.append(row)
         yield table
 
@@ -192,16 +348,16 @@ class Blocks:
             yield paragraph("FrontHeading", self.lines.runs(title))
         items = element.findall(".//li")
         begin, words, separate, _, end = field('TOC \\o "1-3" \\h \\z \\u', "")
-        for place, item in enumerate(items):
+        for number, item in enumerate(items):
             link = item.find("a")
             anchor = link.get("href", "")[1:]
             target = bookmark_name(anchor)
             line = [run("".join(link.itertext())), run("\t"),
                     *field(f"PAGEREF {target} \\h", page_of.get(anchor, ""))]  # fmt: skip
             content = [w("hyperlink", *line, anchor=target, history=1)]
-            if not place:
+            if not number:
                 content = [begin, words, separate, *content]
-            if place == len(items) - 1:
+            if number == len(items) - 1:
                 content.append(end)
             yield paragraph(f"TOC{item.get('class', 'l1')[1]}", content)
 

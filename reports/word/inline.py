@@ -1,19 +1,68 @@
-"""What stands in a line: letters, indices, references, numbers that renew themselves."""
+"""Inline content: letters, indices, references, fields."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from reports.shared.russian import NBSP
-from reports.word import omml, totals
+from reports.word import omml
 from reports.word.markup import SEQUENCES, Bookmarks, Element, W, bookmark_name, run
 from reports.word.markup import field as word_field
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
+
+COUNT_MARK = "{kshm}count"  # on a run that shows how many there are: their kind
+_INSTRUCTION = f"{{{W}}}instrText"
+_KIND = f"{{{W}}}fldCharType"
+
+
+def count_totals(body: Element, bookmarks: Bookmarks) -> None:
+    """Replace marked runs by counting fields where the field gives the same number."""
+    last: dict[str, tuple[str, Element, Element]] = {}  # name: number shown, first and last run
+    for words in body.iter(_INSTRUCTION):
+        parts = (words.text or "").split()
+        if parts[0] == "SEQ":
+            runs = _runs(words)
+            shown = "".join(map(_text, runs))
+            last[parts[1]] = (shown, runs[0], runs[-1])
+    for mark in [mark for mark in body.iter(f"{{{W}}}r") if mark.get(COUNT_MARK)]:
+        short, shown = mark.attrib.pop(COUNT_MARK), _text(mark)
+        kind = SEQUENCES[short]
+        sequences = [name for name in last if name == kind or name.startswith(f"{kind}_")]
+        if not sequences or sum(int(last[name][0]) for name in sequences) != int(shown):
+            continue
+        names = [f"last_{short}{index}" for index in range(len(sequences))]
+        for bookmark, name in zip(names, sequences, strict=True):
+            _, first, end = last[name]
+            start, stop = bookmarks.around(bookmark, [])
+            first.addprevious(start)
+            end.addnext(stop)
+        # A formula takes the numbers in bookmarks by their names.
+        counted = f"REF {names[0]} \\h" if len(names) == 1 else f"= {' + '.join(names)}"
+        begin, words, separate, _, stop = word_field(counted, "")
+        for element in (begin, words, separate, deepcopy(mark), stop):
+            mark.addprevious(element)
+        mark.getparent().remove(mark)
+
+
+def _text(run: Element) -> str:
+    return "".join(text.text or "" for text in run.iter(f"{{{W}}}t"))
+
+
+def _runs(words: Element) -> list[Element]:
+    """The runs of a field from its beginning to its end."""
+    parent = words.getparent()
+    begin = parent.getprevious()
+    runs = [begin]
+    while not any(c.get(_KIND) == "end" for c in runs[-1]):
+        runs.append(runs[-1].getnext())
+    return runs
+
 
 Looks = frozenset[str]
 _TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
@@ -34,19 +83,19 @@ class Lines:
 
     def runs(self, element: HtmlElement, looks: Looks = frozenset()) -> list[Element]:
         """The content of an element as runs, without blanks at its ends."""
-        made = self._inside(element, looks)
-        texts = [part for piece in made for part in piece.iter(*_TEXTS)]
+        pieces = self._inside(element, looks)
+        texts = [part for piece in pieces for part in piece.iter(*_TEXTS)]
         if texts:
             texts[0].text = (texts[0].text or "").lstrip(" ")
             texts[-1].text = (texts[-1].text or "").rstrip(" ")
-        return made
+        return pieces
 
     def _inside(self, element: HtmlElement, looks: Looks) -> list[Element]:
-        made = self._text(element.text, looks)
+        pieces = self._text(element.text, looks)
         for child in element:
-            made += self._child(child, looks)
-            made += self._text(child.tail, looks)
-        return made
+            pieces += self._child(child, looks)
+            pieces += self._text(child.tail, looks)
+        return pieces
 
     @staticmethod
     def _text(text: str | None, looks: Looks) -> list[Element]:
@@ -87,9 +136,9 @@ class Lines:
         if name == "sheets":
             return word_field("NUMPAGES", str(self.pages or 1), looks)
         if name == "count":
-            made = self._inside(child, looks)
-            made[0].set(totals.MARK, child.get("data-kind", ""))
-            return made
+            pieces = self._inside(child, looks)
+            pieces[0].set(COUNT_MARK, child.get("data-kind", ""))
+            return pieces
         if name == "bar":
             return [omml.barred("".join(child.itertext()))]
         if name == "g":
@@ -101,14 +150,14 @@ class Lines:
         anchor = next((a.get("id") for a in element.iterancestors() if a.get("id")), "")
         shown = (element.text or "").strip()
         kind = SEQUENCES.get(anchor.partition("-")[0])
-        found = _NUMBER.fullmatch(shown)
-        if kind is None or found is None:
+        match = _NUMBER.fullmatch(shown)
+        if kind is None or match is None:
             return [run(shown, looks)]
-        return self.bookmarks.around(bookmark_name(anchor), self._counted(kind, found, looks))
+        return self.bookmarks.around(bookmark_name(anchor), self._counted(kind, match, looks))
 
-    def _counted(self, kind: str, found: re.Match[str], looks: Looks) -> Sequence[Element]:
+    def _counted(self, kind: str, match: re.Match[str], looks: Looks) -> Sequence[Element]:
         """A number within the report, a chapter or an appendix."""
-        first, last = found[1], found[2]
+        first, last = match[1], match[2]
         if first is None:
             return word_field(f"SEQ {kind} \\* ARABIC", last, looks)
         if first in self.letters:

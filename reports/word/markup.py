@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterable
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lxml import etree
 
@@ -20,11 +20,11 @@ Element: TypeAlias = etree._Element
 
 def w(name: str, /, *children: Element, **attributes: object) -> Element:
     """An element ``w:name`` with attributes of the same namespace."""
-    made = etree.Element(f"{{{W}}}{name}", nsmap={"w": W})
+    element = etree.Element(f"{{{W}}}{name}", nsmap={"w": W})
     for key, value in attributes.items():
-        made.set(f"{{{W}}}{key}", str(value))
-    made.extend(children)
-    return made
+        element.set(f"{{{W}}}{key}", str(value))
+    element.extend(children)
+    return element
 
 
 def twips(millimetres: float) -> int:
@@ -39,18 +39,18 @@ def paragraph(style: str, content: Iterable[Element] = (), *more: Element) -> El
 
 def run(text: str, looks: frozenset[str] = frozenset()) -> Element:
     """A run of text; tabs and line ends become elements."""
-    made = w("r", *([_looks(looks)] if looks else []))
+    element = w("r", *([_looks(looks)] if looks else []))
     for part in re.split("([\t\n])", text):
         if part == "\t":
-            made.append(w("tab"))
+            element.append(w("tab"))
         elif part == "\n":
-            made.append(w("br"))
+            element.append(w("br"))
         elif part:
             words = w("t")
             words.text = part
             words.set(_SPACE, "preserve")
-            made.append(words)
-    return made
+            element.append(words)
+    return element
 
 
 def _looks(looks: frozenset[str]) -> Element:
@@ -99,3 +99,56 @@ def bookmark_name(anchor: str) -> str:
         return name
     digest = hashlib.sha256(anchor.encode()).hexdigest()[:12]
     return f"{re.sub(r'[^A-Za-z0-9]+', '_', anchor)[:27]}_{digest}"
+
+
+_EMU_MM = 36000
+_NAMES = {
+    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
+    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
+    "wps": "http://schemas.microsoft.com/office/word/2010/wordprocessingShape",
+}
+_ANCHOR = """<wp:anchor {names} distT="0" distB="0" distL="0" distR="0" simplePos="0"
+ relativeHeight="1" behindDoc="{behind}" locked="1" layoutInCell="0" allowOverlap="1">
+<wp:simplePos x="0" y="0"/>
+<wp:positionH relativeFrom="{across}"><wp:posOffset>{left}</wp:posOffset></wp:positionH>
+<wp:positionV relativeFrom="{down}"><wp:posOffset>{top}</wp:posOffset></wp:positionV>
+<wp:extent cx="{cx}" cy="{cy}"/><wp:wrapNone/>
+<wp:docPr id="{number}" name="{words} {number}" descr="{words}"/><wp:cNvGraphicFramePr/>
+<a:graphic><a:graphicData uri="{wps}"><wps:wsp><wps:cNvSpPr/><wps:spPr>
+<a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
+<a:prstGeom prst="rect"><a:avLst/></a:prstGeom>{looks}</wps:spPr><wps:bodyPr/></wps:wsp>
+</a:graphicData></a:graphic></wp:anchor>"""
+_LINE = '<a:noFill/><a:ln w="21600"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln>'
+_WHITE = '<a:solidFill><a:srgbClr val="FFFFFF"/></a:solidFill><a:ln><a:noFill/></a:ln>'
+
+
+class Rectangle(NamedTuple):
+    """Position and size of a rectangle [mm] with its reference frames."""
+
+    across: str
+    left: float
+    down: str
+    top: float
+    width: float
+    height: float
+
+
+def rectangle(area: Rectangle, number: int, words: str, *, line: bool) -> Element:
+    """A rectangle: a line behind the text, or white in front of it.
+
+    Args:
+        area: where it lies.
+        number: its number among the drawings of the file.
+        words: what it is.
+        line: an empty frame; otherwise white without a line.
+    """
+    left, top, width, height = (
+        round(_EMU_MM * value) for value in (area.left, area.top, area.width, area.height)
+    )
+    drawn = _ANCHOR.format(
+        names=" ".join(f'xmlns:{key}="{uri}"' for key, uri in _NAMES.items()),
+        behind=int(line), across=area.across, down=area.down, left=left, top=top,
+        cx=width, cy=height, number=number, words=words, wps=_NAMES["wps"],
+        looks=_LINE if line else _WHITE,
+    )  # fmt: skip
+    return etree.fromstring(drawn.replace(">\n<", "><"))

@@ -15,9 +15,8 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from reports.document.text import texcases
 from reports.document.text.symbols import SIGNS
-from reports.document.text.tex import FRACTIONS, GREEK, Node, tree
+from reports.document.text.tex import FRACTIONS, GREEK, TexNode, case_parts, is_cases, tree
 from reports.shared.russian import MINUS
 
 NAMESPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
@@ -47,9 +46,9 @@ def omath(tex: str) -> etree._Element:
         TexError: the TeX is not well formed.
         ValueError: a command has no equation.
     """
-    if not texcases.is_cases(tex):
+    if not is_cases(tex):
         return _element("oMath", *_sequence(tree(tex)))
-    lead, rows = texcases.parts(tex)
+    lead, rows = case_parts(tex)
     lines = [_element("e", *_sequence(tree(r"\quad ".join(row)))) for row in rows]
     return _element("oMath", *_sequence(tree(lead)), _braced(lines))
 
@@ -89,7 +88,7 @@ def displayed(tex: str, end: str = "") -> etree._Element:
 
 @dataclass(slots=True)
 class _Atom:
-    """A base with what is set below and above it."""
+    """A base with its indices."""
 
     base: Math
     below: Math
@@ -109,22 +108,22 @@ class _Atom:
         return self.base
 
 
-def _sequence(nodes: Sequence[Node], *, upright: bool = False) -> Math:
+def _sequence(nodes: Sequence[TexNode], *, upright: bool = False) -> Math:
     """Nodes side by side."""
     return _merged(_elements([node for node in nodes if not node.token.isspace()], upright))
 
 
-def _elements(nodes: Sequence[Node], upright: bool) -> Math:
+def _elements(nodes: Sequence[TexNode], upright: bool) -> Math:
     out: Math = []
-    place = 0
-    while place < len(nodes):
-        if nodes[place].command in _FUNCTIONS and out and _takes_room(out[-1]):
+    start = 0
+    while start < len(nodes):
+        if nodes[start].command in _FUNCTIONS and out and _takes_room(out[-1]):
             out.append(_run(_THIN, _PLAIN))
-        atom, place = _atom(nodes, place, upright)
+        atom, start = _atom(nodes, start, upright)
         if atom.big:
             following: Math = []
-            if place < len(nodes):
-                inner, place = _atom(nodes, place, upright)
+            if start < len(nodes):
+                inner, start = _atom(nodes, start, upright)
                 following = inner.elements()
             out.append(_nary(atom, following))
         else:
@@ -132,20 +131,20 @@ def _elements(nodes: Sequence[Node], upright: bool) -> Math:
     return out
 
 
-def _atom(nodes: Sequence[Node], place: int, upright: bool) -> tuple[_Atom, int]:
+def _atom(nodes: Sequence[TexNode], start: int, upright: bool) -> tuple[_Atom, int]:
     """The atom that begins at a place, and the place behind it."""
-    node = nodes[place]
+    node = nodes[start]
     if node.token == r"\left":
-        base, place = _delimited(nodes, place, upright)
+        base, start = _delimited(nodes, start, upright)
     elif node.token.isdigit():
-        base, place = _number(nodes, place)
+        base, start = _number(nodes, start)
     else:
         # An index without a letter before it belongs to an empty base.
         base = [] if node.token in ("_", "^", "'") else _piece(node, upright)
-        place += node.token not in ("_", "^", "'")
+        start += node.token not in ("_", "^", "'")
     atom = _Atom(base, [], [], _BIG.get(node.command, ""))
-    while place < len(nodes) and nodes[place].token in ("_", "^", "'"):
-        mark = nodes[place]
+    while start < len(nodes) and nodes[start].token in ("_", "^", "'"):
+        mark = nodes[start]
         inner = [] if mark.token == "'" else _sequence(mark.parts[0], upright=upright)
         sign = "".join("".join(part.itertext()) for part in inner)
         if mark.token == "^" and sign == "°":
@@ -156,29 +155,29 @@ def _atom(nodes: Sequence[Node], place: int, upright: bool) -> tuple[_Atom, int]
             atom.below = _merged([*atom.below, *inner])
         else:
             atom.above = _merged([*atom.above, *inner])
-        place += 1
-    if node.command in _FUNCTIONS and place < len(nodes) and nodes[place].token != r"\left":
-        return _Atom([*atom.elements(), _run(_THIN, _PLAIN)], [], []), place
-    return atom, place
+        start += 1
+    if node.command in _FUNCTIONS and start < len(nodes) and nodes[start].token != r"\left":
+        return _Atom([*atom.elements(), _run(_THIN, _PLAIN)], [], []), start
+    return atom, start
 
 
-def _number(nodes: Sequence[Node], place: int) -> tuple[Math, int]:
+def _number(nodes: Sequence[TexNode], start: int) -> tuple[Math, int]:
     """A number with its decimal comma, the whole of which a power is set to."""
     text = ""
-    while place < len(nodes):
-        node = nodes[place]
+    while start < len(nodes):
+        node = nodes[start]
         comma = node.token == "{" and [inner.token for inner in node.parts[0]] == [","]
         if not (comma or node.token.isdigit()):
             break
         text += "," if comma else node.token
-        place += 1
-    return [_run(text, _PLAIN)], place
+        start += 1
+    return [_run(text, _PLAIN)], start
 
 
-def _delimited(nodes: Sequence[Node], place: int, upright: bool) -> tuple[Math, int]:
-    r"""What stands between ``\left`` and its ``\right``, with brackets that grow."""
-    opening = _bracket(nodes[place + 1])
-    depth, end = 1, place + 2
+def _delimited(nodes: Sequence[TexNode], start: int, upright: bool) -> tuple[Math, int]:
+    r"""Content between ``\left`` and ``\right`` with growing brackets."""
+    opening = _bracket(nodes[start + 1])
+    depth, end = 1, start + 2
     while depth and end < len(nodes):
         depth += (nodes[end].token == r"\left") - (nodes[end].token == r"\right")
         end += 1
@@ -186,7 +185,7 @@ def _delimited(nodes: Sequence[Node], place: int, upright: bool) -> tuple[Math, 
         msg = r"\left without \right"
         raise ValueError(msg)
     closing = _bracket(nodes[end])
-    inner = _merged(_elements(nodes[place + 2 : end - 1], upright))
+    inner = _merged(_elements(nodes[start + 2 : end - 1], upright))
     marks = (_element("begChr", val=opening), _element("endChr", val=closing))
     return [_element("d", _element("dPr", *marks), _element("e", *inner))], end + 1
 
@@ -196,7 +195,7 @@ def _takes_room(part: etree._Element) -> bool:
     return not _is_run(part) or (part[-1].text or "")[-1] not in _JOINING + _SPACES_SET + "([{"
 
 
-def _bracket(node: Node) -> str:
+def _bracket(node: TexNode) -> str:
     return "" if node.token == "." else _MORE_SIGNS.get(node.command, node.token)
 
 
@@ -212,8 +211,8 @@ def _nary(atom: _Atom, following: Math) -> etree._Element:
     return _element("nary", about, *parts, _element("e", *following))
 
 
-def _piece(node: Node, upright: bool) -> Math:
-    """A node without what is set to it."""
+def _piece(node: TexNode, upright: bool) -> Math:
+    """A node without its indices."""
     name, token = node.command, node.token
     if token in FRACTIONS:
         over, under = (_sequence(part, upright=upright) for part in node.parts)
@@ -234,7 +233,7 @@ def _piece(node: Node, upright: bool) -> Math:
     return list(_text(node, upright))
 
 
-def _text(node: Node, upright: bool) -> Iterator[etree._Element]:
+def _text(node: TexNode, upright: bool) -> Iterator[etree._Element]:
     """Letters, digits, signs, names of functions."""
     name, token = node.command, node.token
     if name in _BIG:
@@ -307,11 +306,11 @@ def _is_run(part: etree._Element) -> bool:
 
 
 def _element(name: str, *children: etree._Element, val: str | None = None) -> etree._Element:
-    made = etree.Element(f"{{{NAMESPACE}}}{name}", nsmap={"m": NAMESPACE})
+    element = etree.Element(f"{{{NAMESPACE}}}{name}", nsmap={"m": NAMESPACE})
     if val is not None:
-        made.set(f"{{{NAMESPACE}}}val", val)
-    made.extend(children)
-    return made
+        element.set(f"{{{NAMESPACE}}}val", val)
+    element.extend(children)
+    return element
 
 
 def barred(text: str) -> etree._Element:

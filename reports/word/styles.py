@@ -1,4 +1,4 @@
-"""Named styles of the Word file: a department changes them here by its style file, or in Word."""
+"""Named styles of the Word file, by the department's style file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CELL = 1.1
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class ParagraphStyle:
     """A paragraph style; lengths in points, the indents in twips."""
 
     name: str
@@ -50,71 +50,85 @@ def cell_style(size: str, *, text: bool) -> str:
     return f"Cell{size.capitalize()}{'Text' if text else ''}"
 
 
-def looks(style: Style) -> dict[str, Look]:
+def looks(style: Style) -> dict[str, ParagraphStyle]:
     """All paragraph styles by id."""
     indent, size = twips(10 * style.indent_cm), style.font_size_pt
     width = twips(style.width_mm)
     hang = round(2.2 * size * 20)
-    made = {
-        "BodyText": Look("Body Text", jc="both", first=indent),
-        "Flush": Look("Текст без отступа", jc="both"),
-        "Where": Look("Где", line=style.line_spacing, left=hang, first=-hang),
-        "Heading1": Look("heading 1", line=_TIGHT, before=0, after=8, left=indent, first=0,
+    styles = {
+        "BodyText": ParagraphStyle("Body Text", jc="both", first=indent),
+        "Flush": ParagraphStyle("Текст без отступа", jc="both"),
+        "Where": ParagraphStyle("Где", line=style.line_spacing, left=hang, first=-hang),
+        "Heading1": ParagraphStyle("heading 1", line=_TIGHT, before=0, after=8, left=indent,
+                                   first=0,
                          size=size + 2, level=1, bold=True, keep_next=True, keep_lines=True,
                          new_page=True, list_number=HEADINGS, following="BodyText"),
-        "Heading2": Look("heading 2", line=_TIGHT, before=14, after=8, left=indent, first=0,
+        "Heading2": ParagraphStyle("heading 2", line=_TIGHT, before=14, after=8, left=indent,
+                                   first=0,
                          level=2, bold=True, keep_next=True, keep_lines=True,
                          list_number=HEADINGS, following="BodyText"),
-        "Heading3": Look("heading 3", line=_TIGHT, before=14, after=8, left=indent, first=0,
+        "Heading3": ParagraphStyle("heading 3", line=_TIGHT, before=14, after=8, left=indent,
+                                   first=0,
                          level=3, bold=True, italic=True, keep_next=True, keep_lines=True,
                          list_number=HEADINGS, following="BodyText"),
-        "HeadingPlain": Look("Заголовок без номера", "Heading1", jc="center", left=0, caps=True,
+        "HeadingPlain": ParagraphStyle("Заголовок без номера", "Heading1", jc="center", left=0,
+                                       caps=True,
                              list_number=0, following="BodyText"),
-        "Appendix": Look("Приложение", "HeadingPlain", caps=False, following="BodyText"),
-        "FrontHeading": Look("Заголовок листа", jc="center", line=_TIGHT, after=8, size=size + 2,
+        "Appendix": ParagraphStyle("Приложение", "HeadingPlain", caps=False, following="BodyText"),
+        "FrontHeading": ParagraphStyle("Заголовок листа", jc="center", line=_TIGHT, after=8,
+                                       size=size + 2,
                              bold=True, caps=True, keep_next=True, new_page=True),
-        "Caption": Look("caption", line=_TIGHT),
-        "FigureCaption": Look("Название рисунка", "Caption", jc="center", before=4, after=10),
-        "TableCaption": Look("Название таблицы", "Caption", before=10, after=2, keep_next=True,
+        "Caption": ParagraphStyle("caption", line=_TIGHT),
+        "FigureCaption": ParagraphStyle("Название рисунка", "Caption", jc="center", before=4,
+                                        after=10),
+        "TableCaption": ParagraphStyle("Название таблицы", "Caption", before=10, after=2,
+                                       keep_next=True,
                              keep_lines=True),
-        "TableContinued": Look("Продолжение таблицы", "Caption", line=1.0),
-        "Figure": Look("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
-        "Formula": Look("Формула", jc="center", line=1.0, before=3, after=3),
-        "FormulaNumber": Look("Номер формулы", jc="right", line=1.0),
-        "AfterTable": Look("После таблицы", line=1.0, size=6),
-        "ListBullet": Look("List Bullet", jc="both", left=indent, first=0, list_number=DASH),
-        "Source": Look("Источник", jc="both", first=indent),
-        "Keywords": Look("Ключевые слова", before=8, after=8),
-        "Notation": Look("Обозначение", line=1.15, size=0.86 * size),
-        "TOCHeading": Look("TOC Heading", "FrontHeading"),
-        "Title": Look("Title", jc="center", line=_TIGHT, before=17, size=18, bold=True),
-        "Cover": Look("Титульный лист", jc="center", line=_TIGHT),
-        "CoverKind": Look("Вид работы", "Cover", before=128),
-        "CoverPeople": Look("Исполнители", "Cover", jc="left", left=round(0.45 * width),
+        "TableContinued": ParagraphStyle("Продолжение таблицы", "Caption", line=1.0),
+        "Figure": ParagraphStyle("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
+        "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=3, after=3),
+        "FormulaNumber": ParagraphStyle("Номер формулы", jc="right", line=1.0),
+        "AfterTable": ParagraphStyle("После таблицы", line=1.0, size=6),
+        "ListBullet": ParagraphStyle("List Bullet", jc="both", left=indent, first=0,
+                                     list_number=DASH),
+        "Source": ParagraphStyle("Источник", jc="both", first=indent),
+        "Keywords": ParagraphStyle("Ключевые слова", before=8, after=8),
+        "Notation": ParagraphStyle("Обозначение", line=1.15, size=0.86 * size),
+        "TOCHeading": ParagraphStyle("TOC Heading", "FrontHeading"),
+        "Title": ParagraphStyle("Title", jc="center", line=_TIGHT, before=17, size=18, bold=True),
+        "Cover": ParagraphStyle("Титульный лист", jc="center", line=_TIGHT),
+        "CoverKind": ParagraphStyle("Вид работы", "Cover", before=128),
+        "CoverPeople": ParagraphStyle("Исполнители", "Cover", jc="left", left=round(0.45 * width),
                             before=10),
         # Lines as far apart as the PDF's: Word multiplies the letters' own height.
-        "Task": Look("Задание", line=1.25 / _HIGH, after=6, size=13),
-        "TaskCentre": Look("Задание по центру", "Task", jc="center"),
-        "TaskHead": Look("Задание: заголовок", "Task", jc="center", bold=True, before=23, after=17),
-        "TaskApprove": Look("Задание: утверждаю", "Task", left=round(0.55 * width), before=14),
-        "Header": Look("header", line=1.0),
-        "Footer": Look("footer", line=1.0, size=12),
-        "Stamp": Look("Основная надпись", jc="center", line=1.0, size=8.5, italic=True),
+        "Task": ParagraphStyle("Задание", line=1.25 / _HIGH, after=6, size=13),
+        "TaskCentre": ParagraphStyle("Задание по центру", "Task", jc="center"),
+        "TaskHead": ParagraphStyle("Задание: заголовок", "Task", jc="center", bold=True,
+                                   before=23, after=17),
+        "TaskApprove": ParagraphStyle("Задание: утверждаю", "Task", left=round(0.55 * width),
+                                      before=14),
+        "Header": ParagraphStyle("header", line=1.0),
+        "Footer": ParagraphStyle("footer", line=1.0, size=12),
+        "Stamp": ParagraphStyle("Основная надпись", jc="center", line=1.0, size=8.5, italic=True),
     }  # fmt: skip
     for number in (1, 2, 3):
-        made[f"TOC{number}"] = Look(f"toc {number}", line=_TIGHT, left=twips(12.5) * (number - 1),
+        styles[f"TOC{number}"] = ParagraphStyle(f"toc {number}", line=_TIGHT,
+                                              left=twips(12.5) * (number - 1),
                                     right_tab=width)  # fmt: skip
     for name, word in zip(SIZES, ("", " мелкая", " мельчайшая"), strict=True):
         points = round(style.table_em_px(name) * 0.75, 2)
-        made[cell_style(name, text=False)] = Look(f"Ячейка{word}", jc="center", line=_CELL,
+        styles[cell_style(name, text=False)] = ParagraphStyle(f"Ячейка{word}", jc="center",
+                                                            line=_CELL,
                                                   size=points)  # fmt: skip
         usual = cell_style(name, text=False)
-        made[cell_style(name, text=True)] = Look(f"Ячейка{word}: текст", usual, jc="left", left=52)
-    return made
+        styles[cell_style(name, text=True)] = ParagraphStyle(
+            f"Ячейка{word}: текст", usual, jc="left", left=52
+        )
+    return styles
 
 
 def dress(document: Document, style: Style) -> None:
-    """Put our styles, lists and settings in place of the template's."""
+    """Replace the template's styles, lists and settings by our own."""
     sheet = document.styles.element
     for child in list(sheet):
         sheet.remove(child)
@@ -156,13 +170,13 @@ def _defaults(style: Style) -> Element:
 def _normal(style: Style) -> Element:
     spacing = w("spacing", before=0, after=0, line=round(_LINE * style.line_spacing),
                 lineRule="auto")  # fmt: skip
-    made = w("style", w("name", val="Normal"), w("qFormat"), w("pPr", spacing), type="paragraph")
-    made.set(spacing.tag.replace("spacing", "default"), "1")
-    made.set(spacing.tag.replace("spacing", "styleId"), "Normal")
-    return made
+    element = w("style", w("name", val="Normal"), w("qFormat"), w("pPr", spacing), type="paragraph")
+    element.set(spacing.tag.replace("spacing", "default"), "1")
+    element.set(spacing.tag.replace("spacing", "styleId"), "Normal")
+    return element
 
 
-def _paragraph_style(key: str, look: Look) -> Element:
+def _paragraph_style(key: str, look: ParagraphStyle) -> Element:
     about = [w("name", val=look.name), w("basedOn", val=look.base)]
     if look.following:
         about.append(w("next", val=look.following))
@@ -170,20 +184,20 @@ def _paragraph_style(key: str, look: Look) -> Element:
     return w("style", *about, _paragraph_looks(look), _letters(look), type="paragraph", styleId=key)
 
 
-def _paragraph_looks(look: Look) -> Element:
+def _paragraph_looks(look: ParagraphStyle) -> Element:
     """Properties of the paragraph in the order of the schema."""
-    made = w("pPr")
+    properties = w("pPr")
     if look.keep_next:
-        made.append(w("keepNext"))
+        properties.append(w("keepNext"))
     if look.keep_lines:
-        made.append(w("keepLines"))
+        properties.append(w("keepLines"))
     if look.new_page is not None:
-        made.append(w("pageBreakBefore", val=int(look.new_page)))
+        properties.append(w("pageBreakBefore", val=int(look.new_page)))
     if look.list_number is not None:
         level = [w("ilvl", val=look.level - 1)] if look.level > 1 else []
-        made.append(w("numPr", *level, w("numId", val=look.list_number)))
+        properties.append(w("numPr", *level, w("numId", val=look.list_number)))
     if look.right_tab:
-        made.append(w("tabs", w("tab", val="right", leader="dot", pos=look.right_tab)))
+        properties.append(w("tabs", w("tab", val="right", leader="dot", pos=look.right_tab)))
     spacing = {
         "before": None if look.before is None else round(20 * look.before),
         "after": None if look.after is None else round(20 * look.after),
@@ -191,28 +205,28 @@ def _paragraph_looks(look: Look) -> Element:
     }
     given: dict[str, object] = {key: value for key, value in spacing.items() if value is not None}
     if given:
-        made.append(w("spacing", **given, **({"lineRule": "auto"} if look.line else {})))
+        properties.append(w("spacing", **given, **({"lineRule": "auto"} if look.line else {})))
     ends = {"left": look.left, "firstLine": look.first}
     if look.first is not None and look.first < 0:
         ends = {"left": look.left, "hanging": -look.first}
     sides: dict[str, object] = {key: value for key, value in ends.items() if value is not None}
     if sides:
-        made.append(w("ind", **sides))
+        properties.append(w("ind", **sides))
     if look.jc:
-        made.append(w("jc", val=look.jc))
+        properties.append(w("jc", val=look.jc))
     if look.level:
-        made.append(w("outlineLvl", val=look.level - 1))
-    return made
+        properties.append(w("outlineLvl", val=look.level - 1))
+    return properties
 
 
-def _letters(look: Look) -> Element:
-    made = w("rPr")
+def _letters(look: ParagraphStyle) -> Element:
+    properties = w("rPr")
     for name, value in (("b", look.bold), ("i", look.italic), ("caps", look.caps)):
         if value is not None:
-            made.append(w(name, val=int(value)))
+            properties.append(w(name, val=int(value)))
     if look.size:
-        made.extend([w("sz", val=round(2 * look.size)), w("szCs", val=round(2 * look.size))])
-    return made
+        properties.extend([w("sz", val=round(2 * look.size)), w("szCs", val=round(2 * look.size))])
+    return properties
 
 
 def _table_styles() -> list[Element]:
@@ -225,16 +239,16 @@ def _table_styles() -> list[Element]:
     usual = w("style", w("name", val="Normal Table"), w("tblPr", w("tblInd", w=0, type="dxa"),
               margins), type="table", styleId="TableNormal")  # fmt: skip
     usual.set(f"{{{usual.nsmap['w']}}}default", "1")
-    made = [usual]
+    styles = [usual]
     for key, name, sides in (
         ("ReportTable", "Таблица отчёта", (*outer, "insideV")),
         ("ReportTableLined", "Таблица отчёта с линиями", (*outer, "insideH", "insideV")),
         ("FormulaTable", "Формула с номером", ()),
     ):
-        made.append(w("style", w("name", val=name), w("basedOn", val="TableNormal"),
+        styles.append(w("style", w("name", val=name), w("basedOn", val="TableNormal"),
                       w("tblPr", *([borders(*sides)] if sides else [])),
                       type="table", styleId=key))  # fmt: skip
-    return made
+    return styles
 
 
 def _lists(style: Style) -> list[Element]:

@@ -13,15 +13,77 @@ from typing import TYPE_CHECKING
 
 from reports.document.page.style import Style
 from reports.document.report import Report
-from reports.word import sheets, totals
-from reports.word.blocks import Blocks
-from reports.word.inline import Lines
+from reports.word.blocks import Blocks, stamp_table
+from reports.word.inline import Lines, count_totals
+from reports.word.markup import Element, Rectangle, field, paragraph, rectangle, twips, w
 from reports.word.pictures import Pictures
 from reports.word.styles import dress
 
 if TYPE_CHECKING:
     from docx.document import Document
+    from docx.section import Section
     from lxml.html import HtmlElement
+
+_FRAME = (20.0, 5.0, 185.0, 287.0)  # left, top, width, height of the frame [mm]
+
+
+def set_sheet(section: Section, style: Style) -> None:
+    """A4 with the margins of the style."""
+    from docx.shared import Mm
+
+    section.page_width, section.page_height = Mm(210), Mm(297)
+    section.left_margin, section.right_margin = Mm(style.margins.left), Mm(style.margins.right)
+    section.top_margin, section.bottom_margin = Mm(style.margins.top), Mm(style.margins.bottom)
+    section.header_distance = section.footer_distance = Mm(10)
+
+
+def front(section: Section, blocks: list[Element]) -> None:
+    """Front sheets: no page numbers, town and year at the foot of the first one."""
+    section.different_first_page_header_footer = True
+    _put(section.first_page_footer, [paragraph("Cover", blocks)])
+    _put(section.footer, [paragraph("Footer")])
+    _put(section.header, [paragraph("Header")])
+
+
+def numbered(section: Section, style: Style) -> None:
+    """Sheets of the text with the number of the page at the foot."""
+    section.different_first_page_header_footer = False
+    side = style.page_number.rpartition("-")[2]
+    _put(section.footer, [paragraph("Footer", field("PAGE", "2"), w("jc", val=side))])
+    _put(section.header, [paragraph("Header")])
+
+
+def framed(section: Section, style: Style, lines: Lines, blocks: list[HtmlElement]) -> None:
+    """Sheets of the text in frames: form 2 on the first, form 2а on the others."""
+    from docx.shared import Mm
+
+    section.different_first_page_header_footer = True
+    section.bottom_margin = Mm(30)
+    section.footer_distance = Mm(5)
+    indent = twips(_FRAME[0] - style.margins.left)
+    for number, (foot, head) in enumerate((
+        (section.first_page_footer, section.first_page_header),
+        (section.footer, section.header),
+    )):  # fmt: skip
+        table = stamp_table(lines, blocks[number], indent)
+        # A table must not end a footer; the line after it is as low as a line can be.
+        last = paragraph("Footer", (), w("spacing", line=20, lineRule="exact"))
+        _put(foot, [paragraph("Footer"), table, last])
+        _put(head, [paragraph("Header", [w("r", w("drawing", _rectangle(number + 1)))])])
+
+
+def _rectangle(number: int) -> Element:
+    left, top, width, height = _FRAME
+    area = Rectangle("page", left, "page", top, width, height)
+    return rectangle(area, 900 + number, "Рамка листа", line=True)
+
+
+def _put(part: object, content: list[Element]) -> None:
+    part.is_linked_to_previous = False  # type: ignore[attr-defined]
+    element = part._element  # type: ignore[attr-defined]
+    for child in list(element):
+        element.remove(child)
+    element.extend(content)
 
 
 def report_docx(report: Report) -> bytes:
@@ -42,7 +104,7 @@ def from_page(page: str, style: Style) -> bytes:
     blocks = Blocks(lines, Pictures(document), style)
     lines.pages = _number_pages(root, style)
     _fill(document, root, blocks)
-    totals.count(document.element.body, lines.bookmarks)
+    count_totals(document.element.body, lines.bookmarks)
     _describe(document, root)
     stream = io.BytesIO()
     document.save(stream)
@@ -73,26 +135,26 @@ def _fill(document: Document, root: HtmlElement, blocks: Blocks) -> None:
     for stamp in stamps:
         text.remove(stamp)
     fronts = root.xpath("//section[contains(concat(' ', @class, ' '), ' sheet ')]")
-    place = root.xpath("//div[@class='place']")
-    for item in place:
+    places = root.xpath("//div[@class='place']")
+    for item in places:
         item.drop_tree()
     for number, sheet in enumerate(fronts):
-        made = blocks.written([sheet])
+        elements = blocks.written([sheet])
         if number:
-            _new_page(made[0])
-        for element in made:
+            _new_page(elements[0])
+        for element in elements:
             body.insert(len(body) - 1, element)
     first = document.sections[0]
-    sheets.set_sheet(first, blocks.style)
-    sheets.front(first, blocks.lines.runs(place[0]) if place else [])
+    set_sheet(first, blocks.style)
+    front(first, blocks.lines.runs(places[0]) if places else [])
     section = document.add_section(WD_SECTION.NEW_PAGE)
     for element in blocks.written([text]):
         body.insert(len(body) - 1, element)
     if stamps:
-        found = [stamp.find("table") for stamp in stamps]
-        sheets.framed(section, blocks.style, blocks.lines, found)
+        tables = [stamp.find("table") for stamp in stamps]
+        framed(section, blocks.style, blocks.lines, tables)
     else:
-        sheets.numbered(section, blocks.style)
+        numbered(section, blocks.style)
 
 
 def _new_page(element: object) -> None:
@@ -103,11 +165,11 @@ def _new_page(element: object) -> None:
 
 
 def _describe(document: Document, root: HtmlElement) -> None:
-    """Title, author, subject and date of the page; nothing of this machine or of now."""
+    """Copy title, author, subject and date of the page into the file's properties."""
 
     def meta(name: str) -> str:
-        found = root.find(f".//meta[@name='{name}']")
-        return "" if found is None else str(found.get("content"))
+        element = root.find(f".//meta[@name='{name}']")
+        return "" if element is None else str(element.get("content"))
 
     about = document.core_properties
     about.title, about.author = root.findtext(".//title") or "", meta("author")
@@ -118,12 +180,12 @@ def _describe(document: Document, root: HtmlElement) -> None:
 
 
 def _timeless(data: bytes) -> bytes:
-    """The same file without the times at which its parts were packed."""
+    """Remove times of packing from the archive."""
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as given,
-        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as made,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
         for name in given.namelist():
-            made.writestr(zipfile.ZipInfo(name), given.read(name), zipfile.ZIP_DEFLATED)
+            archive.writestr(zipfile.ZipInfo(name), given.read(name), zipfile.ZIP_DEFLATED)
     return stream.getvalue()

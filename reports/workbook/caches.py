@@ -1,4 +1,4 @@
-"""The finishing pass over the parts of a workbook: cached values, fixed times.
+"""Finish a workbook: cached values, fixed times, XML that all programs read.
 
 openpyxl writes formulas without values; viewers that do not compute would show
 empty cells.  The pass also makes the bytes depend on nothing but the content.
@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import io
 import math
+import posixpath
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 from posixpath import join, normpath
 from typing import Protocol
@@ -18,9 +20,61 @@ from openpyxl import Workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.writer.excel import ExcelWriter
 
-from reports.workbook import shared_form
 from reports.workbook.sheets import CacheValues, FilledColumn
 from reports.workbook.styles import FONT
+
+_A = "http://schemas.openxmlformats.org/drawingml/2006/main"
+_C = "http://schemas.openxmlformats.org/drawingml/2006/chart"
+_R = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_XDR = "http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing"
+_DRAWN = {"a": _A, "c": _C, "r": _R, "xdr": _XDR}
+
+
+def hoist(root: etree._Element) -> None:
+    """Declare the namespaces of a chart or a drawing on its root."""
+    etree.cleanup_namespaces(root, top_nsmap=_DRAWN)
+
+
+def relative(data: bytes, name: str) -> etree._Element:
+    """The relations of a part with paths from its own folder."""
+    root = etree.fromstring(data)
+    folder = posixpath.dirname(posixpath.dirname(name))
+    for relation in root:
+        target = relation.get("Target")
+        if target.startswith("/"):
+            relation.set("Target", posixpath.relpath(target, f"/{folder}"))
+    return root
+
+
+def described(archive: Mapping[str, bytes], name: str) -> etree._Element:
+    """A drawing whose charts say in words what they show."""
+    root = etree.fromstring(archive[name])
+    folder, file = posixpath.split(name)
+    relations = etree.fromstring(archive[f"{folder}/_rels/{file}.rels"])
+    targets = {relation.get("Id"): relation.get("Target") for relation in relations}
+    for frame in root.iter(f"{{{_XDR}}}graphicFrame"):
+        target = targets[frame.find(f".//{{{_C}}}chart").get(f"{{{_R}}}id")]
+        chart = etree.fromstring(archive[posixpath.join(folder, target).lstrip("/")])
+        frame.find(f".//{{{_XDR}}}cNvPr").set("descr", _words(chart))
+    hoist(root)
+    return root
+
+
+def _words(chart: etree._Element) -> str:
+    """Title, axes and curves of a chart in a line."""
+    axes = [_text(axis.find(f"{{{_C}}}title")) for axis in chart.iter(f"{{{_C}}}valAx")]
+    names = [name.text or "" for name in chart.iterfind(f".//{{{_C}}}ser/{{{_C}}}tx/{{{_C}}}v")]
+    parts = [
+        _text(chart.find(f"{{{_C}}}chart/{{{_C}}}title")),
+        f"Оси: {'; '.join(filter(None, axes))}" if any(axes) else "",
+        f"Кривые: {', '.join(filter(None, names))}" if any(names) else "",
+    ]
+    return ". ".join(filter(None, parts))
+
+
+def _text(title: etree._Element | None) -> str:
+    return "" if title is None else "".join(t.text or "" for t in title.iter(f"{{{_A}}}t"))
+
 
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
@@ -58,7 +112,7 @@ def sheet_parts(archive: Readable) -> dict[str, str]:
     return parts
 
 
-class _Parts(dict[str, bytes]):
+class _PartStore(dict[str, bytes]):
     """What openpyxl writes into a zip, without the zip: every part is read and written again."""
 
     def writestr(self, name: str, data: bytes | str) -> None:
@@ -89,21 +143,21 @@ def finish(book: Workbook, caches: CacheValues | None = None) -> bytes:
         OSError, SerialisationError: there is no room for temporary files.
     """
     caches = caches or CacheValues()
-    parts = _Parts()
+    parts = _PartStore()
     ExcelWriter(book, parts).save()
     titles = {part: title for title, part in sheet_parts(parts).items()}
     result = io.BytesIO()
     with zipfile.ZipFile(result, "w") as target:
-        for name, made in parts.items():
-            data = made
+        for name, content in parts.items():
+            data = content
             if name in titles:
                 data = _fill(data, titles[name], caches)
             elif name.startswith(_CHARTS):
                 data = _fill_chart(data, caches.ranges)
             elif name.startswith(_DRAWINGS):
-                data = _written(shared_form.described(parts, name))
+                data = _written(described(parts, name))
             elif name.endswith(".rels"):
-                data = _written(shared_form.relative(data, name))
+                data = _written(relative(data, name))
             elif name == "xl/styles.xml":
                 data = _fonts(data)
             elif name == "docProps/core.xml":
@@ -164,8 +218,8 @@ def _add_columns(root: etree._Element, title: str, columns: list[FilledColumn]) 
             text = f"<f>{_escaped(formula[1:])}</f>" if formula else ""
             cell = f"{begin}{row}{middle}{text}<v>{_number(value)}</v></c>"
             texts.setdefault(row, []).append(cell)
-    made = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
-    for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{made}</sheetData>'):
+    row_texts = "".join(f'<row r="{row}">{"".join(cells)}</row>' for row, cells in texts.items())
+    for row in etree.fromstring(f'<sheetData xmlns="{_MAIN}">{row_texts}</sheetData>'):
         number = int(row.get("r"))
         old = rows.setdefault(number, row)
         if old is not row:
@@ -195,7 +249,7 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
                 f'<ptCount val="{len(numbers)}"/>{points}</numCache>'
             )
         )
-    shared_form.hoist(root)
+    hoist(root)
     return _written(root)
 
 

@@ -40,6 +40,14 @@ def chapter_of(sheet: str) -> SheetChapter:
     return contents_of().chapters[place_of(sheet)[0]]
 
 
+def is_smooth_sheet(sheet: str) -> bool:
+    """Whether the curves of a sheet have no corners; those of other kinds of books may."""
+    try:
+        return chapter_of(sheet).smooth
+    except LookupError:
+        return False
+
+
 def ordered(sheets: Iterable[str]) -> list[str]:
     """Sheets by chapters; those of further regimes behind all of the first."""
     return sorted(sheets, key=lambda s: (place_of(s)[2], *place_of(s)))

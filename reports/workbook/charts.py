@@ -29,8 +29,8 @@ from kshm.nomenclature.quantity import quantity
 from reports.model.charts import ChartSpec
 from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
-from reports.workbook.chapters import chapter_of
-from reports.workbook.drawn import Curve, Drawn, limits, marks, rays
+from reports.workbook.chapters import is_smooth_sheet
+from reports.workbook.chart_ranges import CurveRanges, Drawn, limits, marks, rays
 from reports.workbook.layout import FIRST_ROW, Layout
 
 WIDE, HIGH = 408, 290  # px: several beside a table
@@ -78,43 +78,43 @@ def make_chart(
     return chart
 
 
-def _ray(number: int, line: Curve) -> XYSeries:
+def _ray(number: int, line: CurveRanges) -> XYSeries:
     """A thick line for the worn depth, with the number of its ray at the circle."""
-    made = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
+    series = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
     label = DataLabel(idx=1, dLblPos="t", showSerName=True)
     label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
-    made.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
-    made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
-    return made
+    series.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
+    series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
+    return series
 
 
-def _mark(number: int, point: Curve) -> XYSeries:
+def _mark(number: int, point: CurveRanges) -> XYSeries:
     """A small point with its name beside it."""
-    made = _curve(number, point, _hidden())
-    made.marker = _dot(4, _COLOURS[0])
-    made.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
-    made.dLbls.showLegendKey = made.dLbls.showCatName = made.dLbls.showPercent = False
-    return made
+    series = _curve(number, point, _hidden())
+    series.marker = _dot(4, _COLOURS[0])
+    series.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
+    series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
+    return series
 
 
 def _pole(number: int) -> XYSeries:
     """Where the vector is measured from."""
-    made = _mark(number, Curve("O", "", ""))
+    series = _mark(number, CurveRanges("O", "", ""))
     zero = NumData(ptCount=1, pt=[NumVal(idx=0, v="0")])
-    made.xVal, made.yVal = AxDataSource(numLit=zero), NumDataSource(numLit=zero)
-    made.marker = _dot(7)
-    return made
+    series.xVal, series.yVal = AxDataSource(numLit=zero), NumDataSource(numLit=zero)
+    series.marker = _dot(7)
+    return series
 
 
 def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
     """Whether all curves of a chart are zero; cells still to be filled in are not."""
-    found = ranges_of(spec, layout, values)
+    ranges = ranges_of(spec, layout, values)
     ends = [series.y for series in spec.drawn_by("workbook") if not series.invisible]
-    return all(abs(y) < _ZERO for key in ends for y in found[layout.range_of(key)])
+    return all(abs(y) < _ZERO for key in ends for y in ranges[layout.range_of(key)])
 
 
 def curves_chart(
-    title: str, x_title: str, y_title: str, curves: Sequence[Curve], ends: tuple[float, float]
+    title: str, x_title: str, y_title: str, curves: Sequence[CurveRanges], ends: tuple[float, float]
 ) -> ScatterChart:
     """Curves over an input between its ends; the finishing pass fills in the numbers."""
     chart = _empty(title)
@@ -142,13 +142,13 @@ def drawing(
     for number, line in enumerate(lines):
         look = _look(number)
         look.prstDash = "solid"
-        made = _curve(
-            number, Curve(line.name, line.x, line.y),
+        series = _curve(
+            number, CurveRanges(line.name, line.x, line.y),
             _hidden() if line.hidden or line.point else look,
         )  # fmt: skip
         if line.point:
-            made.marker = _dot(9)
-        chart.series.append(made)
+            series.marker = _dot(9)
+        chart.series.append(series)
     _titles(chart, *axes)
     _legend(chart, shown=not shape and len(lines) > 2)
     if downwards:
@@ -272,7 +272,7 @@ def _divide_alike(chart: ScatterChart, limit: float) -> None:
 
 def is_smooth(spec: ChartSpec) -> bool:
     """Curves of motion and inertia have no corners: they are drawn round between their points."""
-    return spec.x_is_angle and chapter_of(spec.sheet).smooth
+    return spec.x_is_angle and is_smooth_sheet(spec.sheet)
 
 
 def _series(
@@ -284,30 +284,30 @@ def _series(
     line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:
-        made = _mark(number, Curve(name, *ranges))
-        made.marker = _dot(9)
-        return made
-    made = _curve(number, Curve(name, *ranges), _hidden() if stems else line)
-    made.smooth = smooth
+        series_of_curve = _mark(number, CurveRanges(name, *ranges))
+        series_of_curve.marker = _dot(9)
+        return series_of_curve
+    series_of_curve = _curve(number, CurveRanges(name, *ranges), _hidden() if stems else line)
+    series_of_curve.smooth = smooth
     if stems:
-        made.marker = _dot(5, _COLOURS[number % len(_COLOURS)])
-        made.errBars = ErrorBars(
+        series_of_curve.marker = _dot(5, _COLOURS[number % len(_COLOURS)])
+        series_of_curve.errBars = ErrorBars(
             errDir="y", errBarType="minus", errValType="percentage", val=100, noEndCap=True,
             spPr=GraphicalProperties(ln=line),
         )  # fmt: skip
-    return made
+    return series_of_curve
 
 
-def _curve(number: int, curve: Curve, line: LineProperties) -> XYSeries:
-    made = XYSeries(idx=number, order=number)
+def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
+    series = XYSeries(idx=number, order=number)
     if curve.name:
-        made.tx = SeriesLabel(v=curve.name)
-    made.xVal = AxDataSource(numRef=NumRef(f=curve.x))
-    made.yVal = NumDataSource(numRef=NumRef(f=curve.y))
-    made.smooth = False
-    made.spPr = GraphicalProperties(ln=line)
-    made.marker = _unmarked()
-    return made
+        series.tx = SeriesLabel(v=curve.name)
+    series.xVal = AxDataSource(numRef=NumRef(f=curve.x))
+    series.yVal = NumDataSource(numRef=NumRef(f=curve.y))
+    series.smooth = False
+    series.spPr = GraphicalProperties(ln=line)
+    series.marker = _unmarked()
+    return series
 
 
 def _dot(size: int, colour: str = "C00000") -> Marker:
@@ -343,24 +343,24 @@ def _look(number: int) -> LineProperties:
 
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:
     """Range of each series → its numbers, which the finishing pass puts into the chart."""
-    found = {}
+    ranges = {}
     for key in (key for series in spec.drawn_by("workbook") for key in (series.x, series.y)):
         table, column = key.split(".")
         if table in values.columns:
             numbers = values.columns[table][column].astype(float).tolist()
         else:
             numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
-        found[layout.range_of(key)] = numbers
+        ranges[layout.range_of(key)] = numbers
     path = spec.drawn_by("workbook")[0]
     if spec.kind == "wear":
         circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
         for axis in "xy":
-            ends = [found[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
+            ends = [ranges[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
             for line, depth, edge in zip(rays(spec, layout), *ends, strict=False):
-                found[getattr(line, axis)] = [depth, edge]
+                ranges[getattr(line, axis)] = [depth, edge]
     if spec.kind == "polar":
         for mark in marks(spec, layout, values):
             row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
             for at, key in ((mark.x, path.x), (mark.y, path.y)):
-                found[at] = [found[layout.range_of(key)][row]]
-    return found
+                ranges[at] = [ranges[layout.range_of(key)][row]]
+    return ranges

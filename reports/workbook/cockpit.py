@@ -1,4 +1,4 @@
-"""The first sheet: the engine in a few lines, its key results, and the way to everything."""
+"""First sheet: engine, key results, links; the sheet of what-if studies."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from math import isfinite
 from openpyxl.formatting.rule import FormulaRule
 from openpyxl.styles import Alignment, PatternFill
 from openpyxl.styles import Font as CellFont
+from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.model.blocks import Model
@@ -19,19 +20,9 @@ from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import Cell
-from reports.workbook.links import link
-from reports.workbook.places import (
-    GAP,
-    Box,
-    anchor,
-    flow,
-    lines_of,
-    raise_row,
-    top_of,
-    wrap_across,
-)
-from reports.workbook.sheets import Writer
+from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell
+from reports.workbook.places import GAP, Box, anchor, flow, lines_of, raise_row, top_of, wrap_across
+from reports.workbook.sheets import BlockWriter, link
 from reports.workbook.verdict import GOOD
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
@@ -64,7 +55,7 @@ def write_cockpit(
     sheet: Worksheet,
     titles: Sequence[str],
     model: Model,
-    writer: Writer,
+    writer: BlockWriter,
     legend: Sequence[tuple[str, str]],
     verdict: tuple[str, str] | None,
 ) -> list[Box]:
@@ -104,7 +95,9 @@ def _people(sheet: Worksheet, model: Model, row: int) -> int:
     return row
 
 
-def _verdict(sheet: Worksheet, writer: Writer, row: int, verdict: tuple[str, str] | None) -> int:
+def _verdict(
+    sheet: Worksheet, writer: BlockWriter, row: int, verdict: tuple[str, str] | None
+) -> int:
     """Whether the numbers of the book hold; nothing where no checks are in it."""
     if verdict is None:
         return row
@@ -117,7 +110,9 @@ def _verdict(sheet: Worksheet, writer: Writer, row: int, verdict: tuple[str, str
     return row + 1
 
 
-def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequence[str]) -> int:
+def _values(
+    sheet: Worksheet, writer: BlockWriter, row: int, title: str, keys: Sequence[str]
+) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
     for text, symbol, formula, value, unit, look in known(writer, keys):
@@ -132,7 +127,7 @@ def _values(sheet: Worksheet, writer: Writer, row: int, title: str, keys: Sequen
 
 
 def known(
-    writer: Writer, keys: Sequence[str]
+    writer: BlockWriter, keys: Sequence[str]
 ) -> Iterator[tuple[str, str, str, float | str, str, str]]:
     """Title, symbol, formula, value, unit and number format of what the book has."""
     model, values = writer.layout.model, writer.values.scalars
@@ -158,7 +153,7 @@ def known(
             yield title, quantity.symbol, formula, value, quantity.unit_label, look
 
 
-def _of_worst_pin(writer: Writer, key: str) -> tuple[str, float | str]:
+def _of_worst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
     """Formula and value of a scalar, of the most loaded pin where each has its own."""
     values = writer.values.scalars
     if key not in _OF_PINS or _WORST not in values:
@@ -168,7 +163,7 @@ def _of_worst_pin(writer: Writer, key: str) -> tuple[str, float | str]:
     return f"=CHOOSE({_WORST},{','.join(keys)})", values[keys[_worst_pin(writer) - 1]]
 
 
-def _worst_pin(writer: Writer) -> int:
+def _worst_pin(writer: BlockWriter) -> int:
     """The number of the most loaded pin; the first where a student is to find it."""
     worst = float(writer.values.scalars.get(_WORST, 1))
     return round(worst) if isfinite(worst) else 1
@@ -178,7 +173,7 @@ def _finite(value: float | str) -> bool:
     return isinstance(value, str) or isfinite(value)
 
 
-def _charts(sheet: Worksheet, model: Model, writer: Writer) -> list[Box]:
+def _charts(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
     """The four that say most, two to a row and of one size."""
     worst = _worst_pin(writer)
     charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in CHARTS]
@@ -224,3 +219,59 @@ def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], r
         cell = styles.as_text(sheet.cell(row + 1, 2, missing))
         cell.style = styles.NOTE
         cell.alignment = Alignment(vertical="top")
+
+
+SHEET = "Что если"
+_STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 14, "F": 14}
+_HEAD = ("Величина", "Обозначение", "Было", "Стало", "Разница, %", "Единица")
+_NOTE = (
+    "Измените жёлтую ячейку на листе «Исходные данные»: здесь видно, что от этого изменилось. "
+    "Вернуть: впишите на том листе число из столбца «Было»."
+)
+_NO_PART = "—"
+
+
+def write_what_if(book: Workbook, model: Model, writer: BlockWriter) -> None:
+    """Fill the sheet: results first, then the data that may be changed."""
+    sheet = book[SHEET]
+    for letter, width in _STUDY_WIDTHS.items():
+        sheet.column_dimensions[letter].width = width
+    sheet.cell(NOTE_ROW, 2, _NOTE).style = styles.NOTE
+    wrap_across(sheet, NOTE_ROW, 2, len(_HEAD))
+    sheet.freeze_panes = Cell(SHEET, HEADER_ROW + 1, 1).coordinate
+    for column, text in enumerate(_HEAD, 1):
+        sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
+    free = [
+        item.name
+        for item in model.inputs
+        if not item.structural and isinstance(item.value, float) and not item.listed
+    ]
+    row = _part(sheet, writer, HEADER_ROW + 1, "Главные результаты", RESULTS)
+    last = _part(sheet, writer, row, "Исходные данные", free)
+    changed = FormulaRule(formula=[f"$E{HEADER_ROW + 1}<>0"], fill=PatternFill(bgColor="FFEB9C"))
+    sheet.conditional_formatting.add(f"D{HEADER_ROW + 1}:E{last}", changed)
+
+
+def _part(
+    sheet: Worksheet, writer: BlockWriter, row: int, title: str, keys: list[str] | tuple[str, ...]
+) -> int:
+    """Lines of some values; the row behind them."""
+    sheet.cell(row, 1, title).style = styles.SUBTITLE
+    for text, symbol, formula, value, unit, look in known(writer, keys):
+        if isinstance(value, str):
+            continue
+        row += 1
+        raise_row(sheet, row, {text: _STUDY_WIDTHS["A"]})
+        for column, words in ((1, text), (2, symbol), (6, unit)):
+            sheet.cell(row, column, words or None).style = styles.TEXT
+        was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))
+        sheet.cell(row, 3, value)
+        writer.formula(sheet, row, 4, formula, value)
+        # Noise of the last digits is no change; of what was nothing there is no part to tell.
+        from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
+        difference = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
+        writer.formula(sheet, row, 5, difference, 0.0)
+        for column, form in ((3, look), (4, look), (5, "0.00")):
+            sheet.cell(row, column).style = styles.FORMULA
+            sheet.cell(row, column).number_format = form
+    return row + 2

@@ -131,8 +131,8 @@ def _mark_wrong(sheet: Worksheet, model: Model, layout: Layout) -> None:
     cells: dict[tuple[float, float], list[str]] = defaultdict(list)
     for item in model.inputs:
         if item.minimum is not None and item.maximum is not None:
-            place = layout.cells[item.name].coordinate
-            cells[item.minimum, item.maximum].append(place)
+            address = layout.cells[item.name].coordinate
+            cells[item.minimum, item.maximum].append(address)
     for limits, places in cells.items():
         rule = CellIsRule("notBetween", [f"{limit!r}" for limit in limits], **styles.wrong())
         sheet.conditional_formatting.add(" ".join(places), rule)

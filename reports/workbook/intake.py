@@ -1,7 +1,8 @@
-"""The first look at a workbook from a person, before any parser sees it."""
+"""Check an uploaded workbook before any parser sees it."""
 
 from __future__ import annotations
 
+import io
 import re
 import zipfile
 import zlib
@@ -9,9 +10,47 @@ from pathlib import Path
 from typing import NoReturn
 
 from reports.shared.errors import InputError, Problem
-from reports.shared.kinds import ARCHIVE, CALLED, OFFICE, kind_of
-from reports.shared.reading import read_bytes
-from reports.workbook.package import Package
+from reports.shared.file_types import ARCHIVE, CALLED, OFFICE, kind_of, read_bytes
+
+_KEPT = 64 * 2**20  # bytes of unpacked parts that are kept
+
+
+class Package:
+    """Parts of a zip by name."""
+
+    def __init__(self, data: bytes) -> None:
+        """Open a package.
+
+        Raises:
+            zipfile.BadZipFile: it is none.
+        """
+        self._archive = zipfile.ZipFile(io.BytesIO(data))
+        self._parts: dict[str, bytes] = {}
+        self._kept = 0
+
+    def infos(self) -> list[zipfile.ZipInfo]:
+        """All parts as the directory tells them."""
+        return self._archive.infolist()
+
+    def open(self, info: zipfile.ZipInfo) -> zipfile.ZipExtFile:
+        """A part as a stream."""
+        return self._archive.open(info)  # type: ignore[return-value]
+
+    def keep(self, name: str, part: bytes) -> None:
+        """Remember a part that was unpacked whole."""
+        if self._kept + len(part) <= _KEPT:
+            self._kept += len(part)
+            self._parts[name] = part
+
+    def read(self, name: str) -> bytes:
+        """A part.
+
+        Raises:
+            KeyError: there is no such part.
+        """
+        part = self._parts.get(name)
+        return self._archive.read(name) if part is None else part
+
 
 MAX_FILE = 30 * 10**6
 MAX_UNPACKED = 300 * 2**20

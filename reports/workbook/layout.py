@@ -1,4 +1,4 @@
-"""Where everything stands in the workbook: the only room that spells cell addresses.
+"""Cell addresses of everything in the workbook; no other module spells them.
 
 Angle tables begin in the same row of every sheet, so that a row-wise formula
 refers to one row number whatever table it reads.  Scalars and inputs are
@@ -250,9 +250,9 @@ def _place(waves: Waves, turn: str, orders: tuple[float, ...]) -> int:
     """Number of the waves that stand before some orders."""
     names = tuple(waves.orders)
     before = sum(len(waves.orders[name]) for name in names[: names.index(turn)])
-    found = place_of(waves.orders[turn], orders)
-    assert found is not None
-    return before + found
+    known = place_of(waves.orders[turn], orders)
+    assert known is not None
+    return before + known
 
 
 class RowReferences:
@@ -268,10 +268,10 @@ class RowReferences:
 
     def name(self, key: str) -> str:
         """Scalar, or this row's cell of a column."""
-        found = self._column(key)
-        if found is None:
+        column = self._column(key)
+        if column is None:
             return self._layout.name_of(key).removeprefix(self._own)
-        return self._cell(found, _ROW)
+        return self._cell(column, _ROW)
 
     def column(self, key: str, *, repeat_last: bool) -> str:
         """Whole column."""
@@ -300,9 +300,9 @@ class RowReferences:
 
     def down_to_here(self, key: str) -> str:
         """Column from its first row down to this row."""
-        found = self._layout.columns[self._qualified(key)]
-        here = self._cell(found, _ROW)
-        letter = get_column_letter(found[1])
+        column = self._layout.columns[self._qualified(key)]
+        here = self._cell(column, _ROW)
+        letter = get_column_letter(column[1])
         prefix, separator, last = here.rpartition("!")
         return f"{prefix}{separator}${letter}${FIRST_ROW}:{last}"
 
@@ -347,8 +347,8 @@ class RowReferences:
     def _column(self, key: str) -> tuple[TableSpec, int] | None:
         return self._layout.columns.get(self._qualified(key))
 
-    def _cell(self, found: tuple[TableSpec, int], row: str) -> str:
-        table, column = found
+    def _cell(self, placed: tuple[TableSpec, int], row: str) -> str:
+        table, column = placed
         letter = get_column_letter(column)
         if self._table is not None and table.sheet == self._table.sheet:
             return f"{letter}{row}"
@@ -359,10 +359,10 @@ def at_row(formula: str, row: int, *, last: bool = False) -> str:
     """A column's formula in one row; in the last row the following row is the row itself."""
     below = str(row if last else row + 1)
     if "\x05" in formula:
-        formula = _BELOW.sub(lambda found: str(int(found[1]) + row - FIRST_ROW), formula)
+        formula = _BELOW.sub(lambda match: str(int(match[1]) + row - FIRST_ROW), formula)
     if "\x04" in formula:
         formula = _WAVE.sub(
-            lambda found: get_column_letter(int(found[1]) + row - FIRST_ROW), formula
+            lambda match: get_column_letter(int(match[1]) + row - FIRST_ROW), formula
         )
     return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
 

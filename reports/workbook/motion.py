@@ -1,4 +1,4 @@
-"""The sheet of the mechanism: it stands at a chosen angle, drawn by formulas and charts alone.
+"""Sheet of the moving mechanism, drawn by formulas and charts at a chosen angle.
 
 Every cell is an expression of the same language as the tables; points are in millimetres, the
 crank turns clockwise, the cylinder stands upright.
@@ -23,11 +23,11 @@ from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
 from reports.model.shape import Shape, cylinder_table_id
 from reports.workbook import styles
+from reports.workbook.chart_ranges import Drawn
 from reports.workbook.charts import HIGH, drawing
-from reports.workbook.drawn import Drawn
 from reports.workbook.layout import NOTE_ROW, Cell, Layout, RowReferences, column_range, quoted
 from reports.workbook.places import GAP, Box, anchor
-from reports.workbook.sheets import Writer
+from reports.workbook.sheets import BlockWriter
 
 SHEET = "Механизм"
 ANGLE, CYLINDER = "view_phi_deg", "view_cylinder"
@@ -69,7 +69,7 @@ class _View(RowReferences):
         return self.values[key] if key in self.values else self.inputs[key]
 
 
-def can_move(writer: Writer) -> bool:
+def can_move(writer: BlockWriter) -> bool:
     """Whether the book has the numbers of all tables that the sheet shows."""
     columns = writer.values.columns
     return (
@@ -82,7 +82,7 @@ def can_move(writer: Writer) -> bool:
     )
 
 
-def write_motion(book: Workbook, model: Model, writer: Writer) -> list[Box]:
+def write_motion(book: Workbook, model: Model, writer: BlockWriter) -> list[Box]:
     """Fill the sheet; the places of its charts."""
     sheet = book[SHEET]
     inputs: dict[str, Any] = {f.name: f.value for f in model.inputs} | writer.values.scalars
@@ -101,7 +101,7 @@ def write_motion(book: Workbook, model: Model, writer: Writer) -> list[Box]:
 
 
 def _put(
-    sheet: Worksheet, writer: Writer, view: _View, at: tuple[int, int], key: str, text: str
+    sheet: Worksheet, writer: BlockWriter, view: _View, at: tuple[int, int], key: str, text: str
 ) -> None:
     """One cell: its formula, its value for the cache, its key for further formulas."""
     row, column = at
@@ -139,14 +139,14 @@ def _choices(
         sheet.add_data_validation(rule)
         rule.add(sheet.cell(row, 2))
         view.values[key], view.own[key] = float(value), f"$B${row}"
-        place = Cell(SHEET, row, 2).absolute
-        book.defined_names[key] = DefinedName(key, attr_text=place)
+        cell = Cell(SHEET, row, 2).absolute
+        book.defined_names[key] = DefinedName(key, attr_text=cell)
     sheet.cell(NOTE_ROW, 3, "Выберите угол из списка (Alt+↓, затем ↑ и ↓): всё встанет на место.")
     sheet.cell(NOTE_ROW, 3).style = styles.NOTE
 
 
 def _by_cylinder(
-    sheet: Worksheet, writer: Writer, view: _View, cylinders: Sequence[int], shape: Shape
+    sheet: Worksheet, writer: BlockWriter, view: _View, cylinders: Sequence[int], shape: Shape
 ) -> None:
     """Own angle and forces of every cylinder at the chosen angle, below the charts."""
     head = ("Цилиндр", "ψ, °", *(f"{force}, МПа" for force in _FORCES))
@@ -173,7 +173,7 @@ def _by_cylinder(
         view.values[f"all_{key}"] = np.array([view.values[f"{key}_{i}"] for i in numbers])
 
 
-def _chosen(sheet: Worksheet, writer: Writer, view: _View, shape: Shape, small: int) -> None:
+def _chosen(sheet: Worksheet, writer: BlockWriter, view: _View, shape: Shape, small: int) -> None:
     """What is known of the chosen cylinder: angles, forces, pressure, torque."""
 
     def at_psi(column: str) -> str:
@@ -220,7 +220,7 @@ def _shapes(shape: Shape) -> dict[str, list[tuple[str, str]]]:
     wall, half = "0.52*D", "0.5*D"
     weight = [(f"1.15*r*sin(rad(psi + {a}))", f"1.15*r*cos(rad(psi + {a}))")
               for a in (130, 150, 170, 190, 210, 230)]  # fmt: skip
-    made = {
+    shapes = {
         "цилиндр": [(f"xb - {wall}", low), (f"xb - {wall}", high), (f"xb + {wall}", high),
                     (f"xb + {wall}", low)],
         "противовес": [("0", "0"), *weight, ("0", "0")],
@@ -247,28 +247,28 @@ def _shapes(shape: Shape) -> dict[str, list[tuple[str, str]]]:
             )
             for a, b in ("+-", "-+")
         ]
-        made[force] = [(x, y), tip, barbs[0], tip, barbs[1]]
+        shapes[force] = [(x, y), tip, barbs[0], tip, barbs[1]]
     throws = range(1, shape.throws + 1)
     star = [(f"sin(rad(throw_angle_{t}_deg + {ANGLE}))", f"cos(rad(throw_angle_{t}_deg + {ANGLE}))")
             for t in throws]  # fmt: skip
-    made["колена"] = [p for end in star for p in (("0", "0"), end)]
-    made["первое колено"] = [("0", "0"), star[0]]
+    shapes["колена"] = [p for end in star for p in (("0", "0"), end)]
+    shapes["первое колено"] = [("0", "0"), star[0]]
     side = "(2*r + 0.62*D + L)"
-    made["рамка"] = [
+    shapes["рамка"] = [
         (f"0 - {side}*{SHAPE / 2}", "0 - 1.3*r"),
         (f"{side}*{SHAPE / 2}", f"{side} - 1.3*r"),
     ]
-    return made
+    return shapes
 
 
 def _drawings(
-    sheet: Worksheet, writer: Writer, view: _View, shape: Shape
+    sheet: Worksheet, writer: BlockWriter, view: _View, shape: Shape
 ) -> dict[str, tuple[Drawn, list[float], list[float]]]:
     """Points of the broken lines, two columns each, and the moving points of the charts."""
     column = 10
     top = sheet.cell(_POINTS - 2, column, "Точки чертежа, мм")
     top.style = styles.SUBTITLE
-    found: dict[str, tuple[Drawn, list[float], list[float]]] = {}
+    drawings: dict[str, tuple[Drawn, list[float], list[float]]] = {}
     for name, points in _shapes(shape).items():
         for offset, letter in enumerate("xy"):
             sheet.cell(_POINTS - 1, column + offset, f"{name}: {letter}").style = styles.HEADER
@@ -282,7 +282,7 @@ def _drawings(
         )
         last = _POINTS + len(points) - 1
         xs, ys = (column_range(SHEET, column + o, _POINTS, last) for o in (0, 1))
-        found[name] = (Drawn(name, xs, ys), across, up)
+        drawings[name] = (Drawn(name, xs, ys), across, up)
         column += 2
     moving = {
         "p–V": ("gas_V", "gas_p"), "силы": ("psi", "P"), "момент": (ANGLE, "torque"),
@@ -290,8 +290,8 @@ def _drawings(
     }  # fmt: skip
     for name, (x, y) in moving.items():
         line = Drawn(name, _whole(view.own[x]), _whole(view.own[y]), point=True)
-        found[name] = (line, [view.values[x]], [view.values[y]])
-    return found
+        drawings[name] = (line, [view.values[x]], [view.values[y]])
+    return drawings
 
 
 def _whole(cell: str) -> str:
@@ -300,7 +300,7 @@ def _whole(cell: str) -> str:
 
 
 def _charts(
-    sheet: Worksheet, writer: Writer, drawn: dict[str, tuple[Drawn, list[float], list[float]]]
+    sheet: Worksheet, writer: BlockWriter, drawn: dict[str, tuple[Drawn, list[float], list[float]]]
 ) -> list[Box]:
     """The mechanism on the left, five diagrams with a moving point beside it."""
     for line, xs, ys in drawn.values():
@@ -343,7 +343,7 @@ def _charts(
         *(Box(right + (WIDE + GAP) * (n % 2), top + (HIGH + GAP) * (n // 2), WIDE, HIGH)
           for n in range(5)),
     ]  # fmt: skip
-    for chart, place in zip(charts, boxes, strict=True):
-        chart.anchor = anchor(sheet, place)
+    for chart, box in zip(charts, boxes, strict=True):
+        chart.anchor = anchor(sheet, box)
         sheet.add_chart(chart)
     return boxes

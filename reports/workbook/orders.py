@@ -1,4 +1,4 @@
-"""Which sines and cosines of a multiple of an angle the Fourier coefficients of a book sum over."""
+"""Sines and cosines of the orders that a book's Fourier sums use."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ def grid_of(table: TableSpec) -> Grid:
 
 def runs_of(model: Model) -> Mapping[str, Waves]:
     """Orders of the sums over a run of a grid, by the run of their angles."""
-    found: dict[str, Waves] = {}
+    waves: dict[str, Waves] = {}
     for table, turn, angle, order in _met(model, "wave_"):
-        _add(found.setdefault(angle, Waves(angle)), table, turn, order)
-    return found
+        _add(waves.setdefault(angle, Waves(angle)), table, turn, order)
+    return waves
 
 
 def waves_of(model: Model) -> Mapping[Grid, Waves]:
@@ -40,12 +40,12 @@ def waves_of(model: Model) -> Mapping[Grid, Waves]:
     Raises:
         ValueError: an order is neither a number nor the first column of its table.
     """
-    found: dict[Grid, Waves] = {}
+    waves: dict[Grid, Waves] = {}
     for table, turn, angle, order in _met(model, "fourier_"):
         full = angle if "." in angle or table is None else f"{table.id}.{angle}"
         grid = grid_of(model.tables[full.partition(".")[0]])
-        _add(found.setdefault(grid, Waves(full)), table, turn, order)
-    return found
+        _add(waves.setdefault(grid, Waves(full)), table, turn, order)
+    return waves
 
 
 def _add(waves: Waves, table: TableSpec | None, turn: str, order: float | str) -> None:

@@ -1,4 +1,4 @@
-"""Where charts stand: in sight on a screen, several to a row, none over another.
+"""Chart placement: on screen, several to a row, without overlap.
 
 Everything is measured in pixels of a screen at 100 %; a program's columns are as wide as their
 widths say for the standard font, its rows as high as is written or 15 points.

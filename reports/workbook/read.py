@@ -115,15 +115,15 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
             what = f"имя {name} не указывает на ячейку"
             problems.append(Problem(source, what, "восстановите лист исходных данных"))
             continue
-        place = f"{title}!{match.group(1)}{match.group(2)}"
+        reference = f"{title}!{match.group(1)}{match.group(2)}"
         row, column = coordinate_to_tuple(match.group(1) + match.group(2))
         cell = sheet.get((row, column))
         if cell is not None and cell.data_type == "f":
             what = "в ячейке исходных данных стоит формула"
-            problems.append(Problem(f"{source}, {place}", what, "впишите число"))
+            problems.append(Problem(f"{source}, {reference}", what, "впишите число"))
             continue
         value = None if cell is None else cell.value
-        cells[name], places[name] = value, place
+        cells[name], places[name] = value, reference
         beside = sheet.get((row, UNIT_COLUMN))
         if column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
             units[name] = str(beside.value)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import ceil
 
 from openpyxl.comments import Comment
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
@@ -25,11 +26,22 @@ from reports.workbook.layout import (
     TITLE_COLUMN,
     UNIT_COLUMN,
     VALUE_COLUMN,
+    Cell,
     Layout,
     RowReferences,
     at_row,
+    quoted,
 )
 from reports.workbook.places import raise_row
+
+
+def link(sheet: Worksheet, cell_of_link: Cell, text: str, target: str) -> None:
+    """A link within the book, as a place: an address such as ``#'Лист'!A1`` is a foreign file."""
+    cell = sheet.cell(cell_of_link.row, cell_of_link.column, text)
+    at = cell_of_link.coordinate
+    cell.hyperlink = Hyperlink(ref=at, location=f"{quoted(target)}!A1", display=text)
+    cell.style = styles.LINK
+
 
 # Widths of the columns of titles, symbols and sources in a list.
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 58, 14, 24
@@ -56,7 +68,7 @@ class CacheValues:
 
 
 @dataclass
-class Writer:
+class BlockWriter:
     """Writes blocks; collects what openpyxl does not write: values, cells inside columns."""
 
     layout: Layout
@@ -72,13 +84,13 @@ class Writer:
 
     def table(self, sheet: Worksheet, table: TableSpec) -> None:
         """An angle table: titles, headers with comments, formulas row by row."""
-        place = self.layout.places[table.id]
-        sheet.cell(HEADER_ROW - 1, place.column, f"Таблица {table.number} — {table.title}")
-        sheet.cell(HEADER_ROW - 1, place.column).style = styles.SUBTITLE
+        first_cell = self.layout.places[table.id]
+        sheet.cell(HEADER_ROW - 1, first_cell.column, f"Таблица {table.number} — {table.title}")
+        sheet.cell(HEADER_ROW - 1, first_cell.column).style = styles.SUBTITLE
         rows = self.layout.rows_of(table)
         last = rows[-1]
         for number, column in enumerate(table.columns, 1):
-            index = place.column + number - 1
+            index = first_cell.column + number - 1
             header = sheet.cell(HEADER_ROW, index, column.quantity.header)
             header.style = styles.HEADER
             formula = self.explained(column.quantity, column.expr, table.id)
@@ -107,8 +119,8 @@ class Writer:
         if text is None:
             return ""
         said = plain(text, lambda name: self._symbol(name, table))
-        made = f"{quantity.symbol} = {said}"
-        return "" if said == quantity.symbol or len(made) > _LONGEST_NOTE else made
+        equation = f"{quantity.symbol} = {said}"
+        return "" if said == quantity.symbol or len(equation) > _LONGEST_NOTE else equation
 
     def _symbol(self, name: str, table: str) -> str:
         model = self.layout.model
@@ -169,9 +181,9 @@ class Writer:
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
         """A list of scalars: title, symbol, value, unit, source."""
-        place = self.layout.places[block.id]
-        shift = place.column - 1
-        sheet.cell(place.row, place.column, block.title).style = styles.SUBTITLE
+        first_cell = self.layout.places[block.id]
+        shift = first_cell.column - 1
+        sheet.cell(first_cell.row, first_cell.column, block.title).style = styles.SUBTITLE
         for scalar in block.scalars:
             row = self.layout.cells[scalar.key].row
             quantity = scalar.quantity
@@ -184,7 +196,7 @@ class Writer:
                 }
                 for column, text in texts.items():
                     sheet.cell(row, shift + column, text or None).style = styles.TEXT
-                if place.column == 1:  # beside a table the rows keep their height
+                if first_cell.column == 1:  # beside a table the rows keep their height
                     raise_row(sheet, row, {
                         texts[TITLE_COLUMN]: TITLE_WIDTH, texts[SYMBOL_COLUMN]: SYMBOL_WIDTH,
                         texts[SOURCE_COLUMN]: SOURCE_WIDTH,
@@ -193,20 +205,20 @@ class Writer:
 
     def grid(self, sheet: Worksheet, block: Grid) -> None:
         """Scalars as quantity × instance."""
-        place = self.layout.places[block.id]
+        corner = self.layout.places[block.id]
         first = self.layout.cells[next(c for c in block.rows[0].cells if c is not None).key].column
-        if place.row > HEADER_ROW:
-            sheet.cell(place.row - 1, place.column, block.title).style = styles.SUBTITLE
-        sheet.cell(place.row, place.column, "Величина").style = styles.HEADER
+        if corner.row > HEADER_ROW:
+            sheet.cell(corner.row - 1, corner.column, block.title).style = styles.SUBTITLE
+        sheet.cell(corner.row, corner.column, "Величина").style = styles.HEADER
         if first > VALUE_COLUMN - 1:
-            sheet.cell(place.row, place.column + 1, "Обозначение").style = styles.HEADER
+            sheet.cell(corner.row, corner.column + 1, "Обозначение").style = styles.HEADER
         for offset, label in enumerate(block.labels):
             # A label may be a name that a person gave: never a formula.
-            styles.as_text(sheet.cell(place.row, first + offset, label)).style = styles.HEADER
+            styles.as_text(sheet.cell(corner.row, first + offset, label)).style = styles.HEADER
         if first == VALUE_COLUMN - 1:  # below a table
-            raise_row(sheet, place.row, dict.fromkeys(("Величина", *block.labels), NARROW))
+            raise_row(sheet, corner.row, dict.fromkeys(("Величина", *block.labels), NARROW))
         for offset, row in enumerate(block.rows, 1):
-            at, quantity = place.row + offset, row.quantity
+            at, quantity = corner.row + offset, row.quantity
             wide = first > VALUE_COLUMN - 1
             label = sheet.cell(at, 1, capital(quantity.title) if wide else quantity.header)
             label.style = styles.HEADER if not wide else styles.TEXT

@@ -73,15 +73,15 @@ def add_styles(book: Workbook) -> None:
     centre = Alignment(horizontal="center", vertical="center", wrap_text=True)
 
     def style(name: str, **parts: object) -> None:
-        made = NamedStyle(name=name)
+        named = NamedStyle(name=name)
         colour = _COLOURS.get(name)
         # On a light fill the letters stay dark where a program turns its own to white.
-        made.font = Font(name=FONT, size=11, color="000000" if colour else None)
+        named.font = Font(name=FONT, size=11, color="000000" if colour else None)
         if colour:
-            made.fill = PatternFill("solid", fgColor=colour)
+            named.fill = PatternFill("solid", fgColor=colour)
         for key, value in parts.items():
-            setattr(made, key, value)
-        book.add_named_style(made)
+            setattr(named, key, value)
+        book.add_named_style(named)
 
     unlocked = Protection(locked=False)
     middle = Alignment(vertical="center")  # of a row that its title makes higher

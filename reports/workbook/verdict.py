@@ -1,4 +1,4 @@
-"""Whether the numbers of an open book hold: data in their limits, sheets without errors, checks.
+"""Verdicts of an open book: inputs within limits, no errors, checks passed.
 
 All three stand on the sheet of checks; the first sheet says the gravest.
 """
@@ -6,7 +6,8 @@ All three stand on the sheet of checks; the first sheet says the gravest.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 
 from openpyxl.formatting.rule import CellIsRule, FormulaRule
@@ -16,7 +17,8 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.formula.excel import number
-from reports.inputs.fields import Field
+from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
+from reports.inputs.fields import Field, regime_suffix
 from reports.model.blocks import NO, YES, Model
 from reports.workbook import styles
 from reports.workbook.inputs import options
@@ -33,9 +35,120 @@ from reports.workbook.layout import (
     column_range,
     quoted,
 )
-from reports.workbook.links import link
-from reports.workbook.pairs import Condition, conditions
-from reports.workbook.sheets import CacheValues, Writer
+from reports.workbook.sheets import BlockWriter, CacheValues, link
+
+_Fields = Mapping[str, Sequence[Field]]
+_POINTS = Pair("gas.points", "gas.points", "Углы точек диаграммы возрастают")
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A pair of this book: what its formula tests, and the cells that it is about."""
+
+    pair: Pair
+    title: str
+    formula: str
+    fields: tuple[Field, ...]
+    holds: bool  # with the values that the book is built with
+
+
+def conditions(
+    model: Model, layout: Layout, scalars: Mapping[str, float | str]
+) -> Iterator[Condition]:
+    """Every pair both of whose sides stand in the book, those of further regimes as well."""
+    main, further = _by_key(model.inputs)
+    for number_, own in ((1, main), *further.items()):
+        suffix, whose = (regime_suffix(number_), f", режим {number_}") if number_ > 1 else ("", "")
+        shared = {key: of_key for key, of_key in main.items() if not suffix or not _of_regime(key)}
+        fields = {**shared, **own}
+        for pair in PAIRS:
+            if not is_of(pair, model.input.engine.strokes, fields.get):
+                continue
+            less, more = (
+                _side(side, end, fields, layout, scalars, suffix)
+                for side, end in ((pair.less, "MAX"), (pair.more, "MIN"))
+            )
+            if less is None or more is None or not (less.own or more.own):
+                continue
+            cells = (*less.fields, *more.fields)
+            # A further regime is held to its own gas; what rests on a speed rests on the first.
+            if suffix and not any(field.path[2:3] == ("gas",) for field in cells):
+                continue
+            sign = "<" if pair.strict else "<="
+            text, holds = f"{less.text}{sign}{more.text}", pair.holds(less.value, more.value)
+            yield Condition(pair, pair.title + whose, text, cells, holds)
+        if angles := tuple(item for item in own.get(_POINTS.less, ()) if item.path[-1] == 0):
+            title = _POINTS.title + whose
+            yield Condition(_POINTS, title, _rising(angles, layout), angles, holds=True)
+
+
+def _rising(fields: Sequence[Field], layout: Layout) -> str:
+    """That each of several cells of a column is greater than the one above it."""
+    first, last = (layout.cells[item.name] for item in (fields[0], fields[-1]))
+    above = column_range(first.sheet, first.column, first.row, last.row - 1)
+    below = column_range(first.sheet, first.column, first.row + 1, last.row)
+    return f"SUMPRODUCT(1*({below}<={above}))=0"
+
+
+def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:
+    """Fields by their keys without numbers: the main ones, and those of each further regime."""
+    grouped: dict[int, dict[str, list[Field]]] = defaultdict(lambda: defaultdict(list))
+    for item in inputs:
+        path, regime = item.path, 1
+        if path[0] == "regimes":
+            regime, path = int(path[1]) + 2, path[2:]
+            path = path if path[0] == "gas" else ("regime", *path)
+        key = ".".join(part for part in path if isinstance(part, str))
+        grouped[regime][key].append(item)
+    return grouped.pop(1), {key: dict(fields) for key, fields in grouped.items()}
+
+
+def _of_regime(key: str) -> bool:
+    """Whether each regime has this key for itself."""
+    return key.startswith(("regime.", "gas."))
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    text: str
+    value: float
+    fields: tuple[Field, ...]
+    own: bool
+
+
+def _side(
+    side: str,
+    end: str,
+    fields: _Fields,
+    layout: Layout,
+    scalars: Mapping[str, float | str],
+    suffix: str,
+) -> _Side | None:
+    """The first term of a side that the book holds, with its cells."""
+    for index, term in enumerate(terms_of(side)):
+        name = term.key.removeprefix("=") + suffix
+        if term.key[0] == "=" and name in layout.model.scalars:
+            value = term.of(float(scalars[name]))
+            return _Side(_scaled(layout.name_of(name), term), value, (), False)
+        if cells := tuple(fields.get(term.key, ())):
+            values = [float(item.value) for item in cells]
+            value = term.of(max(values) if end == "MAX" else min(values))
+            return _Side(_scaled(_cells(cells, end, layout), term), value, cells, not index)
+    return None
+
+
+def _cells(fields: Sequence[Field], end: str, layout: Layout) -> str:
+    """One cell by its name, the end of several of a column."""
+    if len(fields) == 1:
+        return layout.name_of(fields[0].name)
+    first, last = (layout.cells[item.name] for item in (fields[0], fields[-1]))
+    return f"{end}({column_range(first.sheet, first.column, first.row, last.row)})"
+
+
+def _scaled(text: str, term: Term) -> str:
+    power = "" if term.power == 1 else f"^{number(term.power)}"
+    return text + power if term.times == 1 else f"{number(term.times)}*{text}{power}"
+
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
 BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
@@ -46,14 +159,14 @@ _WRONG_ROW, _ODD_ROW = 1, 2
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
-def check_keys(writer: Writer) -> list[str]:
+def check_keys(writer: BlockWriter) -> list[str]:
     """Scalars of the checks whose verdicts stand in the book; none of a book to fill in."""
     values = writer.values.scalars
     keys = [key for key in writer.layout.model.scalars if key.startswith("check_")]
     return keys if all(values.get(key) in (YES, NO) for key in keys) else []
 
 
-def write_verdict(book: Workbook, model: Model, writer: Writer) -> tuple[str, str] | None:
+def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[str, str] | None:
     """Formula and value of what the first sheet says of the numbers; nothing without checks."""
     keys = check_keys(writer)
     if not keys:
@@ -85,33 +198,33 @@ def write_verdict(book: Workbook, model: Model, writer: Writer) -> tuple[str, st
     )
 
 
-def _within(sheet: Worksheet, row: int, beyond: str, writer: Writer) -> str:
+def _within(sheet: Worksheet, row: int, beyond: str, writer: BlockWriter) -> str:
     """The check of the input data; the address of its verdict."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), _WITHIN, INPUT_SHEET)
     count = Cell(sheet.title, row, VALUE_COLUMN)
     writer.formula(sheet, row, count.column, f"=COUNTIF({beyond},{_WRONG_ROW})", 0.0)
     sheet.cell(row, count.column).style = styles.FORMULA
-    place = Cell(sheet.title, row, UNIT_COLUMN)
-    _say(sheet, place, f'=IF({count.coordinate}=0,"{YES}","{NO}")', writer)
-    return place.absolute
+    cell = Cell(sheet.title, row, UNIT_COLUMN)
+    _say(sheet, cell, f'=IF({count.coordinate}=0,"{YES}","{NO}")', writer)
+    return cell.absolute
 
 
-def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: Writer) -> _Tests:
+def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: BlockWriter) -> _Tests:
     """A verdict for each pair that must be in order; by rows of input data what tests it."""
-    found: dict[int, list[tuple[Condition, str]]] = defaultdict(list)
+    by_row: dict[int, list[tuple[Condition, str]]] = defaultdict(list)
     for at, condition in enumerate(held, row):
         link(sheet, Cell(sheet.title, at, TITLE_COLUMN), condition.title, INPUT_SHEET)
-        wrong, place = ODD if condition.pair.warning else NO, Cell(sheet.title, at, UNIT_COLUMN)
-        told = f'IF({condition.formula},"{YES}","{wrong}")'
-        formula = f'=IF(ISERROR({condition.formula}),"{_UNKNOWN}",{told})'
-        _say(sheet, place, formula, writer, YES if condition.holds else wrong)
+        wrong, cell = ODD if condition.pair.warning else NO, Cell(sheet.title, at, UNIT_COLUMN)
+        verdict = f'IF({condition.formula},"{YES}","{wrong}")'
+        formula = f'=IF(ISERROR({condition.formula}),"{_UNKNOWN}",{verdict})'
+        _say(sheet, cell, formula, writer, YES if condition.holds else wrong)
         for item in condition.fields:
-            test = f'{place.absolute}<>"{wrong}"'
-            found[writer.layout.cells[item.name].row].append((condition, test))
-    return found
+            test = f'{cell.absolute}<>"{wrong}"'
+            by_row[writer.layout.cells[item.name].row].append((condition, test))
+    return by_row
 
 
-def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: Writer) -> str:
+def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: BlockWriter) -> str:
     """A verdict for each sheet; their range."""
     for at, (title, area_of) in enumerate(areas.items(), row):
         link(sheet, Cell(sheet.title, at, TITLE_COLUMN), f"{title}: без ошибок в формулах", title)
@@ -122,31 +235,31 @@ def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: W
 
 def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str) -> None:
     """Verdicts of rows green and red."""
-    place = area(*(Cell(sheet.title, row, UNIT_COLUMN) for row in (first, last)))
+    cells = area(*(Cell(sheet.title, row, UNIT_COLUMN) for row in (first, last)))
     green = PatternFill(bgColor="C6EFCE")
-    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{good}"'], fill=green))
-    sheet.conditional_formatting.add(place, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
+    sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{good}"'], fill=green))
+    sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
 
 
-def _say(sheet: Worksheet, place: Cell, formula: str, writer: Writer, said: str = YES) -> None:
-    writer.formula(sheet, place.row, place.column, formula, said)
-    sheet.cell(place.row, place.column).style = styles.CHECK
+def _say(sheet: Worksheet, cell: Cell, formula: str, writer: BlockWriter, said: str = YES) -> None:
+    writer.formula(sheet, cell.row, cell.column, formula, said)
+    sheet.cell(cell.row, cell.column).style = styles.CHECK
 
 
 def _areas(caches: CacheValues) -> dict[str, str]:
     """Sheet → the range of all its formula cells: the ends of a filled column are among them."""
-    found: dict[str, str] = {}
+    areas: dict[str, str] = {}
     for title, cells in caches.values.items():
         places = [coordinate_to_tuple(place) for place in cells]
         rows, columns = {row for row, _ in places}, {column for _, column in places}
         first, last = (
             Cell(title, end(rows), end(columns)).absolute.partition("!")[2] for end in (min, max)
         )
-        found[title] = f"{quoted(title)}!{first}:{last}"
-    return found
+        areas[title] = f"{quoted(title)}!{first}:{last}"
+    return areas
 
 
-def _limits(sheet: Worksheet, model: Model, writer: Writer, in_order: _Tests) -> str:
+def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Tests) -> str:
     """A folded column that says which rows are wrong, and which odd; its range."""
     layout = writer.layout
     rows: dict[int, list[Field]] = defaultdict(list)
@@ -189,7 +302,7 @@ def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:
         cells = [layout.cells[item.name] for item in run]
         if least is None or most is None:
             continue
-        place = area(cells[0], cells[-1]) if len(cells) > 1 else cells[0].coordinate
-        yield f"COUNT({place})={len(cells)}"  # an empty cell would be zero
-        yield f"MIN({place})>={number(least)}"
-        yield f"MAX({place})<={number(most)}"
+        cells_tested = area(cells[0], cells[-1]) if len(cells) > 1 else cells[0].coordinate
+        yield f"COUNT({cells_tested})={len(cells)}"  # an empty cell would be zero
+        yield f"MIN({cells_tested})>={number(least)}"
+        yield f"MAX({cells_tested})<={number(most)}"

@@ -1,21 +1,24 @@
-"""The workbook of an engine: all sheets with live formulas, caches and charts."""
+"""Write the workbook: all sheets with live formulas, waves of Fourier sums, charts."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from math import cos, radians, sin
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
+from reports.formula.excel import number
 from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
-from reports.shared.garbage import uncollected
-from reports.workbook import motion, styles, what_if
+from reports.shared.gc_pause import uncollected
+from reports.workbook import cockpit, motion, styles
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
 from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
@@ -27,15 +30,16 @@ from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     NOTE_ROW,
+    NUMBER_ROW,
     SOURCE_COLUMN,
     TITLE_ROW,
     WAVES_SHEET,
     Cell,
     Layout,
     check_names,
+    quoted,
 )
-from reports.workbook.links import link
-from reports.workbook.paper import UPRIGHT, set_page, set_widths
+from reports.workbook.orders import Waves
 from reports.workbook.places import (
     FOLD,
     GAP,
@@ -50,9 +54,77 @@ from reports.workbook.places import (
     top_of,
     wrap_across,
 )
-from reports.workbook.sheets import CacheValues, Writer
+from reports.workbook.print_setup import UPRIGHT, set_page, set_widths
+from reports.workbook.sheets import BlockWriter, CacheValues, link
 from reports.workbook.verdict import colour_verdicts, write_verdict
-from reports.workbook.waves import write_waves
+
+_ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
+_TURNS = {"cos": cos, "sin": sin}
+
+
+def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
+    """Angles as their table has them, orders above the columns; the last row repeats the first."""
+    layout = writer.layout
+    for run in layout.run_orders:
+        _write_run(sheet, writer, run)
+    for grid, waves in layout.orders.items():
+        table, column = layout.columns[waves.angle]
+        if table.id not in writer.values.columns:  # a work-book has some tables only
+            continue
+        angles = writer.values.columns[table.id][table.columns[0].key][:-1].tolist()
+        first = layout.waves[grid]
+        rows = range(FIRST_ROW, FIRST_ROW + len(angles))
+        sheet.cell(HEADER_ROW - 1, first, table.sheet).style = styles.SUBTITLE
+        sheet.cell(HEADER_ROW, first, table.columns[0].quantity.header).style = styles.HEADER
+        letter, home = get_column_letter(first), quoted(table.sheet)
+        copies = [f"={home}!{Cell('', row, column).coordinate}" for row in rows]
+        writer.column(sheet, first, copies, angles, _ANGLE)
+        for at, (turn, order) in enumerate(_each(waves), first + 1):
+            sheet.cell(HEADER_ROW, at, f"{turn} kφ").style = styles.HEADER
+            sheet.cell(NUMBER_ROW, at, order).style = styles.NUMBER
+            above = f"{get_column_letter(at)}${NUMBER_ROW}"
+            texts = [f"={turn.upper()}(${letter}{row}*({above}*PI()/180))" for row in rows]
+            # The same digits for the same angle in every column: they take less room.
+            values = [round(_TURNS[turn](radians(order * angle % 360)), 15) for angle in angles]
+            writer.column(sheet, at, texts, values, _WAVE)
+
+
+def _each(waves: Waves) -> Iterator[tuple[str, float]]:
+    """Function and order of each wave."""
+    for turn, orders in waves.orders.items():
+        for order in orders:
+            yield turn, order
+
+
+def _write_run(sheet: Worksheet, writer: BlockWriter, run: str) -> None:
+    """Angles of a run side by side, below them a row an order."""
+    layout = writer.layout
+    keys, top = layout.keys_of_run(run), layout.run_waves[run]
+    known = {field.name: field.value for field in layout.model.inputs} | writer.values.scalars
+    if not all(key in known for key in keys):  # a work-book has some lists only
+        return
+    angles = [float(known[key]) for key in keys]
+    cells = layout.cells_of_run(run)
+    sheet.cell(top - 1, 1, cells[0].sheet).style = styles.SUBTITLE
+    for column, (cell, angle) in enumerate(zip(cells, angles, strict=True), 2):
+        _cell(sheet, writer, top, column, f"={cell.absolute}", angle)
+    for row, (turn, order) in enumerate(_each(layout.run_orders[run]), top + 1):
+        writer.formula(sheet, row, 1, f"={number(order)}", order)
+        sheet.cell(row, 1).style = styles.NUMBER
+        for column, angle in enumerate(angles, 2):
+            letter = get_column_letter(column)
+            text = f"={turn.upper()}({letter}${top}*($A{row}*PI()/180))"
+            value = round(_TURNS[turn](radians(order * angle)), 15)
+            _cell(sheet, writer, row, column, text, value)
+
+
+def _cell(
+    sheet: Worksheet, writer: BlockWriter, row: int, column: int, text: str, value: float
+) -> None:
+    writer.formula(sheet, row, column, text, value)
+    cell = sheet.cell(row, column)
+    cell.style, cell.number_format = _WAVE
+
 
 _MOST_CHECKS = 40
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
@@ -64,13 +136,13 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     """The finished workbook as bytes; the same model gives the same bytes."""
     layout = Layout.of(model)
     check_names(layout)
-    writer = Writer(layout, values or evaluate_model(model))
+    writer = BlockWriter(layout, values or evaluate_model(model))
     with uncollected():
         return saved(assemble(model, writer), writer.caches)
 
 
 def assemble(
-    model: Model, writer: Writer, legend: Sequence[tuple[str, str]] = styles.LEGEND
+    model: Model, writer: BlockWriter, legend: Sequence[tuple[str, str]] = styles.LEGEND
 ) -> Workbook:
     """All sheets of a model's blocks, where the writer's layout puts them."""
     layout = writer.layout
@@ -95,10 +167,10 @@ def assemble(
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
     if motion.can_move(writer):
-        for title in (what_if.SHEET, motion.SHEET):
+        for title in (cockpit.SHEET, motion.SHEET):
             _heading(book.create_sheet(title, _index(book, title)), heading(title))
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
-        what_if.write_what_if(book, model, writer)
+        cockpit.write_what_if(book, model, writer)
     verdict = write_verdict(book, model, writer)
     boxes[CONTENTS_SHEET] = write_cockpit(
         book[CONTENTS_SHEET], book.sheetnames, model, writer, legend, verdict
@@ -135,7 +207,7 @@ def _heading(sheet: Worksheet, title: str) -> None:
     link(sheet, Cell(sheet.title, NOTE_ROW, 1), f"← {CONTENTS_SHEET}", CONTENTS_SHEET)
 
 
-def _blocks(sheet: Worksheet, model: Model, writer: Writer) -> None:
+def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
     _heading(sheet, heading(sheet.title))
     for block in blocks:
@@ -166,9 +238,9 @@ def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:
         raise_row(sheet, row, {text: _REMARK_WIDTH})
 
 
-def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]]:
+def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list[Box]]:
     """Charts beside or below their tables, or on their chapter's sheet; where they stand."""
-    found: dict[str, list[Box]] = {}
+    boxes_by_sheet: dict[str, list[Box]] = {}
     homeless: dict[str, list[ChartSpec]] = {}
     for title in ordered(model.sheets):
         sheet = book[title]
@@ -183,14 +255,16 @@ def _charts(book: Workbook, model: Model, writer: Writer) -> dict[str, list[Box]
         if boxes is None:
             homeless.setdefault(diagrams_of(chapter_of(title)), []).extend(specs)
         else:
-            found[title] = boxes
+            boxes_by_sheet[title] = boxes
             _draw(sheet, specs, boxes, writer)
     for title, specs in homeless.items():
         sheet = book.create_sheet(title, _index(book, title))
         _heading(sheet, heading(title))
-        found[title] = flow([pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN)
-        _draw(sheet, specs, found[title], writer)
-    return found
+        boxes_by_sheet[title] = flow(
+            [pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN
+        )
+        _draw(sheet, specs, boxes_by_sheet[title], writer)
+    return boxes_by_sheet
 
 
 def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
@@ -213,7 +287,7 @@ def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list
 
 
 def _draw(
-    sheet: Worksheet, specs: Sequence[ChartSpec], boxes: Sequence[Box], writer: Writer
+    sheet: Worksheet, specs: Sequence[ChartSpec], boxes: Sequence[Box], writer: BlockWriter
 ) -> None:
     for spec, box in zip(specs, boxes, strict=True):
         chart = make_chart(spec, writer.layout, writer.values)

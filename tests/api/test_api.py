@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import doctest
 import io
 import subprocess
 import sys
@@ -78,6 +79,36 @@ def test_what_is_imported_when() -> None:
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
     assert (ROOT / "kshm" / "py.typed").exists()
     assert (ROOT / "reports" / "py.typed").exists()
+
+
+@pytest.fixture(scope="module")
+def example_names() -> dict:
+    """Names of the package and those that the example of ``in_line`` makes for the others."""
+    names = {name: getattr(kshm, name) for name in kshm.__all__}
+    run_example("in_line", names)
+    return names
+
+
+def run_example(name: str, names: dict) -> None:
+    text = getattr(kshm, name).__doc__
+    test = doctest.DocTestParser().get_doctest(text, names, name, None, None)
+    test.globs = names
+    assert test.examples, f"{name} has no example"
+    said: list[str] = []
+    result = doctest.DocTestRunner().run(test, out=said.append, clear_globs=False)
+    assert result.failed == 0, "".join(said)
+
+
+@pytest.mark.parametrize("name", kshm.__all__)
+def test_every_public_name_has_an_example_that_runs(name: str, example_names: dict) -> None:
+    run_example(name, dict(example_names))
+
+
+def test_a_wrong_example_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    for text in (">>> 1 + 1\n3\n", "No example."):
+        monkeypatch.setattr(kshm.Engine, "__doc__", text)
+        with pytest.raises(AssertionError):
+            run_example("Engine", {})
 
 
 def small(**changes: object) -> kshm.Engine:

@@ -11,7 +11,7 @@ import tomlkit
 
 from reports.inputs.fields import to_mapping
 from reports.shared.errors import InputError
-from reports.studies.run import sweep
+from reports.studies.sweep import sweep
 from tests.conftest import sample
 from tests.grading.chapter_class import ChapterClass, unlike_right
 

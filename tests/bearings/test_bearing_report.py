@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from kshm.mechanics import fatigue, oil_film
-from kshm.mechanics.oil_balance import BearingArrays
+from kshm.mechanics import bearings
+from kshm.mechanics.bearings import BearingArrays
 from reports.document.report import Report
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -38,32 +38,32 @@ def test_the_largest_clearance_of_the_published_bearing_has_too_little_reserve()
     for clearance in (0.057e-3, 0.131e-3):
         bearing = one(0.068, 0.038, 1, clearance, omega, 0.005)
         number = bearing.load_number(np.array([11745.0]), np.array([0.00657]))
-        e = oil_film.steady_eccentricity(number, bearing.width)
-        gaps.append(float(oil_film.gap(e, bearing.clearance)[0]))
+        e = bearings.steady_eccentricity(number, bearing.width)
+        gaps.append(float(bearings.gap(e, bearing.clearance)[0]))
     assert gaps[1] < gaps[0]
     assert gaps[1] < 1.5 * 3e-6
 
 
 def test_a_film_by_hand() -> None:
-    found = float(oil_film.rotation_number(np.array(0.9), np.array(0.5)))
+    found = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
     assert found == pytest.approx(5.378, abs=5e-4)
 
 
 def test_torsion_by_hand() -> None:
-    modulus = fatigue.polar_modulus(np.array(0.06), np.array(0.0))
-    swing = fatigue.Swing.of(np.array(700.0), np.array(-300.0), modulus)
-    factor = fatigue.concentration(1.8, 0.7) / 0.75
+    modulus = bearings.polar_modulus(np.array(0.06), np.array(0.0))
+    swing = bearings.Swing.of(np.array(700.0), np.array(-300.0), modulus)
+    factor = bearings.concentration(1.8, 0.7) / 0.75
     assert factor == pytest.approx(2.08)
     assert float(swing.amplitude) == pytest.approx(11.79e6, abs=5e3)
-    assert float(fatigue.safety(swing, 150e6, factor, 0.08)) == pytest.approx(6.02, abs=5e-3)
+    assert float(bearings.safety(swing, 150e6, factor, 0.08)) == pytest.approx(6.02, abs=5e-3)
 
 
 def test_bending_and_torsion_together_by_hand() -> None:
-    assert float(fatigue.together(np.array(3.0), np.array(4.0))) == pytest.approx(2.4)
+    assert float(bearings.together(np.array(3.0), np.array(4.0))) == pytest.approx(2.4)
 
 
 def test_the_class_rule_by_hand() -> None:
-    found = fatigue.class_strength(np.array(600e6), np.array(0.06), np.array(0.004), 1.05)
+    found = bearings.class_strength(np.array(600e6), np.array(0.06), np.array(0.004), 1.05)
     assert float(found) == pytest.approx(287.0e6, abs=5e4)
 
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from kshm import solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.sections.crankshaft import CrankshaftSection
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.mechanism import CrankshaftSection
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation

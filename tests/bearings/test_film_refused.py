@@ -13,9 +13,9 @@ import tomlkit
 from kshm.mechanics.oil_orbit import FilmError, orbits
 from reports.exports.build import load_input
 from reports.inputs.fields import to_mapping
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.shared.errors import InputError
-from reports.studies.run import sweep
+from reports.studies.sweep import sweep
 from tests.bearings.files import tractor
 
 PHI = np.linspace(0, 4 * np.pi, 73)

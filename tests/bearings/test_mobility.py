@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from kshm.mechanics.oil_map import MobilityMap, squeeze_force
-from kshm.mechanics.oil_orbit import orbits
+from kshm.mechanics.oil_orbit import MobilityMap, orbits, squeeze_force
 from reports.inputs.load import load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.bearings.reynolds import carried, moved

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kshm.mechanics import oil_film
-from kshm.mechanics.oil_map import squeeze_force
-from kshm.mechanics.oil_orbit import orbits
+from kshm.mechanics import bearings
+from kshm.mechanics.oil_orbit import orbits, squeeze_force
 from tests.cover import examples
 
 # Printed in the companions' note: rows ε, columns B/D 1, 1/2, 1/4.
@@ -46,10 +45,10 @@ def errors(form, table) -> np.ndarray:
 
 
 def test_the_printed_numbers_are_met_as_the_note_says() -> None:
-    rotation = errors(oil_film.rotation_number, ROTATION) / np.array(list(ROTATION.values()))
+    rotation = errors(bearings.rotation_number, ROTATION) / np.array(list(ROTATION.values()))
     assert np.median(rotation) < 0.030
     assert rotation.max() < 0.068
-    turn = np.degrees(errors(oil_film.attitude, {e: np.radians(v) for e, v in ATTITUDE.items()}))
+    turn = np.degrees(errors(bearings.attitude, {e: np.radians(v) for e, v in ATTITUDE.items()}))
     assert np.median(turn) < 1.0
     assert turn.max() < 2.4
 
@@ -59,18 +58,18 @@ def test_other_published_bearings_are_met(width: float) -> None:
     """So = 1/(2πS): another solution of the same equation, by another author."""
     for e, (number, turn) in RAIMONDI[width].items():
         load = np.array(1 / (2 * np.pi * number))
-        assert oil_film.rotation_number(np.array(e), np.array(width)) == pytest.approx(
+        assert bearings.rotation_number(np.array(e), np.array(width)) == pytest.approx(
             load, rel=0.068
         )
-        found = oil_film.steady_eccentricity(load, np.array(width))
+        found = bearings.steady_eccentricity(load, np.array(width))
         assert found == pytest.approx(e, abs=0.01)
-        assert np.degrees(oil_film.attitude(np.array(e), np.array(width))) == pytest.approx(
+        assert np.degrees(bearings.attitude(np.array(e), np.array(width))) == pytest.approx(
             turn, abs=2.4
         )
 
 
 def test_the_short_bearing_alone_would_be_wrong_near_contact() -> None:
-    found = float(oil_film.rotation_number(np.array(0.9), np.array(0.5)))
+    found = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
     assert found == pytest.approx(5.09, rel=0.068)
 
 
@@ -155,14 +154,14 @@ def test_widths_without_a_table_are_refused(width: float) -> None:
 def test_the_steady_eccentricity_is_the_inverse() -> None:
     e = np.array([0.05, 0.5, 0.9, 0.99])
     b = np.full(4, 0.5)
-    found = oil_film.steady_eccentricity(oil_film.rotation_number(e, b), b)
+    found = bearings.steady_eccentricity(bearings.rotation_number(e, b), b)
     np.testing.assert_allclose(found, e, rtol=1e-9)
 
 
 def test_a_centred_journal_rubs_as_petroff_says() -> None:
     """2πηωRL·R/c on the journal: torque over R."""
     d, width, eta, omega, psi = 0.06, 0.03, 0.01, 200.0, 0.001
-    force = oil_film.friction_force(
+    force = bearings.friction_force(
         np.array(0.0), np.array(width * d * eta * omega), np.array(0.0), np.array(psi)
     )
     petroff = 2 * np.pi * eta * omega * (d / 2) * width * (d / 2) / (psi * d / 2)

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from kshm.mechanics.oil_map import squeeze_force
-from kshm.mechanics.oil_orbit import orbits
+from kshm.mechanics.oil_orbit import orbits, squeeze_force
 from reports.inputs.load import load_toml
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, interleaved, median
 

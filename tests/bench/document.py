@@ -16,7 +16,7 @@ from matplotlib.mathtext import MathTextParser
 from reports.document.page import render as pages
 from reports.document.report import Report
 from reports.document.text.mathtext import read
-from reports.document.text.texwords import for_mathtext
+from reports.document.text.tex import for_mathtext
 from reports.shared.resources import samples_dir
 from tests.bench._figure import Figure, costs, interleaved, ratio
 from tests.bench._process import kshm, run

@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterator
 from unittest import mock
 
-from reports.drawing import primitives
-from reports.sheet.layout import sheet_items
+from reports.draw import canvas
+from reports.sheet.write import sheet_items
 from tests.bench._figure import Figure, interleaved, median, ratio
 from tests.sheet.sheet_samples import terms
 
@@ -25,12 +25,12 @@ def figures() -> Iterator[Figure]:
         return [sheet_items(sheet) for sheet in sheets]
 
     def all_lines() -> list[object]:
-        with mock.patch.object(primitives, "_NEAR", math.inf):
+        with mock.patch.object(canvas, "_NEAR", math.inf):
             return near()
 
     def bounds_anew() -> list[object]:
-        found = vars(primitives.Line)["box"].func
-        with mock.patch.object(primitives.Line, "box", property(found)):
+        found = vars(canvas.Line)["box"].func
+        with mock.patch.object(canvas.Line, "box", property(found)):
             return near()
 
     assert near() == all_lines() == bounds_anew()

@@ -20,10 +20,10 @@ from reports.grading.batch import pool
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
 from reports.grading.reading import restoring
-from reports.recalculation.forms import Forms
 from reports.recalculation.formulas import Formula as Read
 from reports.recalculation.formulas import formula_of
 from reports.recalculation.read import read_grid
+from reports.recalculation.sheets import Forms
 from reports.shared import workers as room
 from reports.shared.resources import samples_dir
 from reports.workbook.layout import Cell, Layout

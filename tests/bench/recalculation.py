@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from unittest import mock
 
 from reports.recalculation import grid
-from reports.recalculation.grid import Column, Run
+from reports.recalculation.grid import CellColumn, Run
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
 from tests.bench.workbook import ours
 from tools.referees import by_libreoffice
@@ -35,7 +35,7 @@ def with_charts(office: LibreOffice, book: bytes) -> None:
 
 def found_in_column(few: int) -> None:
     """Every cell of a column of unlike formulas, columns of so few looked through one by one."""
-    column = Column(runs=[Run("Лист", 2, row, 1, None, "") for row in range(1, CELLS + 1)])
+    column = CellColumn(runs=[Run("Лист", 2, row, 1, None, "") for row in range(1, CELLS + 1)])
     with mock.patch.object(grid, "_FEW", few):
         for row in range(1, CELLS + 1):
             column.runs_in(row, row)

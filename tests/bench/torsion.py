@@ -11,8 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from kshm.mechanics.torsion_response import respond
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics.torsion import Train, respond
 from tests.bench._figure import Figure, interleaved, median, ratio
 
 SPEEDS, ORDERS, MASSES = 1000, 24, 10

@@ -9,11 +9,10 @@ import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
-from reports.comparison.chapter import comparison_chapters
-from reports.comparison.conclusions import conclusions
-from reports.comparison.engines import read_engines, results
 from reports.inputs.load import load_toml
 from reports.shared.resources import samples_dir
+from reports.studies.comparison import conclusions, read_engines, results
+from reports.studies.comparison_page import comparison_chapters
 
 
 def named(tmp_path, compare, *others):

@@ -15,23 +15,24 @@ from lxml import etree
 from kshm import solve
 from kshm.nomenclature.quantity import quantity
 from reports.cli import main
-from reports.comparison.book import CURVES, DATA, FIGURES, RESULTS, book_bytes
-from reports.comparison.conclusions import conclusions, spread
-from reports.comparison.engines import (
-    Row,
-    apart,
-    charts,
-    differences,
-    labels,
-    read_engines,
-    results,
-)
-from reports.comparison.page import comparison_page, results_block
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text, load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
+from reports.studies.books import CURVES, FIGURES, INPUTS, RESULTS, book_bytes
+from reports.studies.comparison import (
+    Row,
+    apart,
+    charts,
+    conclusions,
+    differences,
+    labels,
+    read_engines,
+    results,
+    spread,
+)
+from reports.studies.comparison_page import comparison_page, results_block
 from tests.conftest import sample
 from tests.document.bare_pages import plain
 from tests.referee.compare import differences_from_caches, errors_in
@@ -108,7 +109,7 @@ def test_the_workbook_recalculated_by_libreoffice(libreoffice):
 def test_differences_are_live_and_charts_hold_every_engine(tmp_path):
     book = book_bytes(engines())
     sheets = openpyxl.load_workbook(io.BytesIO(book))
-    assert sheets.sheetnames == [DATA, RESULTS, FIGURES, CURVES]
+    assert sheets.sheetnames == [INPUTS, RESULTS, FIGURES, CURVES]
     rows = {row[0].value: row for row in sheets[RESULTS].iter_rows(min_row=4)}
     torque = rows[capital(quantity("M_mean").title)]
     assert torque[6].value == f"=(E{torque[0].row}/D{torque[0].row}-1)*100"
@@ -325,7 +326,7 @@ def test_what_one_engine_alone_has_is_named_in_a_sentence_and_no_row_of_dashes()
         assert len(known) == len(names) or len(set(known)) > 1, row.title
     page = plain(comparison_page(found, media="screen"))
     assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
-    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(found)))[DATA]
+    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(found)))[INPUTS]
     assert said in [cell.value for cell in sheet["A"]]
     assert apart(differences(found[:1] * 2), names[:2]) == ([], "")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kshm.cycle.heat import AIR, R_GAS, ZERO_C
-from kshm.cycle.result import Cycle
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C
+from kshm.cycle.performance import Cycle
 
 
 @dataclass(frozen=True, slots=True)

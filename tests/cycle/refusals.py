@@ -8,8 +8,8 @@ from contextlib import contextmanager
 
 import pytest
 
-from kshm.cycle.errors import CycleError
-from reports.inputs.cycle_texts import text_of
+from kshm.cycle.fuel import CycleError
+from reports.inputs.to_si.cycle import text_of
 
 
 @contextmanager

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from kshm.cycle.cycle import CycleError, Listing, cycle
-from kshm.cycle.design import bore_for, design, round_to_series
+from kshm.cycle.cycle import bore_for, cycle, design, round_to_series
+from kshm.cycle.dizdn_listing import Listing
+from kshm.cycle.fuel import CycleError
 from kshm.cycle.inputs import FrictionLaw
-from reports.inputs.cycle_texts import text_of
+from reports.inputs.to_si.cycle import text_of
 from tests.cycle.refusals import refused
 
 LAWS = {"diesel": FrictionLaw(0.089e6, 0.0118e6), "petrol": FrictionLaw(0.024e6, 0.0053e6)}

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle.cycle import Listing, cycle
+from kshm.cycle.cycle import cycle
 from kshm.cycle.diagram import indicator_diagram, isobar_angle, polytropic_gas
+from kshm.cycle.dizdn_listing import Listing
 from tests.cycle.refusals import refused
 
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle.cycle import Listing, cycle
+from kshm.cycle.cycle import cycle
 from kshm.cycle.diagram import indicator_diagram
-from kshm.cycle.heat import AIR, R_GAS, SPECIES, ZERO_C, mixture_heat, temperature_of
-from kshm.cycle.heat_balance import heat_balance
+from kshm.cycle.dizdn_listing import Listing
+from kshm.cycle.fuel import AIR, R_GAS, SPECIES, ZERO_C, mixture_heat, temperature_of
+from kshm.cycle.performance import heat_balance
 from tests.cycle.energy import cycle_energy
 
 

@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 
 import kshm
-from kshm.cycle.cycle import CycleError, Listing, cycle
-from kshm.cycle.fuel import FUELS
+from kshm.cycle.cycle import cycle
+from kshm.cycle.dizdn_listing import Listing
+from kshm.cycle.fuel import FUELS, CycleError
 from kshm.cycle.inputs import FrictionLaw
-from reports.inputs.cycle_texts import TEXTS, text_of
+from reports.inputs.to_si.cycle import TEXTS, text_of
 from reports.shared.russian import short
 from tests.cycle.refusals import refused
 

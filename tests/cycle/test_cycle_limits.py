@@ -6,8 +6,7 @@ from dataclasses import replace
 import pytest
 
 from kshm.cycle.cycle import cycle
-from kshm.cycle.fuel import FUELS, burn
-from kshm.cycle.heat import AIR, ZERO_C, mixture_heat
+from kshm.cycle.fuel import AIR, FUELS, ZERO_C, burn, mixture_heat
 from kshm.cycle.processes import compress, fill, ignite
 from tests.cycle.refusals import refused
 

@@ -7,7 +7,7 @@ import pytest
 
 from kshm.cycle.cycle import cycle
 from kshm.cycle.dizdn_listing import plain_exponent
-from kshm.cycle.heat import AIR, R_GAS, ZERO_C
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C
 from kshm.cycle.processes import (
     N1_PASSES,
     N1_START,

@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 
 from kshm.cycle.cycle import cycle
-from kshm.cycle.heat_balance import heat_balance
-from kshm.cycle.usual_ranges import usual_ranges
+from kshm.cycle.inputs import usual_ranges
+from kshm.cycle.performance import heat_balance
 from kshm.nomenclature.dizdn_listing import value_of
 
 

@@ -7,14 +7,13 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kshm.cycle.cycle import CycleError, cycle
-from kshm.cycle.design import design
+from kshm.cycle.cycle import cycle, design
 from kshm.cycle.diagram import indicator_diagram
-from kshm.cycle.fuel import FUELS
-from kshm.cycle.heat_balance import heat_balance
+from kshm.cycle.fuel import FUELS, CycleError
 from kshm.cycle.inputs import Boost
+from kshm.cycle.performance import heat_balance
 from kshm.cycle.processes import compress, fill
-from reports.inputs.cycle_texts import text_of
+from reports.inputs.to_si.cycle import text_of
 from tests.cycle.cycle_engines import ENGINES
 from tests.cycle.energy import cycle_energy
 

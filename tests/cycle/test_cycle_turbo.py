@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from kshm.cycle.cycle import cycle
-from reports.inputs.cycle_texts import text_of
+from reports.inputs.to_si.cycle import text_of
 
 BOOSTED = ["turbo_diesel", "turbo_petrol"]
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from kshm.cycle.cycle import CycleError
+from kshm.cycle.fuel import CycleError
 from kshm.cycle.speed_characteristic import (
     LEIDERMAN,
     Leiderman,
@@ -13,7 +13,7 @@ from kshm.cycle.speed_characteristic import (
     from_adaptability,
     speed_points,
 )
-from reports.inputs.cycle_texts import text_of
+from reports.inputs.to_si.cycle import text_of
 from tests.cycle.refusals import refused
 
 RATED = 4400 * math.pi / 30

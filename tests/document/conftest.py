@@ -8,8 +8,8 @@ import pytest
 
 from reports.document import report
 from reports.document.chapters import closing, opening
-from reports.document.page import render, writer
-from reports.document.text.mathsvg import Formula
+from reports.document.page import numbering, render
+from reports.document.text.mathsvg import FormulaImage
 from tests.document.report_samples import BOX
 
 
@@ -17,7 +17,7 @@ from tests.document.report_samples import BOX
 def _without_formulas(media, style):
     """The environment of the templates, which are compiled once for all tests of a process."""
     made = render._environment(None, media, style)
-    empty = (Formula("<svg></svg>", 1.0, 1.0, 0.0, "x"),)
+    empty = (FormulaImage("<svg></svg>", 1.0, 1.0, 0.0, "x"),)
     made.globals["formula_lines"] = lambda tex, room: empty
     return made
 
@@ -26,7 +26,7 @@ def _without_formulas(media, style):
 def nothing_is_drawn(monkeypatch):
     """Reports without figures and formulas, which takes half the time."""
     monkeypatch.setattr(render, "_own_environment", _without_formulas)
-    monkeypatch.setattr(writer, "drawn", lambda plan: BOX)
+    monkeypatch.setattr(numbering, "drawn", lambda plan: BOX)
 
 
 @pytest.fixture

@@ -4,11 +4,14 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from reports.document.figures.curves import Curve, Level, Mark, Panel, curves_figure
-from reports.document.figures.mechanism import mechanism_sketch, velocity_sketch
-from reports.document.figures.polar import Pole, polar_path
-from reports.document.figures.shaft import crank_scheme, engine_scheme
-from reports.document.figures.wear import wear_diagram
+from reports.document.figures.curves import Level, Mark, Panel, PlotCurve, curves_figure
+from reports.document.figures.polar import Pole, polar_path, wear_diagram
+from reports.document.figures.schemes import (
+    crank_scheme,
+    engine_scheme,
+    mechanism_sketch,
+    velocity_sketch,
+)
 
 PHI = np.arange(0, 721, 10.0)
 RAD = np.radians(PHI)
@@ -20,7 +23,8 @@ FIGURES = {
         PHI,
         [
             Panel(
-                [Curve("$N$", T), Curve(r"$S_{\mathrm{уд}}$", K), Curve(r"$p'_j$", FORCE)],
+                [PlotCurve("$N$", T), PlotCurve(r"$S_{\mathrm{уд}}$", K), PlotCurve(r"$p'_j$",
+                                                                                    FORCE)],
                 "$p$, МПа",
                 [Level("среднее", 0.4)],
                 [Mark("max", 370.0, float(FORCE[37]))],
@@ -29,14 +33,15 @@ FIGURES = {
         r"$\varphi$, °ПКВ",
     ),
     "legend": lambda: curves_figure(
-        PHI, [Panel([Curve(f"$a_{n}$", 50 * T * n) for n in range(8)], "y, мин⁻¹")], "x", height=40
+        PHI, [Panel([PlotCurve(f"$a_{n}$", 50 * T * n) for n in range(8)], "y, мин⁻¹")], "x",
+        height=40
     ),
     "stacked": lambda: curves_figure(
-        PHI, [Panel([Curve("", T * n)], f"$M_{n}$, Н·м") for n in (1, 2, 3)], "φ, °", height=48
+        PHI, [Panel([PlotCurve("", T * n)], f"$M_{n}$, Н·м") for n in (1, 2, 3)], "φ, °", height=48
     ),
     "pv": lambda: curves_figure(
         1.1 - np.cos(RAD),
-        [Panel([Curve("", FORCE + 5)], "p, МПа", marks=[Mark("$z$", 0.1, 9.0)])],
+        [Panel([PlotCurve("", FORCE + 5)], "p, МПа", marks=[Mark("$z$", 0.1, 9.0)])],
         "$V$, л",
         angle=False,
     ),

@@ -4,16 +4,16 @@ import re
 import numpy as np
 import pytest
 
-from reports.document.figures.curves import Curve, Panel, curves_figure
+from reports.document.figures.canvas import SMALL
+from reports.document.figures.curves import Panel, PlotCurve, curves_figure
 from reports.document.figures.labels import text_size
-from reports.document.figures.style import SMALL
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
 
 
 def one(y):
-    return curves_figure(PHI, [Panel([Curve("a", y)], "y")], "x")
+    return curves_figure(PHI, [Panel([PlotCurve("a", y)], "y")], "x")
 
 
 def test_patterns_differ_without_colour():
@@ -32,7 +32,7 @@ def test_panels_are_lettered_and_one_is_not():
 
 
 def test_panels_of_one_scale_have_the_same_marks():
-    panels = [Panel([Curve("", T)], "y"), Panel([Curve("", 5 * T)], "y")]
+    panels = [Panel([PlotCurve("", T)], "y"), Panel([PlotCurve("", 5 * T)], "y")]
     said = texts(curves_figure(PHI, panels, "x", same_scale=True))
     assert said.count("10") == 2
     assert texts(curves_figure(PHI, panels, "x")).count("10") == 1
@@ -43,7 +43,7 @@ def test_points_beyond_the_curve_are_within_the_axes():
     most = 1.2 * float(max(T))
 
     def marks(**points):
-        return texts(curves_figure(PHI / 1000, [Panel([Curve("", T)], "y", **points)], "x"))
+        return texts(curves_figure(PHI / 1000, [Panel([PlotCurve("", T)], "y", **points)], "x"))
 
     def top(said):
         return max(float(text.replace(",", ".")) for text in said if re.fullmatch("[0-9,]+", text))
@@ -67,7 +67,7 @@ def test_shapes_are_checked():
 def test_orders_stand_on_stems_and_nothing_joins_them():
     """Amplitudes by order were joined by a line, as if there were something between two orders."""
     orders = np.array([1.0, 2.0, 3.0])
-    curves = [Curve("a", [3.0, 2.0, 0.0]), Curve("b", [1.0, 4.0, 2.0])]
+    curves = [PlotCurve("a", [3.0, 2.0, 0.0]), PlotCurve("b", [1.0, 4.0, 2.0])]
     drawn = curves_figure(orders, [Panel(curves, "y", stems=True)], "$k$", angle=False)
     stems = re.findall(r'd="([^"]*)" fill="none"[^>]*stroke-linecap="butt"', drawn)
     assert [data.count("M") for data in stems] == [2, 3]
@@ -78,7 +78,8 @@ def test_orders_stand_on_stems_and_nothing_joins_them():
 
 def test_an_abscissa_that_counts_has_a_mark_at_each_number():
     """Forms over masses 1 to 5 had marks at 0, 2, 4, 6, in the workbook at every half."""
-    drawn = curves_figure(np.arange(1.0, 6.0), [Panel([Curve("a", [1, 0, -9, 0, 1])], "y")], "$i$",
+    drawn = curves_figure(np.arange(1.0, 6.0), [Panel([PlotCurve("a", [1, 0, -9, 0, 1])], "y")],
+                          "$i$",
                           angle=False, x_step=1.0)  # fmt: skip
     assert [text for text in texts(drawn) if text in list("012345678")][:5] == list("12345")
     forms = next(c for c in build_model(sample("mwm-6")).charts if c.id == "torsion_forms")
@@ -88,14 +89,14 @@ def test_an_abscissa_that_counts_has_a_mark_at_each_number():
 @pytest.mark.parametrize(("low", "first"), [(900.0, "0"), (2400.0, "2000")])
 def test_an_abscissa_far_from_zero_begins_where_the_curve_does(low, first):
     """A third of the chart was empty: speeds from 2400 to 6600 stood over marks from zero."""
-    drawn = curves_figure([low, 6600.0], [Panel([Curve("a", [1, 2])], "y")], "$n$", angle=False)
+    drawn = curves_figure([low, 6600.0], [Panel([PlotCurve("a", [1, 2])], "y")], "$n$", angle=False)
     assert texts(drawn)[0] == first
 
 
 def rays(count):
     """A Campbell diagram: rays from one point leave no room for names beside them."""
     speed = np.array([0.0, 17160.0])
-    curves = [Curve(f"$\\nu = {2 * n}$", speed * n / 30) for n in range(1, count + 1)]
+    curves = [PlotCurve(f"$\\nu = {2 * n}$", speed * n / 30) for n in range(1, count + 1)]
     return curves_figure(speed, [Panel(curves, "$f$, Гц")], "$n$, мин⁻¹", angle=False)
 
 

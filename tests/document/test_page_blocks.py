@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import pytest
 
-from reports.document.page.blocks import Column, DocumentInfo, TableBlock, table_block
+from reports.document.page.blocks import DocumentInfo, TableBlock, TableColumn, table_block
 from reports.document.page.numbering import Label
 from reports.document.page.render import environment, render
 from reports.document.page.style import USUAL
 from tests.document.pdftools import pages_of, poppler
 
 LONG = "Очень длинное название таблицы, которое занимает несколько строк над её головкой, " * 3
-SIMPLE = [Column("i"), Column("K"), Column("T"), Column("R")]
+SIMPLE = [TableColumn("i"), TableColumn("K"), TableColumn("T"), TableColumn("R")]
 SOURCE = """{% extends "report/base.html.j2" %}
 {% import "report/macros.html.j2" as m with context %}
 {% block body %}
@@ -48,7 +48,7 @@ class Case:
     @property
     def block(self) -> TableBlock:
         if self.wide:  # two parts one below the other
-            heads = [Column(f"M{place}") for place in range(20)]
+            heads = [TableColumn(f"M{place}") for place in range(20)]
             return table_block(heads, [[self.mark(i), *["−1234,5"] * 19] for i in range(self.rows)])
         rows = [[self.mark(i), "1,5", "−2,5", "0,25"] for i in range(self.rows)]
         columns = SIMPLE
@@ -174,11 +174,13 @@ def test_continuation_line_stands_between_margin_and_heading(pages):
 
 def test_wrong_count_of_cells_is_refused():
     with pytest.raises(ValueError, match="ячеек 2, граф 3"):
-        table_block([Column("a"), Column("b"), Column("c")], [["1", "2"]])
+        table_block([TableColumn("a"), TableColumn("b"), TableColumn("c")], [["1", "2"]])
 
 
 def test_cells_are_escaped_and_lined_up():
-    block = table_block([Column("a"), Column("t", text=True)], [["1,5", "<b>"], ["−12,5", "x"]])
+    block = table_block(
+        [TableColumn("a"), TableColumn("t", text=True)], [["1,5", "<b>"], ["−12,5", "x"]]
+    )
     assert block.rows[0][0] == "\u00a0" * 5 + "1,5"
     label = Label("table", "x", "1", "tab-x")
     source = '{% import "report/macros.html.j2" as m with context %}{{ m.table(b, l, "a<b") }}'
@@ -189,7 +191,7 @@ def test_cells_are_escaped_and_lined_up():
 @pytest.mark.parametrize("size", ["", "dense", "tiny"])
 def test_lines_stand_under_their_headings(size, tmp_path):
     count = 9
-    columns = [Column(f"H{k}") for k in range(count)]
+    columns = [TableColumn(f"H{k}") for k in range(count)]
     rows = [[f"{k + 1}{row:02d},{k}" for k in range(count)] for row in range(20)]
     block = table_block(columns, rows)
     assert lines_of(block, size) is not None

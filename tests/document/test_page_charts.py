@@ -77,7 +77,7 @@ def test_wear_is_laid_off_opposite_to_the_rays():
 def test_alternative_text_tells_the_extremes():
     figure = chart_figure(T, CHARTS["fig49"])
     assert figure.alt.startswith(f"{figure.caption}. ")
-    assert "наибольшее" in figure.alt and "при φ = " in figure.alt and "Н·м" in figure.alt
+    assert "наибольшее" in figure.alt and "при фи = " in figure.alt and "Н·м" in figure.alt
     assert chart_figure(T, CHARTS["pv"]).alt == CHARTS["pv"].words
 
 

@@ -5,18 +5,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from markupsafe import Markup
 
-from reports.document.page.blocks import Column, symbol_head, table_block
+from reports.document.page.blocks import TableColumn, symbol_head, table_block
 from reports.document.page.fitting import fitted, least_width, type_pt
 from reports.document.page.style import PX, USUAL, Margins, Style
-from reports.document.text.fonts import text_em
+from reports.draw.fonts import text_em
 from reports.shared.russian import fixed
 
 NARROW = Style(font_size_pt=16.0, margins=Margins(left=50.0, right=40.0))
 
 
 def block(columns: int, value: float, rows: int = 30):
-    heads = [Column(symbol_head(r"\varphi", "°"))]
-    heads += [Column(symbol_head(rf"M_{{{i}}}", "Н·м")) for i in range(1, columns)]
+    heads = [TableColumn(symbol_head(r"\varphi", "°"))]
+    heads += [TableColumn(symbol_head(rf"M_{{{i}}}", "Н·м")) for i in range(1, columns)]
     return table_block(heads, [[str(i), *[fixed(-value - i, 3)] * (columns - 1)]
                                for i in range(rows)])  # fmt: skip
 
@@ -24,7 +24,7 @@ def block(columns: int, value: float, rows: int = 30):
 def test_a_cell_of_two_lines_is_as_wide_as_the_longer_one():
     def needed(*lines):
         cells = [["Ход поршня", Markup("<br>").join(lines)]]
-        return least_width(table_block([Column("Величина"), Column("А")], cells))
+        return least_width(table_block([TableColumn("Величина"), TableColumn("А")], cells))
 
     assert needed("0,005039", "(+455,0\xa0%)") == needed("(+455,0\xa0%)")
 

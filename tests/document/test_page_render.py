@@ -6,7 +6,7 @@ import tempfile
 
 import pytest
 
-from reports.document.figures.curves import Curve, Panel, curves_figure
+from reports.document.figures.curves import Panel, PlotCurve, curves_figure
 from reports.document.page.render import (
     AttachedFile,
     RenderError,
@@ -14,8 +14,8 @@ from reports.document.page.render import (
     render,
     render_pdf,
 )
-from reports.document.text.fonts import fonts_css
 from reports.document.text.mathsvg import formula
+from reports.draw.fonts import fonts_css
 from tests.document.pdftools import fonts_of, pages_of, poppler
 
 PAGE = """<!DOCTYPE html><html lang="ru"><head><title>Отчёт</title><style>
@@ -34,7 +34,7 @@ EVERYTHING = (
         r"\sqrt{\dfrac{R_{\mathrm{ш.ш}}}{\left(\dfrac{a}{b}\right)^{2}}}\approx\int_0^1 x"
     ).svg
     + curves_figure(
-        range(5), [Panel([Curve("$p'_j$", range(5))], "мин⁻¹")], r"$\varphi$, °", angle=False
+        range(5), [Panel([PlotCurve("$p'_j$", range(5))], "мин⁻¹")], r"$\varphi$, °", angle=False
     )
 )
 

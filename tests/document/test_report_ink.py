@@ -11,7 +11,7 @@ from unittest import mock
 
 import pytest
 
-from reports.document.page import writer
+from reports.document.page import numbering
 from reports.document.page.render import render
 from reports.document.report import Report
 from reports.document.text.terms import Terms
@@ -106,7 +106,7 @@ def made(name: str, detail: str) -> tuple[str, bytes]:
         return print_page(name), pdf(name)
     if detail == "shipped":  # of the page its tables are read, which hold no figure
         model = build_model(sample(name))
-        with mock.patch.object(writer, "drawn", lambda plan: BOX):
+        with mock.patch.object(numbering, "drawn", lambda plan: BOX):
             page = Report(model, evaluate_model(model)).page("print")
         return page, shipped_pdf(name)
     return looked_at(terms_of(with_detail(text_of(name), detail)))
@@ -155,7 +155,7 @@ def engine(seed: int) -> Terms:
 
 @pytest.mark.parametrize("seed", range(1, ENGINES + 1))
 def test_no_random_engine_leaves_its_page(seed, tmp_path, monkeypatch):
-    monkeypatch.setattr(writer, "drawn", lambda plan: BOX)
+    monkeypatch.setattr(numbering, "drawn", lambda plan: BOX)
     page, data = looked_at(engine(seed))
     path = written(data, tmp_path)
     assert faults(ink.words(path), ink.sheets(path)) == []

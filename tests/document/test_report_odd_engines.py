@@ -4,11 +4,10 @@ import re
 
 import pytest
 
-from reports.inputs.checks.grid import grid_remark
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.own_engine import own_engine
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import grid_remark, solved
+from reports.new.generate import generate_engine
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
 from tests.document.test_report_sentences import (
@@ -68,7 +67,7 @@ def test_the_flywheel_is_needed_or_not_in_every_chapter(allowed, needed):
 
 def test_the_energy_of_a_vibration_has_three_digits_for_a_model_engine_too():
     """Of a model of 2 kW both were 0.001 J."""
-    raw = own_engine(1, layout="inline", strokes=2, kind="petrol", power_kw=2.0,
+    raw = generate_engine(1, layout="inline", strokes=2, kind="petrol", power_kw=2.0,
                      speed_rpm=11000.0).data  # fmt: skip
     text = text_of(load_mapping(raw | {"torsion": {}}, source="t.toml").model)
     said = re.search("работу ([0-9,]+) Дж, трение поглощает ([0-9,]+) Дж", text).groups()

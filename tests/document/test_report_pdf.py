@@ -1,11 +1,16 @@
 """The finished report: everything is there, numbered, in STIX, with decimal commas."""
 
+import itertools
 import re
+import zlib
+from pathlib import Path
 
 import pytest
 
+from reports.document.report import Report
+from tests.browser import measure, photograph, print_out
 from tests.document.pdftools import fonts_of, pages_of, poppler
-from tests.document.report_samples import html_page, pdf, pdf_with_files, terms
+from tests.document.report_samples import html_page, pdf, pdf_with_files, terms, terms_of, text_of
 
 NAMES = ["one", "gots-diesel"]
 ALLOWED_POINTS = [
@@ -165,3 +170,102 @@ def test_without_pango_it_says_so(monkeypatch, tmp_path):
     monkeypatch.setattr(doctor, "pango_loads", lambda: False)
     with pytest.raises(SystemPartMissing, match="pango"):
         pdf_with_files("one", tmp_path)
+
+
+STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
+MAY_HOLD = {
+    "Table": {"TR", "THead", "TBody", "TFoot", "Caption"},
+    "THead": {"TR"},
+    "TBody": {"TR"},
+    "TR": {"TH", "TD"},
+    "L": {"LI", "Caption"},
+    "LI": {"Lbl", "LBody"},
+}
+
+
+def tree(text: str) -> list[tuple[int, str]]:
+    """Depth and name of each tag, in order."""
+    found = re.findall(r"(?m)^( *)([A-Z][A-Za-z0-9]*)(?:\s\((?:block|inline)\)|:)?$", text)
+    return [(len(blanks) // 2, name) for blanks, name in found]
+
+
+def misplaced(tags: list[tuple[int, str]]) -> list[tuple[str, str]]:
+    """Tags within a table or a list that may not stand there."""
+    wrong, above = [], []
+    for depth, name in tags:
+        above[depth:] = [name]
+        parent = above[depth - 1] if depth else ""
+        if parent in MAY_HOLD and name not in MAY_HOLD[parent]:
+            wrong.append((parent, name))
+    return wrong
+
+
+def skipped(tags: list[tuple[int, str]]) -> list[int]:
+    """Levels of headings that follow one more than a level above."""
+    levels = [0, *(int(name[1]) for _, name in tags if re.fullmatch(r"H[1-6]", name))]
+    return [new for old, new in itertools.pairwise(levels) if new > old + 1]
+
+
+def objects(pdf: bytes) -> bytes:
+    """The file with its object streams laid open."""
+    packed = [STREAM.search(part) for part in re.split(rb"endobj", pdf) if b"/ObjStm" in part]
+    return pdf + b"\n".join(zlib.decompress(found[1]) for found in packed if found)
+
+
+def test_tags_follow_the_rules_of_pdf_ua(tmp_path):
+    path = tmp_path / "r.pdf"
+    path.write_bytes(pdf("one"))
+    tags = tree(poppler("pdfinfo", "-struct", str(path)))
+    names = [name for _, name in tags]
+    assert misplaced(tags) == [] and skipped(tags) == []
+    tables, figures, formulas = (names.count(name) for name in ("Table", "Figure", "Formula"))
+    assert names[0] == "Document" and tables > 10 and figures > 10 and formulas > 50
+    said = objects(path.read_bytes())
+    assert said.count(b"/Alt ") == figures + formulas
+    assert b"/Lang (ru" in said and b"/DisplayDocTitle true" in said
+    about = poppler("pdfinfo", str(path))
+    assert re.search(r"Title: +\S", about) and re.search(r"Tagged: +yes", about)
+
+
+def test_a_wrong_tag_is_noticed():
+    assert misplaced([(0, "Table"), (1, "P"), (1, "TR"), (2, "TD"), (3, "P")]) == [("Table", "P")]
+    assert skipped([(0, "H1"), (0, "H3"), (0, "H1"), (0, "H2")]) == [3]
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_does_not_scroll_sideways(width, tmp_path):
+    found = measure(html_page("one"), width, tmp_path / "w", boxes=".tbox, .eq")
+    assert found["width"] == width
+    assert found["scroll"] <= width and found["wide"] == []
+    assert found["scripts"] == 0
+    assert "STIXGeneral" in found["fonts"]
+    assert len(found["images"]) > 100 and min(found["images"]) > 0
+    scrolled = [box for box in found["boxes"] if box[1] > box[0]]
+    assert bool(scrolled) == (width == 390)  # wide tables scroll in their own box
+
+
+def test_a_page_that_is_too_wide_is_noticed(tmp_path):
+    found = measure('<main><div style="width:900px">x</div></main>', 390, tmp_path / "w")
+    assert found["scroll"] > 390 and found["wide"]
+
+
+def test_the_page_can_be_photographed(tmp_path):
+    picture = photograph(html_page("one"), 390, 2000, tmp_path / "p.png", tmp_path / "w")
+    assert picture.stat().st_size > 20_000
+
+
+def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
+    """The year is at the foot of the title page, and no number is missing in the abstract."""
+    pdf = print_out(html_page("one"), tmp_path / "p.pdf", tmp_path / "w").read_bytes()
+    title, *others = (" ".join(page.split()) for page in pages_of(pdf, tmp_path))
+    assert re.search(r"Проверил:? .*20\d\d( 1)?$", title), title
+    (abstract,) = (page for page in others if "РЕФЕРАТ" in page and "записка" in page)
+    assert re.search(r"записка \d+ рис\.", abstract), abstract
+
+
+def test_the_frame_takes_no_page_numbers_from_the_browser():
+    """The sheets of a browser have no frame, hence no number in it: the usual one stays."""
+    source = terms_of(text_of("one").replace("[report]\n", '[report]\nframe = "eskd"\n', 1))
+    page = Report.of(source.model, source.values, Path("t.toml")).page("screen")
+    assert "counter(page)" in page
+    assert "form2" not in page

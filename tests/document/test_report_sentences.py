@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.solved import solved
-from reports.shared import signs
+from reports.inputs.solve_input import solved
+from reports.shared import font_coverage
 from reports.shared.russian import BREAK
 from tests import layouts
 from tests.conftest import sample
@@ -256,7 +256,9 @@ def assert_set_well(page):
     free = re.sub('<span class="nb">.*?</span>|<[^>]+>', "", bare)
     assert re.findall(r".{0,20}(?<![\w-])\d+-[а-яё]{1,3}(?![\w-])", free) == []
     text = html.unescape(re.sub("<[^>]+>", "", bare))
-    assert {sign for sign in set(text) - _UNSEEN if ord(sign) not in signs.coverage()} == set()
+    assert {
+        sign for sign in set(text) - _UNSEEN if ord(sign) not in font_coverage.coverage()
+    } == set()
     assert PARTED.findall(text) == []
 
 

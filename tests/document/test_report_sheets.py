@@ -213,7 +213,7 @@ def test_every_figure_and_formula_is_told_in_words(framed):
     figures, formulas = data.count(b"/S /Figure"), data.count(b"/S /Formula")
     assert data.count(b"/Alt ") == figures + formulas and formulas > 40 > figures > 10
     (torque,) = [text for text in said if text.startswith("Индикаторный крутящий момент")]
-    assert "наибольшее" in torque and "при φ = " in torque and "Н·м" in torque
+    assert "наибольшее" in torque and "при фи = " in torque and "Н·м" in torque
 
 
 @pytest.mark.usefixtures("few_chapters")

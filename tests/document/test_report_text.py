@@ -11,7 +11,7 @@ from reports.document.page.render import render
 from reports.document.report import Report
 from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import book_place, plain_number, unit_tex
-from reports.document.text.texcases import parts
+from reports.document.text.tex import case_parts
 from reports.formula.tex import NotPrintable
 from tests.document.pdftools import fonts_of, pages_of
 from tests.document.report_samples import ONE, html_page, terms, terms_of
@@ -93,7 +93,7 @@ def test_branch_in_force_is_the_one_shown():
 @pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "cycle-petrol", "ecoboost-10"])
 def test_the_pressure_is_told_by_symbols_that_are_known(name):
     t = terms(name)
-    lead, branches = parts(_pressure_tex(t))
+    lead, branches = case_parts(_pressure_tex(t))
     assert lead == t.tex("gas.p_MPa") + " ="
     assert branches[-1][-1].endswith(",")  # «где» follows
     assert sum("n_" in formula for formula, _ in branches) >= 2

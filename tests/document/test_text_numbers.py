@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kshm.nomenclature.digits import Digits, scientific
-from reports.document.text import numbers
+from reports.document.text import texts
 from reports.formula.tex import input_symbol_tex, number_tex
 from reports.shared.russian import (
     MINUS,
@@ -46,9 +46,9 @@ def test_fixed(value, digits, text):
 def test_not_finite_is_refused(value):
     for digits in (Digits(2), scientific(2)):
         with pytest.raises(ValueError, match="не конечно"):
-            numbers.of_digits(value, digits)
+            texts.of_digits(value, digits)
     with pytest.raises(ValueError, match="не конечно"):
-        numbers.significant(value, 4)
+        texts.significant(value, 4)
 
 
 def test_negative_digits_are_refused():
@@ -70,8 +70,8 @@ def test_negative_digits_are_refused():
     ],
 )
 def test_print_has_no_more_than_five_digits(value, digits, text):
-    assert numbers.of_digits(value, digits) == text
-    assert numbers.of_digits_tex(value, digits) == text.replace(",", "{,}").replace("\u00a0", r"\,")
+    assert texts.of_digits(value, digits) == text
+    assert texts.of_digits_tex(value, digits) == text.replace(",", "{,}").replace("\u00a0", r"\,")
 
 
 def test_cells_and_feedback_keep_all_decimals():
@@ -80,10 +80,10 @@ def test_cells_and_feedback_keep_all_decimals():
 
 
 def test_significant():
-    assert numbers.significant(0.31757, 3) == "0,318"
-    assert numbers.significant(460.767, 5) == "460,77"
-    assert numbers.significant(9.9996, 4) == "10,00"
-    assert numbers.significant(0, 3) == "0,00"
+    assert texts.significant(0.31757, 3) == "0,318"
+    assert texts.significant(460.767, 5) == "460,77"
+    assert texts.significant(9.9996, 4) == "10,00"
+    assert texts.significant(0, 3) == "0,00"
 
 
 @pytest.mark.parametrize(
@@ -97,22 +97,22 @@ def test_significant():
     ],
 )
 def test_powers_of_ten(value, html, tex):
-    assert numbers.of_digits(value, scientific(2)) == html
-    assert numbers.of_digits_tex(value, scientific(2)) == tex
+    assert texts.of_digits(value, scientific(2)) == html
+    assert texts.of_digits_tex(value, scientific(2)) == tex
 
 
 def test_tex_of_groups_and_minus():
-    assert numbers.of_digits_tex(-12345.6, Digits(1)) == r"-12\,346"
+    assert texts.of_digits_tex(-12345.6, Digits(1)) == r"-12\,346"
 
 
 def test_zeros_that_are_left_blank():
-    assert numbers.of_digits(0.0, Digits(2, hides="zeros")) == ""
+    assert texts.of_digits(0.0, Digits(2, hides="zeros")) == ""
 
 
 def test_aligned_fills_with_digit_halves():
-    shown = numbers.aligned(["1,5", "12,5", f"{MINUS}2,5"])
+    shown = texts.aligned(["1,5", "12,5", f"{MINUS}2,5"])
     assert shown == [NBSP * 3 + "1,5", NBSP + "12,5", f"{MINUS}2,5"]
-    assert numbers.aligned([]) == []
+    assert texts.aligned([]) == []
 
 
 def _value(text: str) -> float:
@@ -128,7 +128,7 @@ def test_fixed_says_the_number(value, digits):
 
 @given(st.floats(1e-30, 1e30), st.integers(1, 8))
 def test_power_says_the_number(value, decimals):
-    tex = numbers.of_digits_tex(value, scientific(decimals)).replace("{,}", ",")
+    tex = texts.of_digits_tex(value, scientific(decimals)).replace("{,}", ",")
     mantissa, _, exponent = tex.partition(r"\cdot 10^{")
     assert 1 <= _value(mantissa) < 10 and len(mantissa) == decimals + 2
     shown = _value(mantissa) * 10.0 ** int(exponent.rstrip("}") or 0)
@@ -136,8 +136,8 @@ def test_power_says_the_number(value, decimals):
 
 
 def test_what_is_no_number_stays_in_the_middle():
-    assert numbers.aligned(["мм", "—", "мин⁻¹", "МПа"]) == ["мм", "—", "мин⁻¹", "МПа"]
-    assert numbers.aligned(["5", "—", "10"]) == [NBSP * 2 + "5", "—", "10"]
+    assert texts.aligned(["мм", "—", "мин⁻¹", "МПа"]) == ["мм", "—", "мин⁻¹", "МПа"]
+    assert texts.aligned(["5", "—", "10"]) == [NBSP * 2 + "5", "—", "10"]
 
 
 def test_numbers_within_formulas_are_grouped_like_results():

@@ -1,6 +1,6 @@
 import pytest
 
-from reports.document.text.tex import TexError, break_points, tree
+from reports.document.text.tex import TexError, break_points, for_mathtext, tree
 
 
 def tokens(nodes):
@@ -32,3 +32,15 @@ def test_break_prefers_relations_over_sums_and_never_cuts_groups():
     assert (inside.closing, inside.carried) == (r"\right.", r"\left.{}+ ")
     assert [point.end for point in break_points("x=-1")] == [2]
     assert break_points(r"a\cdot b")[0].carried == r"{}\times "
+
+
+def test_space_before_functions_and_round_fractions():
+    assert for_mathtext(r"\lambda\cos\varphi") == r"\lambda\,\cos\varphi"
+    assert for_mathtext(r"\left(\cos\varphi\right)") == r"\left(\cos\varphi\right)"
+    assert for_mathtext(r"2\cdot\cos x") == r"2\cdot\cos x"
+    assert for_mathtext(r"r\dfrac{a}{b}c") == r"r\,\dfrac{a}{b}\,c"
+    assert for_mathtext(r"\sum_{i=1}^{3}M_i") == r"\sum_{i=1}^{3}\,M_{i}"
+    assert for_mathtext(r"\tg\psi") == r"\operatorname{tg}\psi"
+    assert for_mathtext(r"30^{\circ}") == "30°"
+    assert for_mathtext(r"R''_x") == r"R^{\prime\prime}_{x}"
+    assert for_mathtext("p'_s", level_primes=True) == r"p{\prime}_{s}"

@@ -6,23 +6,24 @@ from hypothesis import strategies as st
 from markupsafe import Markup
 
 from reports.document.page.render import environment, render
-from reports.document.text import fonts, texts
-from reports.document.text.fonts import fonts_css
-from reports.shared import signs
+from reports.document.text import texts
+from reports.draw import fonts
+from reports.draw.fonts import fonts_css
+from reports.shared import font_coverage
 from tests.document.pdftools import pages_of
 
 
 def test_foreign_signs_become_a_box_and_controls_go():
-    assert signs.printable("Имя 🚗\x00\x07 ok\u202e") == "Имя □ ok"
-    assert signs.printable("тонкий\u2009пробел\u202f!") == "тонкий\u00a0пробел\u00a0!"
-    assert signs.printable("e\u0301") == "é"
-    assert signs.printable("⚙\ufe0f") == signs.printable("⚙")
+    assert font_coverage.printable("Имя 🚗\x00\x07 ok\u202e") == "Имя □ ok"
+    assert font_coverage.printable("тонкий\u2009пробел\u202f!") == "тонкий\u00a0пробел\u00a0!"
+    assert font_coverage.printable("e\u0301") == "é"
+    assert font_coverage.printable("⚙\ufe0f") == font_coverage.printable("⚙")
 
 
 @given(st.text())
 def test_nothing_outside_the_font_remains(text):
-    shown = signs.printable(text)
-    assert all(ord(char) in signs.coverage() or char in "\n\t\u00ad" for char in shown)
+    shown = font_coverage.printable(text)
+    assert all(ord(char) in font_coverage.coverage() or char in "\n\t\u00ad" for char in shown)
 
 
 def test_raised_signs_become_superscripts():

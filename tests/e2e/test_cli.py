@@ -214,7 +214,7 @@ def test_solve_writes_csv_in_the_golden_shape(tmp_path: Path) -> None:
         "solve", SAMPLES / "gots-diesel.toml", "--csv", tmp_path, "--json", tmp_path / "a.json"
     )
     assert done.returncode == 0, done.stderr
-    golden = ROOT / "reports" / "validation" / "data"
+    golden = ROOT / "reports" / "studies" / "data"
     for table in ("P3_1", "P3_2", "P4_1", "P4_2", "P4_3", "P4_4", "P4_5", "table_1", "table_2",
                   "table_3", "table_5", "table_6", "table_7", "table_8", "table_14"):  # fmt: skip
         ours = (tmp_path / f"{table}.csv").read_text(encoding="utf-8").splitlines()

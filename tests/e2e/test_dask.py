@@ -16,15 +16,15 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.cli import main
-from reports.grading.batch import cluster as cluster_module
 from reports.grading.batch import grade as grade_module
-from reports.grading.batch.grade import Options as GradeOptions
+from reports.grading.batch import pool as cluster_module
+from reports.grading.batch.grade import GradeSetup as GradeOptions
 from reports.grading.batch.grade import grade
-from reports.shared import ordered
+from reports.shared import parallel_map
 from reports.shared.errors import KshmError
 from reports.shared.resources import samples_dir
-from reports.studies import run as run_module
-from reports.studies.run import Options, sweep
+from reports.studies import sweep as run_module
+from reports.studies.sweep import SweepOptions, sweep
 from reports.web.app import Settings, create_app
 from tests.grading import classroom
 from tests.grading.fill import filled_book
@@ -53,7 +53,7 @@ def killer(cluster: Any) -> tuple[Callable[..., Iterator[Any]], list[int]]:
     killed: list[int] = []
 
     def killing(*given: Any, **more: Any) -> Iterator[Any]:
-        for result in ordered.in_order(*given, **more):
+        for result in parallel_map.in_order(*given, **more):
             if not killed:
                 os.kill(victim, signal.SIGKILL)
                 killed.append(victim)
@@ -75,11 +75,11 @@ def test_a_study_survives_a_killed_worker_byte_for_byte(
 ) -> None:
     killing, killed = killer(cluster)
     monkeypatch.setattr(run_module, "in_order", killing)
-    options = Options(chunk=2, dask=cluster.scheduler_address)
+    options = SweepOptions(chunk=2, dask=cluster.scheduler_address)
     far, near = tmp_path / "far.parquet", tmp_path / "near.parquet"
     assert sweep(BASE, VARY, far, options=options).failed == 0
     monkeypatch.undo()
-    sweep(BASE, VARY, near, options=Options(chunk=2, jobs=1))
+    sweep(BASE, VARY, near, options=SweepOptions(chunk=2, jobs=1))
     assert far.read_bytes() == near.read_bytes()
     assert len(killed) == 1
     assert gone(killed[0])
@@ -176,7 +176,7 @@ def test_inputs_whose_results_would_be_one_are_refused(
 def test_a_cluster_that_is_not_there_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ordered, "_CONNECT_S", 0.5)
+    monkeypatch.setattr(parallel_map, "_CONNECT_S", 0.5)
     with pytest.raises(KshmError, match="планировщик не отвечает"):
-        sweep(BASE, VARY, tmp_path / "a.csv", options=Options(dask="tcp://127.0.0.1:9"))
+        sweep(BASE, VARY, tmp_path / "a.csv", options=SweepOptions(dask="tcp://127.0.0.1:9"))
     assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,7 @@ import pytest
 
 from reports.document import report
 from reports.exports.build import build, load_input
-from reports.inputs import solved
+from reports.inputs import solve_input
 from reports.inputs.sections.report import Format
 from reports.model import evaluation
 from reports.shared.resources import samples_dir
@@ -29,9 +29,9 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
         monkeypatch.setattr(module, name, counting)
 
     count_calls(report, "_write")
-    count_calls(solved, "solve")
+    count_calls(solve_input, "solve")
     count_calls(evaluation, "evaluate_model")
-    solved._solution.cache_clear()
+    solve_input._solution.cache_clear()
     return count
 
 

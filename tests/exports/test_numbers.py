@@ -6,7 +6,7 @@ import pytest
 
 from kshm.nomenclature.quantity import ray_key
 from reports.exports.numbers import csv_text, export_tables, neutralised
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from tests.conftest import sample
 
 

@@ -19,8 +19,7 @@ import numpy as np
 from openpyxl import Workbook, load_workbook
 
 from reports.grading.issuing.assignment import Assignment, assignment_of
-from reports.grading.issuing.handout import handout_bytes
-from reports.grading.issuing.leaks import Leak, leaks_of
+from reports.grading.issuing.handout import Leak, handout_bytes, leaks_of
 from reports.grading.issuing.rubric import rubric_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from reports.recalculation.language import column_number, pattern, render
+from reports.recalculation.formulas import column_number, pattern, render
 from reports.workbook.caches import sheet_parts
 from tools.referees.by_formualizer import Formualizer
 

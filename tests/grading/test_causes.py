@@ -11,7 +11,7 @@ import pytest
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.causes import Causes
 from reports.grading.judging.verdicts import WRONG, Judgement
-from reports.grading.reading.student import Student
+from reports.grading.reading.student import StudentBook
 from reports.recalculation.read import read_grid
 from reports.workbook.layout import Layout
 from tests.grading import classroom
@@ -19,7 +19,7 @@ from tests.grading.fill import filled_book, solved_formulas
 
 
 @lru_cache(maxsize=1)
-def student() -> Student:
+def student() -> StudentBook:
     book = filled_book(classroom.handout(), classroom.assignment())
     return classroom.marker().student(classroom.book(), read_grid(book))
 

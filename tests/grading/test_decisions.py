@@ -15,10 +15,10 @@ from click.testing import CliRunner
 from openpyxl import Workbook, load_workbook
 
 from reports.cli import main
-from reports.commands import group
+from reports.commands import class_commands
 from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
-from reports.grading.batch.grade import Options, decide, grade
+from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.marking import late_factor, score
@@ -49,7 +49,7 @@ def submitted(folder: Path) -> Path:
 
 def run(where: Path, out: Path, *words: tuple[str, str, str, str]) -> dict:
     folder = classroom.folder()
-    options = Options(workers=1, decisions=words, author="Преподаватель")
+    options = GradeSetup(workers=1, decisions=words, author="Преподаватель")
     done = grade(folder / "issued", where, out, secret_file=folder / "secret.key", options=options)
     return {row["number"]: row for row in done.summary["rows"]}
 
@@ -62,7 +62,7 @@ def test_an_unknown_is_decided_and_the_decision_survives(tmp_path):
     assert rows[1]["points"] == pytest.approx(100 - worth, abs=0.01)
     # Without anything to grade anew, and without the secret.
     words = ("Иванов Имя", "geometry.V_c", f"{worth:.4f}", "посмотрел: верно")
-    done = decide(out, Options(decisions=(words,), author="Петрова"))
+    done = decide(out, GradeSetup(decisions=(words,), author="Петрова"))
     assert not done.needs_a_person
     (entry,) = json.loads((out / "decisions.json").read_text("utf-8"))["decisions"]
     assert (entry["author"], entry["remark"]) == ("Петрова", "посмотрел: верно")
@@ -113,7 +113,7 @@ def test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, given, 
 
 @pytest.mark.parametrize("error", [KeyError, ImportError, OSError])  # as the Pythons there say it
 def test_nobody_decides_where_the_system_does_not_say_who(tmp_path, monkeypatch, error):
-    monkeypatch.setattr(group, "getuser", Mock(side_effect=error))
+    monkeypatch.setattr(class_commands, "getuser", Mock(side_effect=error))
     test_who_decides_is_who_calls_or_who_is_named(tmp_path, monkeypatch, (), "")
 
 
@@ -219,7 +219,7 @@ def test_the_best_of_several_files_does_not_pass_by_a_decision(tmp_path):
     folder = classroom.folder()
 
     def rows(*words: tuple[str, str, str, str]) -> dict:
-        options = Options(workers=1, decisions=words)
+        options = GradeSetup(workers=1, decisions=words)
         done = grade(folder / "issued", where, out, rubric_file=rubric,
                      secret_file=folder / "secret.key", options=options)  # fmt: skip
         return {row["number"]: row for row in done.summary["rows"]}
@@ -282,8 +282,8 @@ def test_a_file_that_cannot_be_read_is_decided_by_a_person(tmp_path):
     (where / f"{classroom.book(2).folder}.ods").write_bytes(b"x")
     assert run(where, out)[2]["status"] == "не принято"
     with pytest.raises(InputError, match="нет баллов программы"):
-        decide(out, Options(decisions=(("2", "всё", "+", ""),)))
-    done = decide(out, Options(decisions=(("2", "всё", "70", "смотрел книгу .ods"),)))
+        decide(out, GradeSetup(decisions=(("2", "всё", "+", ""),)))
+    done = decide(out, GradeSetup(decisions=(("2", "всё", "70", "смотрел книгу .ods"),)))
     row = done.summary["rows"][1]
     assert row["points"] == 70 and not done.needs_a_person
     page = (out / row["page"]).read_text("utf-8")
@@ -298,7 +298,7 @@ def test_an_earlier_file_asks_for_nobody(tmp_path):
     (where / "1 ещё.xlsx").write_bytes(data)
     rows = run(where, out)
     assert rows[1]["points"] == 100 and "файлов: 2" in rows[1]["remark"]
-    assert not decide(out, Options()).needs_a_person
+    assert not decide(out, GradeSetup()).needs_a_person
 
 
 def test_a_column_may_be_paid_more_but_no_work_is(tmp_path):
@@ -324,10 +324,10 @@ def test_what_is_no_decision_is_refused(tmp_path):
         (("1", "всё", "пять", ""), "это не баллы"),
     ):
         with pytest.raises(InputError, match=message):
-            decide(out, Options(decisions=(words,)))
+            decide(out, GradeSetup(decisions=(words,)))
     (out / "decisions.json").write_text("{", encoding="utf-8")
     with pytest.raises(InputError, match="файл решений преподавателя повреждён"):
-        decide(out, Options())
+        decide(out, GradeSetup())
 
 
 def test_the_best_attempt_counts_where_the_rubric_says_so():

@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 
 from reports.cli import main
 from reports.grading.batch import grade as room
-from reports.grading.batch.grade import Options, decide, grade
+from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.marking import late_factor
 from reports.grading.reading.submissions import collect
@@ -35,7 +35,9 @@ def right(number: int) -> bytes:
 def run(submitted: Path, out: Path) -> dict:
     folder = classroom.folder()
     secret = folder / "secret.key"
-    done = grade(folder / "issued", submitted, out, secret_file=secret, options=Options(workers=1))
+    done = grade(
+        folder / "issued", submitted, out, secret_file=secret, options=GradeSetup(workers=1)
+    )
     return done.summary
 
 
@@ -64,7 +66,7 @@ def test_what_lies_beside_a_book_is_no_later_version_of_it(tmp_path, name, later
     grade_ = (out / "moodle.csv").read_text("utf-8").splitlines()[1].split(",")[4]
     assert grade_ == ("" if waits else "100")
     if waits:
-        decided = Options(decisions=[("Иванов Имя", "всё", "+", "сдал в классе")])
+        decided = GradeSetup(decisions=[("Иванов Имя", "всё", "+", "сдал в классе")])
         (row,) = [r for r in decide(out, decided).summary["rows"] if r["student"] == "Иванов Имя"]
         assert not row["manual"] and row["points"] == 100
 
@@ -254,6 +256,6 @@ def test_a_pdf_on_demand(tmp_path):
     (submitted / "a.xlsx").write_bytes(right(1))
     folder = classroom.folder()
     grade(folder / "issued", submitted, tmp_path / "out", secret_file=folder / "secret.key",
-          options=Options(workers=1, pdf=True))  # fmt: skip
+          options=GradeSetup(workers=1, pdf=True))  # fmt: skip
     (pdf,) = (tmp_path / "out" / "pages").glob("*.pdf")
     assert pdf.read_bytes().startswith(b"%PDF")

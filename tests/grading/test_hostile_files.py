@@ -13,12 +13,17 @@ from pathlib import Path
 import pytest
 
 from reports.grading.batch import grade as grading
-from reports.grading.batch.grade import Options, grade
+from reports.grading.batch.grade import GradeSetup, grade
 from reports.grading.batch.pool import DIED, grade_all
+from reports.grading.issuing.register import load_register
+from reports.grading.issuing.roster import listings
+from reports.grading.pages import moodle
 from reports.grading.reading.submissions import collect
+from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.hostile import hostile_files
+from tests.grading.test_moodle import ENGLISH, worksheet
 
 ROOT = Path(__file__).parents[2]
 
@@ -32,7 +37,7 @@ def run(submitted: Path, out: Path, **options) -> dict:
     folder = classroom.folder()
     return grade(
         folder / "issued", submitted, out, secret_file=folder / "secret.key",
-        options=Options(workers=1, **options),
+        options=GradeSetup(workers=1, **options),
     ).summary  # fmt: skip
 
 
@@ -195,3 +200,24 @@ def test_killed_in_the_middle_and_started_again(tmp_path, monkeypatch):
     # A third run has nothing left to do and changes nothing.
     assert grade(*given, whole, secret_file=folder / "secret.key").reused == 7
     assert tree(out) == tree(whole)
+
+
+@pytest.mark.parametrize(
+    ("read", "limit_mb", "what"), [(load_register, 50, "реестр"), (listings, 2, "список группы")]
+)
+def test_the_limit_is_the_one_that_is_told(tmp_path, read, limit_mb, what):
+    path = tmp_path / "register.json"
+    with path.open("wb") as stream:
+        stream.truncate(limit_mb * 10**6 + 1)
+    with pytest.raises(InputError, match=f"файл больше {limit_mb} МБ; это не {what}"):
+        read(path)
+
+
+def test_a_worksheet_as_large_as_the_limit(tmp_path, monkeypatch):
+    path, text = tmp_path / "grades.csv", worksheet(ENGLISH)
+    path.write_bytes(text.encode())
+    monkeypatch.setattr(moodle, "MAX_BYTES", path.stat().st_size)
+    assert moodle.read_worksheet(path) == text
+    path.write_bytes(text.encode() + b"\n")
+    with pytest.raises(InputError, match="это не ведомость Moodle"):
+        moodle.read_worksheet(path)

@@ -15,8 +15,7 @@ from openpyxl.packaging.custom import StringProperty
 from openpyxl.workbook.defined_name import DefinedName
 
 from reports.grading.issuing.assignment import Assignment, assignment_of
-from reports.grading.issuing.handout import handout_bytes
-from reports.grading.issuing.leaks import check_for_leaks, leaks_of
+from reports.grading.issuing.handout import check_for_leaks, handout_bytes, leaks_of
 from reports.grading.issuing.rubric import rubric_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.grading.batch.grade import Options, grade
+from reports.grading.batch.grade import GradeSetup, grade
 from reports.grading.pages.moodle import filled, read_worksheet
 from reports.grading.reading.submissions import collect
 from reports.shared.errors import InputError
@@ -100,7 +100,7 @@ def graded(tmp_path_factory) -> Path:
         (folder / f"{name}.csv").write_text("\ufeff" + worksheet(head), encoding="utf-8")
         grade(classroom.folder() / "issued", folder / "a.zip", folder / name,
               secret_file=classroom.folder() / "secret.key",
-              options=Options(workers=1, worksheet=folder / f"{name}.csv"))  # fmt: skip
+              options=GradeSetup(workers=1, worksheet=folder / f"{name}.csv"))  # fmt: skip
     return folder
 
 
@@ -175,7 +175,7 @@ def test_a_work_handed_in_by_another_is_not_told_to_him(tmp_path):
         archive.writestr("Имя Петров_102_assignsubmission_file_/работа.xlsx", data)
     out = tmp_path / "out"
     grade(classroom.folder() / "issued", tmp_path / "a.zip", out,
-          secret_file=classroom.folder() / "secret.key", options=Options(workers=1))  # fmt: skip
+          secret_file=classroom.folder() / "secret.key", options=GradeSetup(workers=1))  # fmt: skip
     with zipfile.ZipFile(out / "moodle-feedback.zip") as archive:
         assert archive.namelist() == []
     assert "102" not in (out / "moodle.csv").read_text("utf-8")

@@ -8,8 +8,8 @@ import pytest
 from openpyxl import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 
-from reports.recalculation.evaluate import Engine
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.evaluate import Evaluator
+from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.read import read_grid
 
 NAMES = {
@@ -28,7 +28,7 @@ def value(formula: str) -> float:
         book.defined_names[name] = DefinedName(name, attr_text=text)
     stream = io.BytesIO()
     book.save(stream)
-    return float(Engine(read_grid(stream.getvalue())).values("Лист", 3, 3, 3)[0][0])
+    return float(Evaluator(read_grid(stream.getvalue())).values("Лист", 3, 3, 3)[0][0])
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def hidden(formula: str, sheet: str) -> float:
     book.defined_names["cell"] = DefinedName("cell", attr_text="Лист!$A$2")
     stream = io.BytesIO()
     book.save(stream)
-    return float(Engine(read_grid(stream.getvalue())).values(sheet, 3, 3, 3)[0][0])
+    return float(Evaluator(read_grid(stream.getvalue())).values(sheet, 3, 3, 3)[0][0])
 
 
 @pytest.mark.parametrize(

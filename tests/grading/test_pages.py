@@ -10,10 +10,8 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.grading.judging.works import Entry, work_of
-from reports.grading.pages.chart import line_chart
-from reports.grading.pages.gradebook import gradebook_xlsx
-from reports.grading.pages.pages import number, student_page
-from reports.grading.pages.printed import TITLE
+from reports.grading.pages.gradebook import TITLE, gradebook_xlsx
+from reports.grading.pages.pages import line_chart, number, student_page
 from reports.grading.pages.summary import summarise
 from tests.grading import classroom
 from tests.grading.test_verdicts import formulas, graded, line

@@ -6,7 +6,7 @@ import pytest
 
 from reports.grading.issuing.handout import anchor_name
 from reports.grading.reading.placement import Placement, find_places
-from reports.recalculation.grid import Column, Grid
+from reports.recalculation.grid import CellColumn, CellGrid
 from reports.recalculation.read import read_grid
 from reports.workbook.layout import FIRST_ROW, Layout
 from tests.grading import classroom
@@ -15,12 +15,12 @@ TABLE = "P3_1"
 
 
 @pytest.fixture
-def grid() -> Grid:
+def grid() -> CellGrid:
     """The cells of the empty work-book, to be changed."""
     return read_grid(classroom.handout())
 
 
-def placed(grid: Grid) -> Placement:
+def placed(grid: CellGrid) -> Placement:
     assignment = classroom.assignment()
     return find_places(assignment.kept_model, Layout.of(assignment.model), grid)
 
@@ -29,7 +29,7 @@ def sheet_of(table: str) -> str:
     return classroom.assignment().model.tables[table].sheet
 
 
-def move_down(grid: Grid, sheet: str, begin: int) -> None:
+def move_down(grid: CellGrid, sheet: str, begin: int) -> None:
     """A row inserted: everything from ``begin`` on is a row further down, names too."""
     for column in grid.sheets[sheet].values():
         column.constants = {r + (r >= begin): v for r, v in column.constants.items()}
@@ -99,7 +99,7 @@ def test_angles_that_are_calculated_are_angles(grid):
     for run in made.runs:
         run.sheet, run.column = sheet, column
     kept = {r: v for r, v in angles.constants.items() if r < FIRST_ROW}
-    grid.sheets[sheet][column] = Column({**kept, FIRST_ROW: 0.0}, runs=made.runs)
+    grid.sheets[sheet][column] = CellColumn({**kept, FIRST_ROW: 0.0}, runs=made.runs)
     rows = placed(grid).places[f"{TABLE}.s_mm"].rows
     assert rows == tuple(range(FIRST_ROW, FIRST_ROW + len(wanted)))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reports.grading.batch import grade as room
-from reports.grading.batch.grade import Options, grade
+from reports.grading.batch.grade import GradeSetup, grade
 from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.test_decisions import decide_in_gradebook, run, submitted
@@ -34,7 +34,7 @@ def test_a_lower_maximum_is_refused_before_anything_is_written(
     folder = classroom.folder()
 
     def again(*words: tuple[str, str, str, str]) -> dict:
-        options = Options(workers=1, decisions=words)
+        options = GradeSetup(workers=1, decisions=words)
         done = grade(folder / "issued", where, out, rubric_file=rubric,
                      secret_file=folder / "secret.key", options=options)  # fmt: skip
         return {row["number"]: row for row in done.summary["rows"]}

@@ -12,9 +12,9 @@ import pytest
 from openpyxl import Workbook
 
 from kshm.nomenclature.quantity import quantity
-from reports.grading.issuing.rubric import Tolerance
+from reports.grading.issuing.rubric import ToleranceRules
 from reports.grading.judging import marking
-from reports.grading.judging.trials import trials_of
+from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import tolerance
 from reports.grading.reading.submissions import Submission
 from reports.model.evaluation import Evaluation, evaluate_model
@@ -215,7 +215,7 @@ def test_the_tolerance_is_half_a_unit_of_the_last_printed_digit(key, largest, al
 
     A nought may be what is left of a force of many newtons at 90°.
     """
-    rubric = SimpleNamespace(tolerance=Tolerance())
+    rubric = SimpleNamespace(tolerance=ToleranceRules())
     student = SimpleNamespace(assignment=SimpleNamespace(rubric=rubric))
     item = SimpleNamespace(id=f"t.{key}", quantity=quantity(key))
     found = tolerance(item, np.array([0.0, largest]), student)

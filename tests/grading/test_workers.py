@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from reports.grading.batch import cluster
+from reports.grading.batch import pool
 from reports.grading.batch.pool import grade_all
 from reports.grading.reading.submissions import collect
 from reports.shared import workers as room
@@ -106,6 +106,6 @@ def test_processes_that_never_start_are_told(
 def test_a_part_takes_one_process_and_the_time_it_brings(monkeypatch: pytest.MonkeyPatch) -> None:
     """The cluster counts its workers by processors, and a person has set the seconds."""
     asked: list[dict[str, object]] = []
-    monkeypatch.setattr(cluster, "grade_all", lambda *_, **how: asked.append(how) or [])
-    assert cluster._grade_here(cluster.Part("{}", [], 7.0)) == []
+    monkeypatch.setattr(pool, "grade_all", lambda *_, **how: asked.append(how) or [])
+    assert pool._grade_here(pool.Part("{}", [], 7.0)) == []
     assert asked == [{"workers": 1, "timeout_s": 7.0}]

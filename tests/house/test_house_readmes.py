@@ -7,7 +7,7 @@ import re
 import zipfile
 from collections import Counter
 
-from reports.validation.book import validate
+from reports.studies.validation_book import validate
 from tests.manual.pages import READMES, ROOT, commands
 from tests.workbook.made import book
 

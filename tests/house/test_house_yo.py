@@ -12,8 +12,8 @@ from tests.house.test_house_spelling import OURS
 
 ROOT = Path(__file__).parents[2]
 # Names of columns that a list may have, words that an input may use, titles as printed.
-ALLOWED = {"reports/grading/issuing/roster.py", "reports/inputs/understood.py"}
-ALLOWED |= {f"kshm/mechanics/{name}.py" for name in ("dimensionless", "torque_harmonics")}
+ALLOWED = {"reports/grading/issuing/roster.py", "reports/inputs/normalise.py"}
+ALLOWED |= {f"kshm/mechanics/{name}.py" for name in ("dimensionless", "harmonics")}
 SHORT = {"учеб"}  # учебное пособие
 WORD = re.compile("[а-яё]*е[а-яё]*", re.IGNORECASE)
 # The dictionary has other words that are written so, which do not occur here.

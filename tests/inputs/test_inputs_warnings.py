@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.shared import signs
+from reports.shared import font_coverage
 from reports.shared.errors import InputError
 from tests.conftest import ROOT, sample
 
@@ -148,11 +148,11 @@ def test_a_sign_that_the_report_cannot_print_is_said_with_its_field(raw):
 
 @given(st.text(max_size=20))
 def test_a_text_is_complained_of_when_a_box_would_be_printed(text):
-    shown = signs.printable(text.replace(signs.REPLACEMENT, ""))
-    assert (signs.REPLACEMENT in shown) == bool(signs.unprintable(text))
+    shown = font_coverage.printable(text.replace(font_coverage.REPLACEMENT, ""))
+    assert (font_coverage.REPLACEMENT in shown) == bool(font_coverage.unprintable(text))
 
 
 def test_what_nearly_all_texts_consist_of_is_in_the_font():
-    usual = [chr(code) for code in range(32, 0x2200) if signs.USUAL.fullmatch(chr(code))]
+    usual = [chr(code) for code in range(32, 0x2200) if font_coverage.USUAL.fullmatch(chr(code))]
     assert len(usual) > 150
-    assert {ord(sign) for sign in usual} <= signs.coverage()
+    assert {ord(sign) for sign in usual} <= font_coverage.coverage()

@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kshm.mechanics.indicated import mean_pressure, polytropic_exponent
-from reports.inputs.checks.indicated import indicated_of
-from reports.inputs.checks.volume import volume_ratios
+from kshm.mechanics.gas import mean_pressure, polytropic_exponent
+from reports.inputs.checks.gas import indicated_of, volume_ratios
 from reports.inputs.load import Loaded, load_toml
-from reports.inputs.to_si.geometry import sizes_of
+from reports.inputs.to_si.masses import sizes_of
 from reports.shared.errors import InputError
 
 DATA = Path(__file__).parent / "diagrams"

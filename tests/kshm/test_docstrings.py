@@ -22,7 +22,7 @@ SOURCE = re.compile(
     r"Gots|Segal|Neiman|Chudakov|Ilchenko|Dinn|Fritsch|Clapeyron|Lanchester|statics|figure|"
     r"Grinevetsky|Mazing|Leiderman|Kolchin|Dizdn|definition|conservation|GOST|"
     r"Holzer|Ker Wilson|Carter|Zimanenko|Den Hartog|"
-    r"Butenschön|ISO 7902|Poiseuille|Vogel|Serensen|IACS|both film equations"
+    r"Booker|Butenschön|ISO 7902|Poiseuille|Reynolds|Vogel|Serensen|IACS|both film equations"
 )
 
 
@@ -72,5 +72,5 @@ def test_the_functions_are_found() -> None:
     assert len(names) > 100
     assert "kshm.mechanics.kinematics.rod_angle" in names
     assert "kshm.mechanics.kinematics.Position.at" in names
-    assert "kshm.chain.result.ChainArrays.pin_rays" in names
+    assert "kshm.chain.solve.ChainArrays.pin_rays" in names
     assert kshm.__name__ == "kshm"

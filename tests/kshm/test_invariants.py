@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from kshm import solve
-from kshm.chain.result import ChainArrays
-from kshm.chain.solve import solve_batch
+from kshm.chain.solve import ChainArrays, solve_batch
 from kshm.chain.stack import stack
 from kshm.engine.crankshaft import EndMass
 from kshm.engine.engine import Engine

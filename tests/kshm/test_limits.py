@@ -8,8 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 
 from kshm import solve
-from kshm.chain.result import ChainArrays
-from kshm.chain.solve import solve_batch
+from kshm.chain.solve import ChainArrays, solve_batch
 from kshm.engine.arrangement import fan, in_row
 from kshm.engine.engine import Engine
 from kshm.engine.gas import PolytropicGas

@@ -14,17 +14,15 @@ from reports.document.page.style import Margins, Style, TitlePage
 from reports.inputs.load import load_toml
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.registry import SECTIONS
-from reports.inputs.sections.report import CHAPTERS
-from reports.inputs.sections.sheet import DIAGRAMS
+from reports.inputs.sections.report import CHAPTERS, DIAGRAMS
 from reports.inputs.template import list_samples
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from tests.browser import measure
 from tests.manual.pages import DOCS, PAGES
-from tools.manual import build
-from tools.manual.build import pages as made_pages
-from tools.manual.links import broken_links, slug
-from tools.manual.site import write_site
+from tools.manual import pages as pages_module
+from tools.manual.pages import pages as made_pages
+from tools.manual.site import broken_links, slug, write_site
 
 pages = cache(made_pages)  # looked at by several tests
 
@@ -37,12 +35,14 @@ def test_generated_pages_are_current():
 
 
 def test_what_is_out_of_date_is_written_anew(tmp_path, monkeypatch):
-    monkeypatch.setattr(build, "GENERATED", {"a.md": lambda: "first", "b.md": lambda: "second"})
-    page, _ = tmp_path / "a.md", build.write_pages(tmp_path)
+    monkeypatch.setattr(
+        pages_module, "GENERATED", {"a.md": lambda: "first", "b.md": lambda: "second"}
+    )
+    page, _ = tmp_path / "a.md", pages_module.write_pages(tmp_path)
     assert page.read_text() == "first"
-    assert build.write_pages(tmp_path) == []
+    assert pages_module.write_pages(tmp_path) == []
     page.write_text("old")
-    assert build.write_pages(tmp_path) == [page]
+    assert pages_module.write_pages(tmp_path) == [page]
     assert page.read_text() == "first"
 
 

@@ -21,7 +21,7 @@ import openpyxl
 from reports.document.report import Report
 from reports.exports.numbers import export_tables
 from reports.inputs.load import load_toml
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes

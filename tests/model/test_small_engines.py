@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from kshm.nomenclature.quantity import quantity, smallness
 from reports.inputs.fields import iter_fields, tables_shape
 from reports.inputs.load import load_mapping
-from reports.inputs.own_engine import own_engine
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.inputs.to_si.engine import smallness_of
+from reports.new.generate import generate_engine
 from reports.tables.registry import build_model
 from reports.workbook.styles import excel_format
 
@@ -38,7 +38,7 @@ def test_decimals_follow_the_bore(bore_m, small, formats):
 
 
 def single(power_kw: float, speed_rpm: float):
-    made = own_engine(1, layout="inline", strokes=4, kind="petrol",
+    made = generate_engine(1, layout="inline", strokes=4, kind="petrol",
                       power_kw=power_kw, speed_rpm=speed_rpm)  # fmt: skip
     return load_mapping(made.data, source="").model
 

@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from openpyxl import Workbook
 from openpyxl.worksheet.formula import ArrayFormula
 
-from reports.recalculation.evaluate import Engine
-from reports.recalculation.grid import Grid
+from reports.recalculation.evaluate import Evaluator
+from reports.recalculation.grid import CellGrid
 from reports.recalculation.read import read_grid
 from reports.recalculation.sheets import read_sheet
 
@@ -37,14 +37,14 @@ def book_of(
 
 def engine_of(
     cells: Mapping[str, object], arrays: Mapping[str, str] | None = None, title: str = "Sheet"
-) -> Engine:
+) -> Evaluator:
     """The engine of such a book."""
-    return Engine(read_grid(book_of(cells, arrays, title)))
+    return Evaluator(read_grid(book_of(cells, arrays, title)))
 
 
-def grid_of(cells: str, strings: list[str] | None = None) -> Grid:
+def grid_of(cells: str, strings: list[str] | None = None) -> CellGrid:
     """A grid of one row of cells in XML."""
-    grid = Grid(sheets={"A": {}})
+    grid = CellGrid(sheets={"A": {}})
     read_sheet(grid, "A", SHEET.format(cells).encode(), strings or [])
     return grid
 

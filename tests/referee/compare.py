@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.model.blocks import Model
 from reports.model.evaluation import Graph
 from reports.tables.registry import build_model

@@ -9,11 +9,10 @@ import zipfile
 import numpy as np
 import pytest
 
-from reports.recalculation.bench import Bench, Cells, pinned, unrounded
-from reports.recalculation.evaluate import Engine
-from reports.recalculation.formulas import formula_of
-from reports.recalculation.language import UnknownFormula, pattern, quoted, render
+from reports.recalculation.evaluate import Evaluator
+from reports.recalculation.formulas import UnknownFormula, formula_of, pattern, quoted, render
 from reports.recalculation.read import read_grid
+from reports.recalculation.trial_sheet import Bench, Cells, pinned, unrounded
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
 from tests.workbook.made import coarse_book
@@ -27,7 +26,7 @@ COLUMN = 26
 def test_a_grid_gives_what_the_whole_workbook_gives(name):
     """Only this test holds the grid of runs against formualizer's own reading of a file."""
     book = coarse_book(name)
-    engine = Engine(read_grid(book))
+    engine = Evaluator(read_grid(book))
     (wanted,) = Formualizer().recalculate([book])
     compared = 0
     for sheet, cells in wanted.items():
@@ -101,7 +100,7 @@ def test_cached_values_are_not_read():
             target.writestr(name, data)
     values = []
     for data in (book, stream.getvalue()):
-        engine = Engine(read_grid(data))
+        engine = Evaluator(read_grid(data))
         runs = [run for column in engine.grid.sheets["П4.1"].values() for run in column.runs]
         values.append(np.concatenate([engine.all_of(run) for run in runs]))
     assert np.array_equal(values[0], values[1])

@@ -11,8 +11,8 @@ from openpyxl import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.formula import ArrayFormula
 
-from reports.recalculation.evaluate import Engine
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.evaluate import Evaluator
+from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.read import read_grid
 from tests.referee.features import DATA, DIFFERENT, FEATURES, NAMES, SHEET
 from tools.referees.by_libreoffice import LibreOffice
@@ -45,7 +45,7 @@ def book_of_features(formulas: Sequence[str] = FEATURES) -> bytes:
     return stream.getvalue()
 
 
-def ours(engine: Engine, row: int) -> CellValue:
+def ours(engine: Evaluator, row: int) -> CellValue:
     """Our value; None where it is unknown."""
     try:
         return engine.shown(SHEET, COLUMN, row)
@@ -81,7 +81,7 @@ def test_every_feature_agrees_with_libreoffice(libreoffice: LibreOffice) -> None
     # Functions that are lifted over arrays are replaced for a whole book: one without arrays
     # tries those of formualizer itself.
     scalar = [f for f in FEATURES if not f.startswith("{") and "SUMPRODUCT" not in f]
-    engines = [Engine(read_grid(data)) for data in (book, book_of_features(scalar))]
+    engines = [Evaluator(read_grid(data)) for data in (book, book_of_features(scalar))]
     wrong, stale = [], []
     kinds = set()
     for engine, row, formula in (

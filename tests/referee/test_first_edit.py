@@ -19,8 +19,8 @@ from openpyxl.utils.cell import column_index_from_string, coordinate_from_string
 from reports.inputs.fields import iter_fields
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
+from reports.workbook.cockpit import SHEET as WHAT_IF
 from reports.workbook.layout import Layout
-from reports.workbook.what_if import SHEET as WHAT_IF
 from reports.workbook.write import workbook_bytes
 from tests.referee.changes import Change, type_into, with_values, without_charts
 from tests.referee.compare import close

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from reports.recalculation.formulas import formula_at
+from reports.recalculation.formulas import (
+    UnknownFormula,
+    filled,
+    formula_at,
+    pattern,
+    render,
+    row_template,
+)
 from reports.recalculation.grid import Area
-from reports.recalculation.language import UnknownFormula, filled, pattern, render, row_template
 from tests.referee.books import engine_of
 
 

@@ -1,4 +1,4 @@
-"""Workbooks recalculated by two engines against their caches and against the solver."""
+"""Books calculated anew: cells of a grid, values of all samples."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ import random
 import zipfile
 from dataclasses import replace
 from functools import cache, lru_cache
+from unittest import mock
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from reports.model.blocks import Model
+from reports.recalculation import grid
+from reports.recalculation.grid import CellColumn, Run
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
@@ -18,24 +23,49 @@ from tests.cover import ALL, engines_with, formulas, operations, quantities, sam
 from tests.grading.forms import rewritten
 from tests.layouts import MAKERS as LAYOUTS
 from tests.layouts import made
-from tests.referee.changes import (
-    Change,
-    changed_everywhere,
-    free_fields,
-    type_into,
-    without_charts,
-)
-from tests.referee.compare import (
-    differences_from_caches,
-    differences_from_solver,
-    errors_in,
-)
+from tests.referee.changes import Change, changed_everywhere, free_fields, type_into, without_charts
+from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.workbook.made import book as own_book
 from tests.workbook.made import coarse_book, coarse_model
 from tests.workbook.made import model as own_model
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import formula_cells, stripped
+
+ROWS = st.integers(1, 60)
+
+
+def run(first: int, count: int) -> Run:
+    return Run("Лист", 2, first, count, None, "")
+
+
+def assert_found(column: CellColumn, first: int, last: int) -> None:
+    """As a look at each finds them, in the order of their first rows."""
+    each = [run for run in column.runs if run.first <= last and first <= run.last]
+    with mock.patch.object(grid, "_FEW", 0):
+        assert column.runs_in(first, last) == sorted(each, key=lambda run: run.first)
+
+
+@given(st.lists(st.builds(run, ROWS, st.integers(1, 30)), max_size=9), ROWS, ROWS)
+def test_runs_in_rows_are_those_that_a_look_at_each_finds(runs, one, other) -> None:
+    """Runs in any order and over each other, as formulas of arrays lie."""
+    assert_found(CellColumn(runs=runs), *sorted((one, other)))
+
+
+@pytest.mark.parametrize("few", [0, grid._FEW])
+def test_a_run_over_others_and_changes_are_seen(few: int) -> None:
+    column = CellColumn(runs=[run(1, 50), *(run(row, 1) for row in range(2, 22, 2))])
+    with mock.patch.object(grid, "_FEW", few):
+        assert [r.first for r in column.runs_in(40, 45)] == [1]
+        column.runs.append(run(43, 3))
+        assert [r.first for r in column.runs_in(40, 45)] == [1, 43]
+        column.cut({45, 50})
+        assert [r.first for r in column.runs_in(45, 45)] == []
+        count = len(column.runs)
+        column.cut({44})
+        assert len(column.runs) == count  # other runs, as many as before
+        assert [r.first for r in column.runs_in(44, 44)] == []
+
 
 # Both programs open the same changed books: made once.
 pytestmark = pytest.mark.xdist_group("recalculation")

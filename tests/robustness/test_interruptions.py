@@ -16,7 +16,7 @@ import pytest
 
 from reports.cli import main
 from reports.shared import files, interrupt
-from reports.shared.aside import can_split
+from reports.shared.background import can_split
 from tests.cover import ALL
 from tests.robustness.command import leftovers, small_input, started
 
@@ -235,7 +235,7 @@ def test_a_command_that_gives_up_is_silent_about_its_second_process(tmp_path):
     """The end of the first process ends the second one in the middle of its work."""
     code = (
         "import time\n"
-        "from reports.shared.aside import aside\n"
+        "from reports.shared.background import aside\n"
         "from reports.shared.interrupt import stoppable\n"
         "with stoppable():\n"
         "    aside(lambda: time.sleep(60))\n"

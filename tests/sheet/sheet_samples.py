@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 
 from reports.document.text.terms import Terms
-from reports.inputs.checks.grid import fine_columns
 from reports.inputs.load import load_text
+from reports.inputs.solve_input import fine_columns
 from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
-from reports.sheet.layout import sheet_items
+from reports.sheet.write import sheet_items
 from reports.tables.registry import build_model
 
 _last: list[tuple] = []

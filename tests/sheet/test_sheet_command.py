@@ -9,12 +9,12 @@ import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
-from reports.drawing.primitives import Words
-from reports.inputs.sections import sheet
+from reports.draw.canvas import Words
+from reports.inputs.sections import report
 from reports.shared.doctor import need_packages
 from reports.shared.errors import InputError, SystemPartMissing
 from reports.shared.resources import samples_dir
-from reports.sheet.layout import sheet_items
+from reports.sheet.write import sheet_items
 from tests.sheet.sheet_samples import terms
 
 ENDINGS = ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf")
@@ -33,8 +33,8 @@ def source(folder, section=""):
 
 
 def test_names_of_diagrams_are_stated_once():
-    assert sheet.Diagram.__args__ == tuple(sheet.DIAGRAMS)
-    assert set(sheet.USUAL) < set(sheet.DIAGRAMS)
+    assert report.Diagram.__args__ == tuple(report.DIAGRAMS)
+    assert set(report.USUAL) < set(report.DIAGRAMS)
 
 
 def test_signs_that_the_font_lacks_do_not_stop_the_sheet(tmp_path):
@@ -66,7 +66,7 @@ def test_the_command_writes_pdf_and_dxf(tmp_path):
 @pytest.mark.parametrize(
     ("section", "words"),
     [
-        (f'size = "A2"\ndiagrams = {list(sheet.DIAGRAMS)}', "помещается 14, выбрано 18"),
+        (f'size = "A2"\ndiagrams = {list(report.DIAGRAMS)}', "помещается 14, выбрано 18"),
         ('size = "A4"', "A1"),
         ('diagrams = ["pie"]', "pie"),
         ('diagram = ["pv"]', "diagram"),
@@ -94,7 +94,7 @@ def test_a_person_picks_what_stands_on_it(size, way):
 
 
 def test_everything_fits_a1():
-    every = ", ".join(f'"{name}"' for name in sheet.DIAGRAMS)
+    every = ", ".join(f'"{name}"' for name in report.DIAGRAMS)
     canvas, _, _ = sheet_items(terms("d-240", f"\n[sheet]\ndiagrams = [{every}]\n"))
     assert any("Кривошипно-шатунный механизм" in getattr(i, "text", "") for i in canvas.items)
 

@@ -16,15 +16,13 @@ from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reports.drawing.dxf import dxf_bytes
-from reports.drawing.lettering import plain
-from reports.drawing.parts import Throw
-from reports.drawing.primitives import LAYERS, Line, Words
+from reports.draw.canvas import LAYERS, Line, Words
+from reports.draw.fonts import plain
+from reports.draw.parts import ThrowSizes
+from reports.draw.writers import dxf_bytes
 from reports.inputs.load import load_text
-from reports.inputs.own_engine import own_engine
-from reports.inputs.own_file import file_text
-from reports.sheet.layout import sheet_items
-from reports.sheet.write import _throws, sheet_files
+from reports.new.generate import file_text, generate_engine
+from reports.sheet.write import _throws, sheet_files, sheet_items
 from tests.cover import chapters, charts, examples, samples_with
 from tests.sheet.sheet_samples import drawn, terms, terms_of
 from tests.sheet.test_sheet_places import faults
@@ -137,7 +135,7 @@ def test_every_curve_lies_where_the_table_says(name):
 def test_random_engines(cylinders, layout, strokes, kind, speed):
     if layout != "inline":
         cylinders += cylinders % 2
-    engine = own_engine(cylinders, layout=layout, strokes=strokes, kind=kind, speed_rpm=speed)
+    engine = generate_engine(cylinders, layout=layout, strokes=strokes, kind=kind, speed_rpm=speed)
     text = re.sub(r"step_deg = \d+", "step_deg = 30", file_text(engine))
     t = terms_of(load_text(text, source="own.toml").model)
     assert faults(t) == []
@@ -200,8 +198,8 @@ def test_the_same_bytes():
 def test_the_same_bytes_in_another_process():
     """Where sets of words have another order."""
     program = (
-        "import sys; from reports.drawing.dxf import dxf_bytes;"
-        "from reports.drawing.primitives import Line;"
+        "import sys; from reports.draw.writers import dxf_bytes;"
+        "from reports.draw.canvas import Line;"
         "sys.stdout.buffer.write(dxf_bytes([Line(((0, 0), (9, 9)))]))"
     )
     made = {
@@ -228,7 +226,7 @@ def test_words_stand_in_the_file_where_the_list_has_them():
 def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
     """Drawn true to size, the axes of a small crank were two dashes, of a large one dust."""
     lengths = (18.0, 19.0, 10.0, 10.0, 19.0, 18.0)
-    throw = Throw(
+    throw = ThrowSizes(
         tuple(size * arm for arm in lengths), (19 * size, 19 * size), 43 * size, 59 * size,
         (71 * size, 71 * size), (37 * size, 37 * size),
     )  # fmt: skip

@@ -6,17 +6,15 @@ import itertools
 
 import pytest
 
-from reports.document.text.numbers import of_digits
-from reports.drawing.primitives import CURVES, THIN, Canvas, Line, Words, overlap
-from reports.drawing.primitives import SIZES as DIMENSIONS
+from reports.document.text.texts import of_digits
+from reports.draw.canvas import CURVES, THIN, Canvas, Line, Words, overlap
+from reports.draw.canvas import SIZES as DIMENSIONS
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.sections.sheet import DIAGRAMS, USUAL, SheetSection
-from reports.sheet import tables
-from reports.sheet.cell import Room
-from reports.sheet.layout import SIZES, cells
-from reports.sheet.schemes import balance
-from reports.sheet.stamp import HEIGHT, MARGINS, WIDTH, title_block
+from reports.inputs.sections.report import DIAGRAMS, USUAL, SheetSection
+from reports.sheet import cell
+from reports.sheet.cell import CellArea, balance
+from reports.sheet.write import MARGINS, SIZES, STAMP_HEIGHT, STAMP_WIDTH, cells, title_block
 from tests.conftest import sample
 from tests.cover import chapters, charts, samples_with
 from tests.layouts import MAKERS, made
@@ -59,7 +57,7 @@ def test_every_sheet(name, size, way):
 def test_no_place_lies_under_the_title_block(size):
     section = SheetSection(size=size, diagrams=("pv",))
     for width, height in (SIZES[size], SIZES[size][::-1]):
-        block = (width - MARGINS[1] - WIDTH, 0.0, width, MARGINS[3] + HEIGHT)
+        block = (width - MARGINS[1] - STAMP_WIDTH, 0.0, width, MARGINS[3] + STAMP_HEIGHT)
         for count in range(1, 14):
             rooms = cells(width, height, count, section)
             assert len(rooms) >= count
@@ -125,7 +123,7 @@ def test_a_long_name_stays_in_its_cell():
 
 def test_forces_of_the_throws_point_away_from_the_axis():
     t, canvas = terms("d-240"), Canvas()
-    balance(canvas, Room(0.0, 0.0, 180.0, 120.0), t)
+    balance(canvas, CellArea(0.0, 0.0, 180.0, 120.0), t)
     lines = [item for item in canvas.items if isinstance(item, Line) and not item.filled]
     forces = [line.points for line in lines if line.layer is DIMENSIONS]
     upwards = [angle in (0, 360) for angle in t.model.input.crankshaft.throw_angles_deg]
@@ -147,10 +145,10 @@ def test_no_curve_runs_through_an_angle_of_a_polar_diagram(name):
         assert not any(left < x < right and low < y < high for x, y in curve.points)
 
 
-@pytest.mark.parametrize("table", [tables.results, tables.running])
+@pytest.mark.parametrize("table", [cell.results, cell.running])
 def test_letters_of_a_table_are_of_one_height(table):
     canvas = Canvas()
-    table(canvas, Room(0.0, 0.0, 150.0, 120.0), terms("d-240"))
+    table(canvas, CellArea(0.0, 0.0, 150.0, 120.0), terms("d-240"))
     _, *cells = [item for item in canvas.items if isinstance(item, Words)]
     assert len({words.height for words in cells}) == 1
     assert not any(overlap(one.box, other.box) for one, other in itertools.combinations(cells, 2))

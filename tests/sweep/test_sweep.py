@@ -14,19 +14,19 @@ import openpyxl
 import pytest
 
 from kshm import solve
-from kshm.results.extremes import first_extreme
+from kshm.results.case import first_extreme
 from reports.cli import main
 from reports.inputs.fields import set_value, to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
-from reports.shared import ordered
+from reports.shared import parallel_map
 from reports.shared.errors import InputError, KshmError
 from reports.shared.resources import samples_dir
-from reports.studies import points
-from reports.studies import run as run_module
+from reports.studies import plan as plan_module
+from reports.studies import sweep as run_module
 from reports.studies.plan import make_plan
-from reports.studies.quantities import Wanted
-from reports.studies.run import Options, Studied, sweep
+from reports.studies.quantities import ChosenQuantities
+from reports.studies.sweep import Studied, SweepOptions, sweep
 from tests.conftest import sample
 
 BASE = samples_dir() / "gots-diesel.toml"
@@ -89,7 +89,7 @@ def test_rows_are_what_single_solutions_give(
 
 def test_streaming_in_tiny_chunks_is_one_chunk(tmp_path: Path) -> None:
     one = studied(tmp_path, name="one.csv")
-    tiny = studied(tmp_path, name="tiny.csv", options=Options(chunk=5))
+    tiny = studied(tmp_path, name="tiny.csv", options=SweepOptions(chunk=5))
     for left, right in zip(one, tiny, strict=True):
         for name, text in left.items():
             if text:
@@ -98,7 +98,7 @@ def test_streaming_in_tiny_chunks_is_one_chunk(tmp_path: Path) -> None:
 
 def test_processes_change_no_byte(tmp_path: Path) -> None:
     for jobs in (1, 2):
-        sweep(BASE, VARY, tmp_path / f"{jobs}.csv", options=Options(jobs=jobs, chunk=3))
+        sweep(BASE, VARY, tmp_path / f"{jobs}.csv", options=SweepOptions(jobs=jobs, chunk=3))
     assert (tmp_path / "1.csv").read_bytes() == (tmp_path / "2.csv").read_bytes()
 
 
@@ -108,7 +108,7 @@ def test_memory_does_not_grow_with_the_study(tmp_path: Path) -> None:
         tracemalloc.start()
         vary = (f"regime.speed_rpm=1500:4400:{count}",)
         sweep(BASE, vary, tmp_path / "a.csv", quantities=("M_mean",),
-              options=Options(jobs=1, chunk=20))  # fmt: skip
+              options=SweepOptions(jobs=1, chunk=20))  # fmt: skip
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 1.2 * peaks[0]
@@ -128,7 +128,7 @@ def test_only_a_few_items_are_under_way(monkeypatch: pytest.MonkeyPatch) -> None
         def cancel(self) -> None:
             pass
 
-    results = ordered._windowed(lambda work, item: Future(work(item)), abs, items, 7)
+    results = parallel_map._windowed(lambda work, item: Future(work(item)), abs, items, 7)
     assert next(results) == 0
     assert next(read) == 7
     assert len(list(results)) > 150
@@ -206,7 +206,7 @@ def test_a_study_that_breaks_off_leaves_the_old_file(
     (tmp_path / name).write_text("old")
     monkeypatch.setattr(run_module, "in_order", breaking)
     with pytest.raises(KeyboardInterrupt):
-        sweep(BASE, VARY, tmp_path / name, options=Options(chunk=5))
+        sweep(BASE, VARY, tmp_path / name, options=SweepOptions(chunk=5))
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, "old")]
 
 
@@ -214,7 +214,7 @@ def test_parquet_holds_the_numbers_of_the_csv(tmp_path: Path) -> None:
     pd = pytest.importorskip("pandas")
     vary = ("geometry.bore_mm=5:88:2", *VARY[:1])
     rows = studied(tmp_path, *vary)
-    sweep(BASE, vary, tmp_path / "a.parquet", options=Options(chunk=3))
+    sweep(BASE, vary, tmp_path / "a.parquet", options=SweepOptions(chunk=3))
     frame = pd.read_parquet(tmp_path / "a.parquet")
     assert list(frame.columns) == list(rows[0])
     for (_, found), row in zip(frame.iterrows(), rows, strict=True):
@@ -293,7 +293,7 @@ def test_a_result_that_is_no_number_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     """Beside a reason of its own, which stays."""
     plan = make_plan(sample(BASE.stem), BASE.name, ("geometry.bore_mm=85:88:2",), pairwise=False)
     numbers = {"c_m": np.array([np.nan, np.nan])}
-    monkeypatch.setattr(points, "of_batch", lambda *_: (numbers, ["", "своя причина"]))
-    wanted = Wanted(("c_m",), (), slow=False)
-    (task,) = points.tasks(plan, wanted, 2)
-    assert points.solved(task).errors == [points.NOT_FINITE, "своя причина"]
+    monkeypatch.setattr(plan_module, "of_batch", lambda *_: (numbers, ["", "своя причина"]))
+    wanted = ChosenQuantities(("c_m",), (), slow=False)
+    (task,) = plan_module.tasks(plan, wanted, 2)
+    assert plan_module.solved(task).errors == [plan_module.NOT_FINITE, "своя причина"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from kshm import solve
-from kshm.mechanics.cubic_diagrams import periodic_nodes
+from kshm.mechanics.gas import periodic_nodes
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.sections.input_file import InputFile
@@ -91,7 +91,7 @@ def test_no_corner_but_at_top_dead_centre() -> None:
     """The slope changes little from one tenth of a degree to the next at every join."""
     from dataclasses import replace
 
-    from kshm.mechanics.cubic_diagrams import engine_pressure
+    from kshm.mechanics.gas import engine_pressure
 
     engine = to_engine(made(PETROL, 9.5))
     gas = engine.gas

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from kshm.engine.masses import Swinging
-from kshm.mechanics.rod_masses import (
+from kshm.mechanics.masses import (
     GRAVITY,
     pendulum_inertia,
     swung_centre,

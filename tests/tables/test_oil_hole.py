@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kshm.results.extremes import least_loaded
+from kshm.results.case import least_loaded
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model import blocks

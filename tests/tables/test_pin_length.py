@@ -10,12 +10,12 @@ import pytest
 
 from kshm import solve
 from kshm.engine.torsion import Torsion
-from kshm.mechanics.torsional_train import sections
+from kshm.mechanics.torsion import sections
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.inputs.own_engine import own_engine
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.evaluation import evaluate_model
+from reports.new.generate import generate_engine
 from reports.tables.registry import build_model
 from tests.conftest import sample
 
@@ -31,7 +31,7 @@ class Pin(NamedTuple):
 
 def split_six() -> dict:
     """A V6 of 90° whose pins are split by 30°, so that it fires evenly."""
-    raw = own_engine(6, layout="v", kind="diesel").data
+    raw = generate_engine(6, layout="v", kind="diesel").data
     shaft = raw["crankshaft"]
     shaft.pop("firing_order", None)
     return raw | {
@@ -52,8 +52,8 @@ def articulated_six() -> dict:
 CASES = {
     "yamz-236": (lambda: to_mapping(sample("yamz-236")), Pin(88, 84, rods=2)),
     "yamz-238": (lambda: to_mapping(sample("yamz-238")), Pin(88, 84, rods=2)),
-    "V10": (lambda: own_engine(10, layout="v").data, Pin(49.2, 44.3, rods=2)),
-    "V2": (lambda: own_engine(2, layout="v", kind="diesel").data, Pin(71.4, 64.3, rods=2)),
+    "V10": (lambda: generate_engine(10, layout="v").data, Pin(49.2, 44.3, rods=2)),
+    "V2": (lambda: generate_engine(2, layout="v", kind="diesel").data, Pin(71.4, 64.3, rods=2)),
     "split V6": (split_six, Pin(71.4, 32.1, parts=2)),
     "articulated V6": (articulated_six, Pin(56, 28)),
     "in line": (lambda: to_mapping(sample("d-240-bearings")), Pin(68.25, 38)),

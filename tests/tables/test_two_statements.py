@@ -8,13 +8,12 @@ import pytest
 from kshm import Solution, solve
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
-from reports.inputs.own_engine import own_engine
-from reports.inputs.own_file import file_text
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.solved import solved
+from reports.inputs.solve_input import solved
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.blocks import Model, TableSpec
 from reports.model.evaluation import Evaluation, evaluate_model
+from reports.new.generate import file_text, generate_engine
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.cover import ALL
@@ -126,7 +125,7 @@ def test_any_number_of_cylinders(cylinders: int) -> None:
 @pytest.mark.parametrize(("cylinders", "layout"), [(2, "opposed"), (4, "opposed"), (10, "v")])
 def test_journals_without_load(cylinders: int, layout: str) -> None:
     """Two strokes, pistons that fire together: between their throws there is rounding noise."""
-    text = file_text(own_engine(cylinders, layout=layout, strokes=2, kind="petrol"))
+    text = file_text(generate_engine(cylinders, layout=layout, strokes=2, kind="petrol"))
     data = load_text(text.replace("step_deg = 10", "step_deg = 30"), source="own.toml").model
     scalars = assert_agree(data)[1].scalars
     unlike = {abs(value) for key, value in scalars.items() if key.startswith("dRc")}

@@ -1,6 +1,6 @@
 """The printed tables of the sources and what deviates in them.
 
-The numbers, our values and the comparison are those of ``reports.validation``.
+The numbers, our values and the comparison are those of ``reports.studies``.
 
 @book{gots2006,
   author    = {Гоц, А. Н.},
@@ -17,10 +17,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-from reports.validation.checks import Check, Tolerance, Verdict, check_table, errata
-from reports.validation.printed import cells_of, number, rows_of
-from reports.validation.registry import table
-from reports.validation.runs import on_grid, solution
+from reports.studies.validation_checks import (
+    Check,
+    PrintTolerance,
+    Verdict,
+    cells_of,
+    check_table,
+    errata,
+    number,
+    rows_of,
+)
+from reports.studies.validation_lookups import on_grid, solution
+from reports.studies.validation_registry import table
 
 __all__ = ["number", "on_grid", "rows_of", "solution"]
 
@@ -54,7 +62,7 @@ def recorded(name: str, *kinds: Verdict) -> set[Name]:
     }
 
 
-def tolerance_of(name: str) -> Tolerance:
+def tolerance_of(name: str) -> PrintTolerance:
     """How far our values may be."""
     return table(name).tolerance
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reports.validation.checks import Verdict
+from reports.studies.validation_checks import Verdict
 from tests.textbook.book import beyond, checks, ours, recorded, solution
 
 MISPRINTS = {

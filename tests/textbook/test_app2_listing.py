@@ -10,12 +10,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kshm.cycle.cycle import Listing, cycle
-from kshm.cycle.design import design
+from kshm.cycle.cycle import cycle, design
 from kshm.cycle.diagram import indicator_diagram
+from kshm.cycle.dizdn_listing import Listing
 from kshm.nomenclature.dizdn_listing import INPUTS, OUTPUTS, value_of
-from reports.validation.checks import Verdict
-from reports.validation.runs import printed_inputs
+from reports.studies.validation_checks import Verdict
+from reports.studies.validation_lookups import printed_inputs
 from tests.textbook.book import beyond, checks, ours, recorded, rows_of, tolerance_of
 
 FITTED = Listing()

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 
 from kshm import solve
 from kshm.engine.engine import Engine
-from kshm.mechanics import balance, harmonics, torque_harmonics
+from kshm.mechanics import balance, harmonics
 from kshm.nomenclature.quantity import quantity
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import beyond, checks, recorded, solution
@@ -34,23 +34,23 @@ def test_constant_c_and_the_d50_at_1630() -> None:
     """c = 0.5π²/(900g) = 5.5893e-6; t_j2(192, 1630) = 2.851 kgf/cm²."""
     c = 0.5 * np.pi**2 / (900 * 981)
     assert c == pytest.approx(5.5893e-6, abs=5e-11)
-    t_j = float(torque_harmonics.inertia_second(np.array(D50), np.array(omega(1630)))) / KGF
+    t_j = float(harmonics.inertia_second(np.array(D50), np.array(omega(1630)))) / KGF
     assert t_j == pytest.approx(2.851, abs=5e-4)
     assert t_j == pytest.approx(c * 192 * 1630**2 / 1000, rel=1e-12)
 
 
 def test_suppression_at_1630_implies_the_gas_coefficient() -> None:
     """ψ = 0.4 at 1630 implies t_г2 = 1.71; ψ = 1 helps only above about 1790 rpm."""
-    t_j = float(torque_harmonics.inertia_second(np.array(D50), np.array(omega(1630))))
+    t_j = float(harmonics.inertia_second(np.array(D50), np.array(omega(1630))))
     gas = 1.71 * KGF
-    best = torque_harmonics.best_suppression(np.array(gas), np.array(t_j))
+    best = harmonics.best_suppression(np.array(gas), np.array(t_j))
     assert float(best) == pytest.approx(0.4, abs=5e-3)
     assert 0.6 * t_j / KGF == pytest.approx(1.71, abs=5e-3)
     speeds = omega(np.arange(1200.0, 3001.0))
-    t = torque_harmonics.inertia_second(np.array(D50), speeds)
-    helps = torque_harmonics.residual(gas, t, 1.0) < torque_harmonics.residual(gas, t, 0.0)
+    t = harmonics.inertia_second(np.array(D50), speeds)
+    helps = harmonics.residual(gas, t, 1.0) < harmonics.residual(gas, t, 0.0)
     assert np.arange(1200, 3001)[helps][0] == pytest.approx(1790, abs=5)
-    assert float(torque_harmonics.best_suppression(np.array(gas), t[helps][0])) == pytest.approx(
+    assert float(harmonics.best_suppression(np.array(gas), t[helps][0])) == pytest.approx(
         0.5, abs=2e-3
     )
 
@@ -68,9 +68,9 @@ def test_numbers_of_the_text() -> None:
 def test_coefficient_of_the_d50_over_the_speed(psi: float) -> None:
     """Figure 4: without gases what is left is (1 - ψ) of t_j2."""
     rpm = np.arange(1200, 3001, 200)
-    t_j = torque_harmonics.inertia_second(np.array(D50), omega(rpm))
+    t_j = harmonics.inertia_second(np.array(D50), omega(rpm))
     expected = (1 - psi) * 0.5 * np.pi**2 / (900 * 981) * 192 * rpm**2 / 1000
-    assert torque_harmonics.residual(0.0, t_j, psi) / KGF == pytest.approx(expected, abs=1e-12)
+    assert harmonics.residual(0.0, t_j, psi) / KGF == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.parametrize("lam", [0.2, 0.25, 0.3])
@@ -79,9 +79,9 @@ def test_inertia_harmonics_of_the_two_term_motion(lam: float) -> None:
     acceleration = np.cos(PHI) + lam * np.cos(2 * PHI)
     velocity = np.sin(PHI) + lam / 2 * np.sin(2 * PHI)
     orders = np.arange(1, 17) / 2
-    found = torque_harmonics.analyse(-acceleration * velocity, 4 * np.pi, orders)
+    found = harmonics.analyse(-acceleration * velocity, 4 * np.pi, orders)
     expected = np.zeros(16)
-    expected[[1, 3, 5, 7]] = torque_harmonics.inertia_coefficients(lam)
+    expected[[1, 3, 5, 7]] = harmonics.inertia_coefficients(lam)
     assert found.sine == pytest.approx(expected, abs=1e-14)
     assert found.cosine == pytest.approx(np.zeros(16), abs=1e-14)
 
@@ -95,7 +95,7 @@ def test_exact_second_order_is_half_and_a_thirty_second_of_lambda_to_the_fourth(
     j = sum(
         harmonics.acceleration_amplitude(lam, n) * np.cos(n * PHI) for n in (1, *range(2, 60, 2))
     )
-    found = torque_harmonics.analyse(-j * velocity, 4 * np.pi, orders)
+    found = harmonics.analyse(-j * velocity, 4 * np.pi, orders)
     assert found.amplitude[1] == pytest.approx(0.5 + lam**4 / 32, abs=lam**6 / 16)
     assert found.amplitude[1] > 0.5
     assert abs(found.phase[1]) == pytest.approx(np.pi)
@@ -107,9 +107,7 @@ def test_harmonics_of_the_engine_are_the_cylinders_times_the_vector_sum(engine: 
     """Amplitudes against a transform of the summed torque itself."""
     solved = solve(engine)
     table = solved.columns["torque_orders"]
-    direct = torque_harmonics.analyse(
-        solved.columns["P4_2"]["Msum_Nm"], engine.period, table["order"]
-    )
+    direct = harmonics.analyse(solved.columns["P4_2"]["Msum_Nm"], engine.period, table["order"])
     # On the grid a shift by the firing offset is exact only for offsets on the grid.
     shift = np.degrees(np.array(engine.firing_offsets)) / engine.step_deg
     if np.abs(shift - np.rint(shift)).max() < 1e-6:
@@ -124,7 +122,7 @@ def test_parseval_over_all_orders() -> None:
     engine = replace(solution("d-240").engine, step_deg=10)
     curve = solve(engine).columns["tangential"]["t_gas_MPa"]
     orders = np.arange(1, 36) / 2
-    found = torque_harmonics.analyse(curve, 4 * np.pi, orders)
+    found = harmonics.analyse(curve, 4 * np.pi, orders)
     body = curve[:-1]
     # The highest of 72 samples' orders (18) counts once.
     last = (body * (-1.0) ** np.arange(72)).mean()
@@ -154,7 +152,7 @@ def test_zones_and_suppression_of_an_engine() -> None:
     scalars, table = solved.scalars, solved.columns["suppression"]
     d_j = scalars["d_j"]
     for key, speed in (("t_gas2_idle", "n_zone1"), ("t_gas2", "n_zone2")):
-        t_j = torque_harmonics.inertia_second(np.array(d_j), np.array(omega(scalars[speed])))
+        t_j = harmonics.inertia_second(np.array(d_j), np.array(omega(scalars[speed])))
         assert float(t_j) == pytest.approx(1e6 * scalars[key], rel=1e-9)
     rpm = solved.engine.speed_rpm
     expected = 1 + (rpm > scalars["n_zone1"]) + (rpm > scalars["n_zone2"])
@@ -186,9 +184,9 @@ def test_shift_of_the_shafts_needs_half_the_force_on_each() -> None:
 
 def test_unknowable_orders_are_refused() -> None:
     with pytest.raises(ValueError, match="orders must be"):
-        torque_harmonics.analyse(np.zeros(25), 4 * np.pi, np.array([6.0]))
+        harmonics.analyse(np.zeros(25), 4 * np.pi, np.array([6.0]))
     with pytest.raises(ValueError, match="orders must be"):
-        torque_harmonics.analyse(np.zeros(73), 4 * np.pi, np.array([0.3]))
+        harmonics.analyse(np.zeros(73), 4 * np.pi, np.array([0.3]))
 
 
 def test_what_differs_has_symbols_that_differ():

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from reports.validation.checks import Verdict, errata
-from reports.validation.registry import SHORT, SOURCES, TABLES
+from reports.studies.validation_checks import Verdict, errata
+from reports.studies.validation_registry import SHORT, SOURCES, TABLES
 from tests.textbook.book import checks, number
 
 

@@ -18,9 +18,9 @@ from hypothesis import given, settings
 
 from kshm import solve
 from kshm.engine.engine import Engine
-from kshm.mechanics import dimensionless, reduced_inertia, rod_model, speed_fluctuation
+from kshm.mechanics import dimensionless, inertia, masses
 from kshm.mechanics.balance import is_balanced_by_orders
-from kshm.mechanics.reduced_inertia import Parts
+from kshm.mechanics.inertia import Parts
 from tests.conftest import sample_names
 from tests.kshm.engines import basic_engines
 from tests.textbook.book import beyond, checks, recorded, solution
@@ -50,8 +50,8 @@ def kinetic_energy(parts: Parts, phi: np.ndarray, omega: float) -> np.ndarray:
 @settings(max_examples=30)
 @given(basic_engines())
 def test_reduced_inertia_is_twice_the_kinetic_energy_over_omega_squared(engine: Engine) -> None:
-    parts = reduced_inertia.parts_of(engine)
-    rod, piston = reduced_inertia.exact(PHI, parts)
+    parts = inertia.parts_of(engine)
+    rod, piston = inertia.exact(PHI, parts)
     energy = kinetic_energy(parts, PHI, engine.omega)
     expected = 2 * energy / engine.omega**2
     ours = parts.crank_inertia + rod + piston
@@ -60,20 +60,20 @@ def test_reduced_inertia_is_twice_the_kinetic_energy_over_omega_squared(engine: 
 
 def test_the_whole_engine_is_the_sum_of_its_cylinders() -> None:
     engine = solution("d-240").engine
-    parts = reduced_inertia.parts_of(engine)
+    parts = inertia.parts_of(engine)
     total = np.zeros_like(PHI)
     for offset in engine.firing_offsets:
-        rod, piston = reduced_inertia.exact(PHI - offset, parts)
+        rod, piston = inertia.exact(PHI - offset, parts)
         total += rod + piston + parts.crank_inertia
-    total += reduced_inertia.counterweight_inertia(engine)
-    np.testing.assert_allclose(reduced_inertia.of_engine(PHI, engine), total, rtol=1e-12)
+    total += inertia.counterweight_inertia(engine)
+    np.testing.assert_allclose(inertia.of_engine(PHI, engine), total, rtol=1e-12)
 
 
 def test_two_mass_rod_gives_the_energy_of_its_two_masses() -> None:
     """With k = 1 the rod equals m_2 on the crankpin and m_1 on the piston pin."""
     engine = solution("gots-diesel").engine
-    parts = reduced_inertia.parts_of(engine)
-    rod, piston = reduced_inertia.exact(PHI, parts)
+    parts = inertia.parts_of(engine)
+    rod, piston = inertia.exact(PHI, parts)
     m_2 = parts.rod_mass * parts.rod_centre / parts.rod_length
     m_j = parts.piston_mass + parts.rod_mass - m_2
     v = dimensionless.exact(PHI, np.array(parts.lam)).v
@@ -93,16 +93,16 @@ def test_numbers_of_the_text() -> None:
 @pytest.mark.parametrize("lam", [0.2, 0.25, 0.28, 0.30])
 @pytest.mark.parametrize("share", [0.2, 0.25, 0.30])
 def test_error_of_the_centre_speed_stays_within_the_statement(lam: float, share: float) -> None:
-    exact = reduced_inertia.centre_speed(PHI, lam, share)
-    near = reduced_inertia.centre_speed_approx(PHI, share)
+    exact = inertia.centre_speed(PHI, lam, share)
+    near = inertia.centre_speed_approx(PHI, share)
     assert 100 * np.abs(near / exact - 1).max() <= 5.7
 
 
 def test_x_l_from_the_other_end_would_err_far_more() -> None:
     """Measured from the crankpin x_L makes AC = 0.7 L: an error of 22 to 31 %."""
     for lam in (0.25, 0.30):
-        exact = reduced_inertia.centre_speed(PHI, lam, 0.70)
-        near = reduced_inertia.centre_speed_approx(PHI, 0.70)
+        exact = inertia.centre_speed(PHI, lam, 0.70)
+        near = inertia.centre_speed_approx(PHI, 0.70)
         assert 20 < 100 * np.abs(near / exact - 1).max() < 35
 
 
@@ -118,8 +118,8 @@ def test_approximation_19_on_the_samples() -> None:
 
 def test_rod_model_against_slices() -> None:
     """Mass, centre and central inertia of the cone and the rings, summed slice by slice."""
-    rod = rod_model.sizes(0.11, 0.068, 0.04, 0.23)
-    found = rod_model.estimate(rod)
+    rod = masses.rod_sizes(0.11, 0.068, 0.04, 0.23)
+    found = masses.rod_estimate(rod)
     span = rod.length - rod.cap_height - rod.small_outer / 2
     z = (np.arange(200000) + 0.5) * span / 200000
     radius = found.radius_big - (found.radius_big - found.radius_small) * z / span
@@ -144,9 +144,9 @@ def test_rod_model_against_slices() -> None:
 
 def test_throw_needs_the_fourth_power() -> None:
     """(32) and (33) print d²: by dimensions a mass; d⁴ is a moment of inertia."""
-    one = reduced_inertia.cylinder_inertia(0.06, 0.03)
+    one = inertia.cylinder_inertia(0.06, 0.03)
     assert one == pytest.approx(7800 * np.pi * 0.03**2 * 0.03 * 0.06**2 / 8)
-    assert reduced_inertia.cylinder_inertia(0.12, 0.03) == pytest.approx(16 * one)
+    assert inertia.cylinder_inertia(0.12, 0.03) == pytest.approx(16 * one)
 
 
 def test_literal_square_keeps_delta_i_small() -> None:
@@ -154,11 +154,11 @@ def test_literal_square_keeps_delta_i_small() -> None:
 
     What can be shown: it grows with the piston's mass and falls with the throw's inertia.
     """
-    parts = reduced_inertia.parts_of(solution("gots-diesel").engine)
+    parts = inertia.parts_of(solution("gots-diesel").engine)
 
     def delta(changed: Parts) -> float:
-        rod, piston = reduced_inertia.exact(PHI, changed)
-        return reduced_inertia.variation(changed.crank_inertia + rod + piston)
+        rod, piston = inertia.exact(PHI, changed)
+        return inertia.variation(changed.crank_inertia + rod + piston)
 
     base = delta(parts)
     assert delta(replace(parts, piston_mass=1.2 * parts.piston_mass)) > base
@@ -195,17 +195,16 @@ def test_inertia_torque_is_the_slope_of_the_reduced_inertia() -> None:
     inertial = solved.columns["P4_2"]["Msum_Nm"] - table["Mgas_Nm"]
     step = 1e-5
     phi = np.radians(solved.columns["P4_2"]["phi_deg"])
-    slope = (
-        reduced_inertia.of_engine(phi + step, engine)
-        - reduced_inertia.of_engine(phi - step, engine)
-    ) / (2 * step)
+    slope = (inertia.of_engine(phi + step, engine) - inertia.of_engine(phi - step, engine)) / (
+        2 * step
+    )
     np.testing.assert_allclose(inertial, -(engine.omega**2) / 2 * slope, atol=1e-4)
 
 
 def test_excess_work_closes() -> None:
     phi = np.radians(np.arange(0.0, 721.0, 10.0))
     torque = 100 + 40 * np.sin(1.5 * phi)
-    work = speed_fluctuation.excess_work(torque, phi)
+    work = inertia.excess_work(torque, phi)
     assert work[0] == 0
     assert work[-1] == pytest.approx(0, abs=1e-10)
     assert np.ptp(work) == pytest.approx(2 * 40 / 1.5, rel=0.01)

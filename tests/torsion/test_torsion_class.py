@@ -12,7 +12,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.evaluation import Evaluation
-from reports.studies.run import sweep
+from reports.studies.sweep import sweep
 from tests.conftest import sample
 from tests.grading.chapter_class import ChapterClass, unlike_right
 

@@ -12,11 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kshm.chain.solve import solve_batch
-from kshm.mechanics import torsion, torsion_response
-from kshm.mechanics.torsion_response import Damper, respond
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics import torsion
+from kshm.mechanics.torsion import Damper, Train, respond
 from kshm.results.case import Case
-from kshm.results.torsion import Study, forced_columns
+from kshm.results.torsion import TorsionStudy, forced_columns
 from reports.inputs.to_si.engine import to_engine
 from tests.conftest import sample
 from tests.torsion.trains import MWM, stiffness_matrix, trains
@@ -26,13 +25,13 @@ SPEEDS = np.arange(1000, 2575, 25)  # those of openTorsion's examples/ICE_exampl
 
 
 @pytest.fixture(scope="module")
-def study() -> Study:
+def study() -> TorsionStudy:
     engine = to_engine(sample("mwm-6"))
     assert engine.torsion is not None
-    return Study(Case(engine, solve_batch([engine]), 0), engine.torsion)
+    return TorsionStudy(Case(engine, solve_batch([engine]), 0), engine.torsion)
 
 
-def own_torque(study: Study, rpm: float) -> np.ndarray:
+def own_torque(study: TorsionStudy, rpm: float) -> np.ndarray:
     """Torque of cylinder 1 over its own cycle, written down again from the sample's numbers."""
     data = sample("mwm-6")
     phi = np.radians(np.arange(0, 720, data.calculation.step_deg))
@@ -46,7 +45,7 @@ def own_torque(study: Study, rpm: float) -> np.ndarray:
     return (1e6 * area * curve * scale + inertia) * np.sin(phi + beta) / np.cos(beta) * r
 
 
-def own_excitation(study: Study) -> np.ndarray:
+def own_excitation(study: TorsionStudy) -> np.ndarray:
     """Harmonics at the nodes by a sum over the angles, not by a transform; (9, speeds, 24)."""
     offsets = np.radians([0, 480, 240, 600, 120, 360])  # 1-5-3-6-2-4
     orders = np.arange(1, 25) / 2
@@ -59,12 +58,12 @@ def own_excitation(study: Study) -> np.ndarray:
     return found
 
 
-def test_the_excitation_written_down_again(study: Study) -> None:
+def test_the_excitation_written_down_again(study: TorsionStudy) -> None:
     ours, theirs = study.excitation(SPEEDS * RPM), own_excitation(study)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-6 * np.abs(theirs).max())
 
 
-def test_opentorsion_gives_the_same_torques(study: Study) -> None:
+def test_opentorsion_gives_the_same_torques(study: TorsionStudy) -> None:
     """Equal models: steady state by its inverses at 63 speeds, 24 orders.
 
     Its example differs from the sample's results, and these are the differences of model:
@@ -163,15 +162,15 @@ def test_orders_are_added_in_time() -> None:
     amplitudes = rng.normal(size=(3, 24)) + 1j * rng.normal(size=(3, 24))
     phi = np.linspace(0, 4 * np.pi, 20000)
     wanted = np.abs((amplitudes @ np.exp(1j * np.outer(orders, phi))).real).max(axis=1)
-    found = torsion_response.sum_in_time(amplitudes, orders, 0.5)
+    found = torsion.sum_in_time(amplitudes, orders, 0.5)
     assert found == pytest.approx(wanted, rel=0.01)
     assert np.all(found <= wanted * (1 + 1e-6))
     assert np.all(found < np.abs(amplitudes).sum(axis=1))
 
 
-def test_the_leading_order_is_that_of_whole_matrices(study: Study) -> None:
+def test_the_leading_order_is_that_of_whole_matrices(study: TorsionStudy) -> None:
     """Each speed and order by a dense system, added in time angle by angle, at the worst shaft."""
-    train, loss = study.train, study.asked.loss_factor
+    train, loss = study.train, study.inputs.loss_factor
     load, springs = study.excitation(study.speeds), stiffness_matrix(train)
     assert train.moduli is not None
     turning = np.exp(1j * np.outer(study.orders, np.linspace(0, 4 * np.pi, 1500)))
@@ -192,10 +191,10 @@ def test_the_leading_order_is_that_of_whole_matrices(study: Study) -> None:
     assert len(set(leading)) > 1
 
 
-def test_the_energy_method_is_the_resonance_of_a_single_order(study: Study) -> None:
+def test_the_energy_method_is_the_resonance_of_a_single_order(study: TorsionStudy) -> None:
     """At a resonance far from others both ways give one amplitude to some per cent."""
-    only = replace(study.asked, loss_factor=0.002, damping=0.0)
-    light = Study(study.case, only)
+    only = replace(study.inputs, loss_factor=0.002, damping=0.0)
+    light = TorsionStudy(study.case, only)
     speed = light.modes.omega[:1] / 6.0
     place = int(np.flatnonzero(light.orders == 6)[0])
     exact = np.abs(light.response(speed).angles[0, 0, place])

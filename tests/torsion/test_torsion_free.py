@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kshm.mechanics import torsion
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics.torsion import Train
 from tests.torsion.trains import MWM, MWM_FORM, MWM_HZ, TWO_DISCS, stiffness_matrix, trains
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from kshm.chain.solve import solve_batch
 from kshm.results.case import Case
-from kshm.results.torsion import Study
+from kshm.results.torsion import TorsionStudy
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -70,7 +70,7 @@ def scales(raw: dict) -> tuple[float, float, float]:
     """Gas factor of the solver at 1500 rpm, the diagram's largest pressure of the sheets, p_z."""
     model = load_mapping(raw, source="f").model
     engine, _ = engine_and_cycle(model)
-    study = Study(Case(engine, solve_batch([engine]), 0), engine.torsion)
+    study = TorsionStudy(Case(engine, solve_batch([engine]), 0), engine.torsion)
     gas, _ = study.at_speed(np.array([1500 * math.pi / 30]))
     run = Evaluation(build_model(model))
     return float(gas[0]), float(run.value("tor_diagram_MPa")), getattr(engine.gas, "p_max", 0) / 1e6

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 
 from kshm import Solution, solve
 from kshm.mechanics import torsion
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics.torsion import Train
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import engine_and_cycle

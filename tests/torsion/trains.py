@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from kshm.mechanics.torsional_train import Train
+from kshm.mechanics.torsion import Train
 
 # openTorsion's tests; the frequency 176.1 is printed, the further digits follow by hand.
 TWO_DISCS = Train(np.array([211.4, 8.3]), np.array([9.775e6]))

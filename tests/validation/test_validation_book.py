@@ -13,14 +13,13 @@ from click.testing import CliRunner
 from reports import cli
 from reports.document.page.render import render_pdf
 from reports.shared.resources import validation_dir
-from reports.validation import checks, write
-from reports.validation.book import WORDS, Book, Checked, validate
-from reports.validation.checks import Verdict, check_table
-from reports.validation.listing import HEAD, listing
-from reports.validation.markdown import markdown
-from reports.validation.page import validation_page
-from reports.validation.registry import TABLES, table
-from reports.validation.runs import solution
+from reports.studies import validation_checks
+from reports.studies import validation_page as page_module
+from reports.studies.validation_book import WORDS, Book, Checked, validate
+from reports.studies.validation_checks import Verdict, check_table
+from reports.studies.validation_lookups import solution
+from reports.studies.validation_page import HEAD, listing, markdown, validation_page
+from reports.studies.validation_registry import TABLES, table
 from tests import browser
 from tests.document.pdftools import pages_of
 
@@ -154,7 +153,7 @@ def test_the_command_writes_what_is_asked(tmp_path: Path) -> None:
 def test_everything_is_written_when_nothing_is_chosen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(write, "validate", small)
+    monkeypatch.setattr(page_module, "validate", small)
     done = run("-o", str(tmp_path / "new"))
     assert done.exit_code == 0
     found = {path.name for path in (tmp_path / "new").iterdir()}
@@ -164,9 +163,9 @@ def test_everything_is_written_when_nothing_is_chosen(
 def test_an_unrecorded_deviation_needs_a_person(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    kept = {key: known for key, known in checks.errata().items() if key[0] != "table_5"}
-    monkeypatch.setattr(checks, "errata", lambda: kept)
-    monkeypatch.setattr(write, "validate", small)
+    kept = {key: known for key, known in validation_checks.errata().items() if key[0] != "table_5"}
+    monkeypatch.setattr(validation_checks, "errata", lambda: kept)
+    monkeypatch.setattr(page_module, "validate", small)
     done = run("-o", str(tmp_path), "--only", "html")
     assert done.exit_code == 1
     assert "Новых отклонений: 1, первое: табл. 5, 60, lambda_1/3.2" in done.stderr
@@ -179,7 +178,7 @@ def test_without_pango_the_rest_is_written(tmp_path: Path, monkeypatch: pytest.M
     from reports.shared import doctor
 
     monkeypatch.setattr(doctor, "pango_loads", lambda: False)
-    monkeypatch.setattr(write, "validate", small)
+    monkeypatch.setattr(page_module, "validate", small)
     done = run("-o", str(tmp_path))
     assert done.exit_code == 3
     assert {path.name for path in tmp_path.iterdir()} == {"validation.csv", "validation.html"}

@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import pytest
 
-from reports.validation import checks
-from reports.validation.checks import Erratum, Table, Tolerance, Verdict, check_cell
-from reports.validation.printed import Cell, number
+from reports.studies import validation_checks
+from reports.studies.validation_checks import (
+    Erratum,
+    PrintedCell,
+    PrintTolerance,
+    Table,
+    Verdict,
+    check_cell,
+    number,
+)
 
 KNOWN = Erratum("1.5", Verdict.MISPRINT, "потеряна запятая")
 
 
-HALF = Tolerance()
+HALF = PrintTolerance()
 
 
-def table(tolerance: Tolerance = HALF) -> Table:
+def table(tolerance: PrintTolerance = HALF) -> Table:
     return Table("t", "gots", "табл.", "", "", lambda: lambda _row, _column: 0.0, tolerance)
 
 
 @pytest.fixture
 def known(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(checks, "errata", lambda: {("t", "1", "x"): KNOWN})
+    monkeypatch.setattr(validation_checks, "errata", lambda: {("t", "1", "x"): KNOWN})
 
 
 @pytest.mark.parametrize(
@@ -46,29 +53,31 @@ def test_slips_of_the_press_are_no_numbers(text: str) -> None:
 @pytest.mark.parametrize(
     ("tolerance", "ours", "agrees"),
     [
-        (Tolerance(), 1.234999, True), (Tolerance(), 1.235001, True), (Tolerance(), 1.23551, False),
-        (Tolerance(1.5), 1.2365, True), (Tolerance(1.5), 1.23651, False),
-        (Tolerance(absolute=1.0), 2.2349, True), (Tolerance(absolute=1.0), 2.2351, False),
-        (Tolerance({"x": 2.0, "": 0.5}), 1.2369, True), (Tolerance({"": 0.5}), 1.2369, False),
+        (PrintTolerance(), 1.234999, True), (PrintTolerance(), 1.235001, True),
+        (PrintTolerance(), 1.23551, False),
+        (PrintTolerance(1.5), 1.2365, True), (PrintTolerance(1.5), 1.23651, False),
+        (PrintTolerance(absolute=1.0), 2.2349, True), (PrintTolerance(absolute=1.0), 2.2351, False),
+        (PrintTolerance({"x": 2.0, "": 0.5}), 1.2369, True),
+        (PrintTolerance({"": 0.5}), 1.2369, False),
     ],
 )  # fmt: skip
 def test_tolerance_is_in_units_of_the_last_digit(
-    tolerance: Tolerance, ours: float, agrees: bool
+    tolerance: PrintTolerance, ours: float, agrees: bool
 ) -> None:
-    check = check_cell(table(tolerance), Cell("2", "x", "1.235"), ours)
+    check = check_cell(table(tolerance), PrintedCell("2", "x", "1.235"), ours)
     assert (check.verdict is Verdict.AGREES) == agrees
     assert check.deviation == pytest.approx(ours - 1.235)
 
 
 def test_tiny_numbers_are_not_forgiven_by_an_absolute_slack() -> None:
-    check = check_cell(table(Tolerance(1.0)), Cell("2", "x", "0.000000466"), 4.648e-7)
+    check = check_cell(table(PrintTolerance(1.0)), PrintedCell("2", "x", "0.000000466"), 4.648e-7)
     assert check.units == pytest.approx(1.2)
     assert check.verdict is Verdict.NEW
 
 
 def test_a_bound_is_kept_from_one_side() -> None:
-    assert check_cell(table(), Cell("2", "x", "≤10"), 3.0).verdict is Verdict.AGREES
-    assert check_cell(table(), Cell("2", "x", "≤10"), 15.6).deviation == pytest.approx(5.6)
+    assert check_cell(table(), PrintedCell("2", "x", "≤10"), 3.0).verdict is Verdict.AGREES
+    assert check_cell(table(), PrintedCell("2", "x", "≤10"), 15.6).deviation == pytest.approx(5.6)
 
 
 @pytest.mark.parametrize(
@@ -76,18 +85,18 @@ def test_a_bound_is_kept_from_one_side() -> None:
     [("–", "-", True), ("+", "-", False), ("", "", True), ("", 1.5, False), ("1.50", "", False)],
 )
 def test_signs_and_empty_places(text: str, ours: float | str, agrees: bool) -> None:
-    check = check_cell(table(), Cell("2", "x", text), ours)
+    check = check_cell(table(), PrintedCell("2", "x", text), ours)
     assert (check.verdict is Verdict.AGREES) == agrees
 
 
 @pytest.mark.usefixtures("known")
 def test_a_recorded_deviation_has_its_reason_and_a_stale_record_is_new() -> None:
-    deviating = check_cell(table(), Cell("1", "x", "15"), 1.5)
+    deviating = check_cell(table(), PrintedCell("1", "x", "15"), 1.5)
     assert deviating.verdict is Verdict.MISPRINT
     assert (deviating.reason, deviating.should_be) == ("потеряна запятая", "1.5")
-    stale = check_cell(table(), Cell("1", "x", "15"), 15.0)
+    stale = check_cell(table(), PrintedCell("1", "x", "15"), 15.0)
     assert stale.verdict is Verdict.NEW
     assert "число сходится" in stale.reason
-    unknown = check_cell(table(), Cell("1", "y", "15"), 1.5)
+    unknown = check_cell(table(), PrintedCell("1", "y", "15"), 1.5)
     assert unknown.verdict is Verdict.NEW
     assert "без записанной причины" in unknown.reason

@@ -10,7 +10,7 @@ import pytest
 
 from kshm import solve
 from reports.exports import live
-from reports.inputs.load import load_apart, load_mapping
+from reports.inputs.load import load_mapping, load_remote
 from reports.inputs.template import list_samples
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.errors import InputError
@@ -53,7 +53,7 @@ ENGINES = {name: engine.fresh({"sample": name})["raw"] for name in NAMES}
 @pytest.mark.parametrize("name", [*ENGINES, "articulated"])
 def test_the_drawn_rods_keep_their_lengths(name: str) -> None:
     raw = ENGINES.get(name) or articulated()
-    model = load_apart(raw).model
+    model = load_remote(raw).model
     built, solution = engine_and_cycle(model)[0], solve(*engine_and_cycle(model))
     for number in (0, built.cylinders - 1):
         moves = engine.answer(raw, "", number)["moves"]

@@ -12,7 +12,7 @@ from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.testclient import TestClient
 
-from reports.grading.issuing.ticket import SECRET, kept_secret
+from reports.grading.issuing.register import SECRET, kept_secret
 from reports.shared.errors import InputError
 from reports.web import doors
 from reports.web.app import STATIC, Settings, create_app

@@ -19,11 +19,10 @@ import psutil
 import pytest
 from starlette.testclient import TestClient
 
-from reports.commands.apart import _KSHM, run
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
-from reports.web.jobs import MOST_OWN, Jobs
+from reports.web.jobs import _KSHM, MOST_OWN, Jobs, run
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
 

@@ -12,7 +12,7 @@ from unittest import mock
 import lxml.html
 from lxml import etree
 
-from reports.document.page import writer
+from reports.document.page import numbering
 from reports.document.page.style import Style
 from reports.document.report import Report
 from reports.inputs.load import load_text
@@ -20,7 +20,7 @@ from reports.model.evaluation import evaluate_model
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from reports.word import pictures
-from reports.word.outline import picture
+from reports.word.pictures import picture
 from reports.word.write import from_page
 from tests.cover import ALL
 from tests.document.report_samples import BOX
@@ -63,7 +63,7 @@ def _page(name: str, **style: object) -> str:
     look = Style(tagged_tables=True, **style)
     with ExitStack() as stack:
         if not (ALL or name == NAME):
-            stack.enter_context(mock.patch.object(writer, "drawn", lambda plan: BOX))
+            stack.enter_context(mock.patch.object(numbering, "drawn", lambda plan: BOX))
         return Report(*model_of(name), style=look).page("print")
 
 

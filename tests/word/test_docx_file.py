@@ -18,10 +18,11 @@ from lxml import etree
 from reports.cli import main
 from reports.document.page.style import Style
 from reports.shared.resources import samples_dir, templates_dir
-from reports.word import pictures, tables
+from reports.word import pictures
+from reports.word.blocks import table_of
 from reports.word.inline import Lines
 from reports.word.markup import Bookmarks, bookmark_name
-from reports.word.outline import _glyph, outlined, picture
+from reports.word.pictures import _glyph, outlined, picture
 from reports.word.styles import looks
 from tests.word.docx_samples import NAME, W, department, docx_of, page_of, part, text_of
 
@@ -52,8 +53,8 @@ def test_counts_of_the_abstract_are_fields_and_pages_stand_in_the_contents():
     data = docx_of(NAME)
     fields, document = instructions(data), part(data)
     marks = {e.get(f"{W}name"): e.getparent() for e in document.iter(f"{W}bookmarkStart")}
-    (tables,) = [f for f in fields if f.startswith("= ")]
-    counting = ["last_ris0", "last_src0", *tables.removeprefix("= ").split(" + ")]
+    (counted,) = [f for f in fields if f.startswith("= ")]
+    counting = ["last_ris0", "last_src0", *counted.removeprefix("= ").split(" + ")]
     assert set(counting) <= set(marks) and len(counting) == 5
     assert {"REF last_ris0 \\h", "REF last_src0 \\h", "NUMPAGES"} <= set(fields)
     pages = []
@@ -203,7 +204,7 @@ def test_columns_are_as_wide_as_on_the_page():
         '<table><colgroup><col style="width:25%"/><col style="width:75%"/></colgroup>'
         "<tbody><tr><td>a</td><td>b</td></tr></tbody></table>"
     )
-    made = tables.table(Lines(Bookmarks()), source, 4000)
+    made = table_of(Lines(Bookmarks()), source, 4000)
     widths = [e.get(f"{W}w") for name in ("gridCol", "tcW") for e in made.iter(f"{W}{name}")]
     assert widths == ["1000", "3000"] * 2
 

@@ -12,8 +12,8 @@ import openpyxl
 import pytest
 from ezdxf import recover
 
-from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms
+from reports.document.text.texts import of_digits
 from reports.sheet.write import sheet_files
 from tests.cover import ALL, chapters, samples_with
 from tests.document.report_samples import shipped_pdf

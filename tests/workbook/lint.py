@@ -98,7 +98,10 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
     }
     for place, one in enumerate(series):
         where = one.findtext(f"{C}xVal/{C}numRef/{C}f", "")
-        round_too = chapter_of(where.rpartition("!")[0].strip("'")).smooth
+        try:
+            round_too = chapter_of(where.rpartition("!")[0].strip("'")).smooth
+        except LookupError:  # a sheet of a study
+            round_too = False
         if _val(one, "smooth") not in (("0", "1") if round_too else ("0",)):
             yield f"series {place} is smoothed"
         symbol = one.find(f"{C}marker/{C}symbol")

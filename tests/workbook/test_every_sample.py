@@ -16,7 +16,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import ScalarTable
 from reports.tables.registry import build_model
-from reports.workbook import motion, what_if
+from reports.workbook import cockpit, motion
 from reports.workbook.caches import sheet_parts
 from reports.workbook.layout import INPUT_SHEET
 from reports.workbook.read import load_workbook_input
@@ -57,7 +57,7 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
                 formula = cell.findtext(f"{MAIN}f")
                 where = (title, cell.get("r"), formula)
                 assert formula_problems(cell) == [], where
-                drawn_or_beside = title in (motion.SHEET, what_if.SHEET)  # shapes, percents
+                drawn_or_beside = title in (motion.SHEET, cockpit.SHEET)  # shapes, percents
                 allowed = limits(model) if title == INPUT_SHEET else known
                 assert drawn_or_beside or literals(formula) <= allowed, where
     path = tmp_path / "book.xlsx"

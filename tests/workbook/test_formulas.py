@@ -1,4 +1,4 @@
-"""Lint of the formulas: a subset on which Excel, LibreOffice and formualizer agree."""
+"""Formulas of the workbook: what they refer to, ROUND, functions of Fourier sums."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import io
 import re
 import zipfile
 
+import numpy as np
 import pytest
 from lxml import etree
 from openpyxl import load_workbook
@@ -13,12 +14,14 @@ from openpyxl import load_workbook
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.formula.parse import FormulaError, names, parse
+from reports.formula.tex import to_tex
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.model.shape import FIRING
 from reports.tables.registry import build_model
-from reports.workbook import what_if
+from reports.workbook import cockpit
 from reports.workbook.caches import sheet_parts
-from reports.workbook.layout import INPUT_SHEET, Layout
+from reports.workbook.layout import INPUT_SHEET, Layout, RowReferences, at_row
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.workbook.lint import LONGEST, MAIN, formula_problems, literals
@@ -102,7 +105,7 @@ def test_results_are_formulas_and_never_typed_numbers() -> None:
         for table in model().tables.values()
     }
     for sheet in opened.worksheets:
-        if sheet.title in (INPUT_SHEET, what_if.SHEET):  # there the numbers as issued
+        if sheet.title in (INPUT_SHEET, cockpit.SHEET):  # there the numbers as issued
             continue
         for row in sheet.iter_rows(min_row=6):
             for cell in row:
@@ -194,3 +197,65 @@ def test_a_stiffness_estimated_from_sizes_is_calculated_in_steps() -> None:
     ]
     assert len(cells) > 100
     assert max(map(len, cells)) <= LONGEST
+
+
+class _Names:
+    def name(self, key: str) -> str:
+        return key
+
+
+def test_halves_go_away_from_zero() -> None:
+    values = np.array([0.5, 1.5, 2.5, -0.5, -2.5, 87.58, -1.2])
+    rounded = evaluate("round(x)", lambda _: values)
+    assert rounded.tolist() == [1, 2, 3, -1, -3, 88, -1]
+
+
+def test_excel_and_tex() -> None:
+    assert compile_formula("2*round(x/2)", _Names()) == "=2*ROUND(x/2,0)"
+    assert to_tex("round(x)", lambda name: name) == r"\mathrm{окр}\left(x\right)"
+
+
+DEGREES = np.arange(0.0, 721.0, 10.0)
+NAMES = {"wave": 3 + 2 * np.cos(np.radians(DEGREES)) - 0.5 * np.sin(np.radians(2.5 * DEGREES)),
+         "phi_deg": DEGREES, "order": np.array([0.5, 1.0, 2.5])}  # fmt: skip
+
+
+def value(text: str) -> object:
+    return evaluate(text, NAMES.__getitem__)
+
+
+def test_coefficients_of_a_known_wave() -> None:
+    assert value("fourier_cos(wave, phi_deg, order)") == pytest.approx([0, 2, 0], abs=1e-14)
+    assert value("fourier_sin(wave, phi_deg, order)") == pytest.approx([0, 0, -0.5], abs=1e-14)
+    assert value("fourier_sin(wave, phi_deg, 2.5)") == pytest.approx(-0.5)
+
+
+def test_a_running_sum_takes_the_rows_down_to_its_own() -> None:
+    assert np.asarray(value("running_sum(phi_deg)"))[:4] == pytest.approx([0, 10, 30, 60])
+
+
+def test_formulas_leave_the_repeated_last_row_out() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula("fourier_cos(tangential.t_gas_MPa, tangential.phi_deg, 1.5)", references)
+    waves = "'Синусы и косинусы'!$D$6:$D$77"
+    assert text == f"=2*SUMPRODUCT($B$6:$B$77,{waves})/COUNT($B$6:$B$77)"
+    running = compile_formula("running_sum(tangential.t_gas_MPa)", references)
+    assert at_row(running, 9) == "=SUM($B$6:B9)"
+
+
+def test_each_row_sums_over_the_waves_of_its_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    sines = "fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)"
+    text = compile_formula(sines, references)
+    assert "'Синусы и косинусы'!$R$6:$R$77)" in at_row(text, 6)
+    assert "'Синусы и косинусы'!$AG$6:$AG$77)" in at_row(text, 21)
+
+
+def test_sums_over_cylinders_take_the_waves_of_each_order() -> None:
+    made = model()
+    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    text = compile_formula(f"wave_sin({FIRING}, order)", references)
+    first, second = at_row(text, 6), at_row(text, 7)
+    assert first.startswith("=SUM('Синусы и косинусы'!$B$") and first != second

@@ -14,18 +14,18 @@ from PIL import ImageFont
 
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
-from reports.inputs.own_engine import own_engine
-from reports.inputs.own_file import file_text
 from reports.model.blocks import Model, ScalarTable, TableSpec
+from reports.model.contents import contents_of
 from reports.model.evaluation import Values
+from reports.new.generate import file_text, generate_engine
 from reports.tables.registry import build_model
 from reports.workbook import styles
-from reports.workbook.chapters import CHAPTERS, chapter_of, diagrams_of, heading, ordered, place_of
+from reports.workbook.chapters import diagrams_of, heading, ordered, place_of
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, KEY_COLUMN, Layout
 from reports.workbook.motion import SHEET
-from reports.workbook.paper import set_widths
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
+from reports.workbook.print_setup import set_widths
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.cover import charts, quantities, samples_with
@@ -90,19 +90,18 @@ def test_the_lint_sees_a_misplaced_chart(boxes: list[Box], said: str) -> None:
 @pytest.mark.parametrize("name", sample_names())
 def test_every_sheet_has_its_chapter(name: str) -> None:
     sheets = coarse_model(name).sheets
-    assert [sheet for sheet in sheets if place_of(sheet)[0] == len(CHAPTERS)] == []
+    assert [sheet for sheet in sheets if place_of(sheet)[0] == len(contents_of().chapters)] == []
     headings = [heading(sheet) for sheet in sheets]
     assert len(set(headings)) == len(headings)
 
 
 def test_chapters_order_and_name_sheets() -> None:
-    given = ["Износ к.ш (2) р2", "П4.3 (10)", "Мой лист", "П4.3 (2)", "Массы", "Износ к.ш (1)"]
+    given = ["Износ к.ш (2) р2", "П4.3 (10)", "П4.3 (2)", "Массы", "Износ к.ш (1)"]
     assert ordered(given) == [
-        "Массы", "П4.3 (2)", "П4.3 (10)", "Износ к.ш (1)", "Мой лист", "Износ к.ш (2) р2",
+        "Массы", "П4.3 (2)", "П4.3 (10)", "Износ к.ш (1)", "Износ к.ш (2) р2",
     ]  # fmt: skip
     assert heading("Износ к.ш (2) р2") == "Износ коренной шейки 2, режим 2"
-    assert chapter_of("Мой лист").title == "Прочее"
-    titles = [diagrams_of(chapter) for chapter in CHAPTERS]
+    titles = [diagrams_of(chapter) for chapter in contents_of().chapters]
     assert all(len(title) <= 31 for title in titles)
     assert len(set(titles)) == len(titles)
     assert all(math.isclose(place_of(title)[1], -1) for title in titles)
@@ -180,11 +179,11 @@ def header_problems(text: str, width: int, height: int) -> list[str]:
         return _BOLD.getlength(words) * _PX > room
 
     lines = [""]
-    for word in text.split():
+    for word in text.split(" "):
         if long(f"{lines[-1]} {word}".strip()):
             lines.append("")
         lines[-1] = f"{lines[-1]} {word}".strip()
-    found = [f"«{word}» is broken" for word in text.split() if long(word)]
+    found = [f"«{word}» is broken" for word in text.split(" ") if long(word)]
     return [*found, f"{len(lines)} lines"] if len(lines) * _LINE > height else found
 
 
@@ -195,7 +194,7 @@ def test_headers_of_tables_are_whole(name: str) -> None:
 
 def test_headers_of_twelve_throws_are_whole() -> None:
     """«Mш.ш10 по» has no room in one line where «Mш.ш9 по» has."""
-    made = build_model(load_text(file_text(own_engine(12)), source="twelve").model)
+    made = build_model(load_text(file_text(generate_engine(12)), source="twelve").model)
     whole_headers(load_workbook(io.BytesIO(workbook_bytes(made))), made)
 
 

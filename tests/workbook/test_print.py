@@ -12,8 +12,8 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.workbook.layout import HEADER_ROW, NUMBER_ROW
-from reports.workbook.paper import PAPER
 from reports.workbook.places import column_px, extent, top_of
+from reports.workbook.print_setup import PAPER
 from reports.workbook.styles import SUBTITLE
 from tests.cover import charts, quantities, samples_with
 from tests.workbook.made import book, coarse_opened

@@ -7,8 +7,8 @@ import pytest
 
 from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
+from reports.workbook.cockpit import SHEET
 from reports.workbook.layout import HEADER_ROW, Layout
-from reports.workbook.what_if import SHEET
 from tests.referee.changes import Change, with_values
 from tests.workbook.made import coarse_book, coarse_model
 from tools.referees.cells import stripped

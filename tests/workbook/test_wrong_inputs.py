@@ -18,11 +18,10 @@ from reports.model.blocks import NO, YES
 from reports.shared.errors import InputError
 from reports.shared.russian import capital, uncapital
 from reports.tables.registry import build_model
+from reports.workbook.cockpit import SHEET
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import INPUT_SHEET, Layout
-from reports.workbook.pairs import conditions
-from reports.workbook.verdict import ODD
-from reports.workbook.what_if import SHEET
+from reports.workbook.verdict import ODD, conditions
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.cover import charts, quantities, samples_with

@@ -14,9 +14,8 @@ import click
 @click.option("--pictures", is_flag=True, help="Сделать заново рисунки (нужен LibreOffice).")
 def main(docs: Path, site: Path | None, pictures: bool) -> None:
     """Обновить страницы документации и проверить ссылки."""
-    from tools.manual.build import write_pages
-    from tools.manual.links import broken_links
-    from tools.manual.site import write_site
+    from tools.manual.pages import write_pages
+    from tools.manual.site import broken_links, write_site
 
     for path in write_pages(docs):
         click.echo(f"обновлено: {path}")

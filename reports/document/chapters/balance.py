@@ -10,16 +10,20 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.chain.firing_orders import intervals, rank_firing_orders
-from reports.document.chapters import facts
-from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.spec_tables import counted_table
-from reports.document.page.writer import TablePlan
-from reports.document.text.numbers import of_digits
+from kshm.nomenclature.digits import scientific
+from reports.document.chapters.chapter import Chapter, are_nothing
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    counted_table,
+    symbol_head,
+    table_block,
+)
+from reports.document.page.numbering import TablePlan
 from reports.document.text.terms import Terms
-from reports.document.text.texts import rich
+from reports.document.text.texts import of_digits, rich
 from reports.inputs.to_si.engine import to_engine
-from reports.shared.russian import MINUS, NBSP, fixed, joined, short
+from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
 _MOST_ORDERS = 8
 
@@ -65,12 +69,12 @@ def balance(chapter: Chapter) -> Markup:
         name: chapter.scalars(caption, keys, size="dense", keep=True)
         for name, (caption, keys) in _LISTS.items()
     }
-    asked = asked_devices(chapter)
-    after, busy = bool(asked - {"suppression"}), asked - _idle(terms)
+    devices = asked_devices(chapter)
+    after, busy = bool(devices - {"suppression"}), devices - _idle(terms)
     tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, busy),
         "orders": TablePlan(
-            partial(_orders, terms, banks=banks, left=bool(_SHAFTS.keys() & asked)),
+            partial(_orders, terms, banks=banks, left=bool(_SHAFTS.keys() & devices)),
             "Свободные силы и моменты инерции по порядкам", keep=True,
         ),
         "firing": TablePlan(partial(_firing, chapter), "Порядки работы, лучшие первыми", keep=True),
@@ -83,11 +87,11 @@ def balance(chapter: Chapter) -> Markup:
         banks=banks,
         moves=not _is_balanced(terms, "L"),
         pulls=not _is_balanced(terms, "F"),
-        counterweights="counterweight" in asked,
+        counterweights="counterweight" in devices,
         shafts=[
-            (terms.num(f"balance_{key}_share"), of) for key, of in _SHAFTS.items() if key in asked
+            (terms.num(f"balance_{key}_share"), of) for key, of in _SHAFTS.items() if key in devices
         ],
-        idle=[of for key, of in _SHAFTS.items() if key in asked and key not in busy],
+        idle=[of for key, of in _SHAFTS.items() if key in devices and key not in busy],
         shafts_second="second_shafts" in busy,
         devices=joined([word for key, word in _DEVICES.items() if key in busy] or [""]),
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
@@ -111,7 +115,7 @@ def concluded(chapter: Chapter) -> Markup:
         for order in (1.0, 2.0)
         if terms.num(name, order).strip(_ZERO)
     ]  # fmt: skip
-    found = (
+    forces = (
         Markup("{}{} дают {}").format(
             _MASSES,
             " до уравновешивания" if asked_devices(chapter) & _DEVICES.keys() else "",
@@ -123,7 +127,7 @@ def concluded(chapter: Chapter) -> Markup:
     needed = _is_flywheel_needed(terms)
     wheel = chapter.told("I_flywheel") if needed else "не нужен"
     return Markup("{}; маховик для неравномерности хода {}{} {}").format(
-        found, terms.val("balance_irregularity"), ":" if needed else "", wheel
+        forces, terms.val("balance_irregularity"), ":" if needed else "", wheel
     )
 
 
@@ -136,8 +140,8 @@ def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
                   if key in keys}  # fmt: skip
     rows = (
         tuple(
-            "—" if place in directions and not row[directions[place]].strip(_ZERO) else cell
-            for place, cell in enumerate(row)
+            "—" if number in directions and not row[directions[number]].strip(_ZERO) else cell
+            for number, cell in enumerate(row)
         )
         for row in block.rows
     )
@@ -161,7 +165,7 @@ def asked_devices(chapter: Chapter) -> set[str]:
 
 
 def _idle(terms: Terms) -> set[str]:
-    """Balance shafts whose order makes no force: what they would carry is not found here."""
+    """Balance shafts whose order has no force."""
     return {
         name
         for order, name in enumerate(_SHAFTS, 1)
@@ -178,11 +182,11 @@ def _is_balanced(
     force = terms.value("Pj_unit_kN")
     scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
     names = [f"balance.{letter}{side}{end}_{unit}" for side in sums for end in ends]
-    return facts.are_nothing(terms, [name for name in names if terms.has(name)], scale)
+    return are_nothing(terms, [name for name in names if terms.has(name)], scale)
 
 
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:
-    """Diagrams over a turn that show something: after balancing, or by orders without it."""
+    """Diagrams over a turn that are not zero: after balancing, or by orders without it."""
     if after:
         shown = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
         return [f"balance_{x}_after" for x in shown]
@@ -211,11 +215,11 @@ def _is_round(terms: Terms, first: str) -> bool:
     return terms.num(f"{first}_max") == terms.num(f"{first}_min")
 
 
-def _devices(chapter: Chapter, asked: set[str]) -> TablePlan | None:
+def _devices(chapter: Chapter, devices: set[str]) -> TablePlan | None:
     """Masses of the counterweights and of the shafts that are asked for."""
-    keys = ["counterweight_needed", "counterweight_web"] if "counterweight" in asked else []
+    keys = ["counterweight_needed", "counterweight_web"] if "counterweight" in devices else []
     for number, name in enumerate(("first_shafts", "second_shafts"), 1):
-        if name in asked:
+        if name in devices:
             keys += [f"shaft{number}{side}_{of}" for side in ("", "_back")
                      for of in ("moment", "mass")]  # fmt: skip
     if not keys:
@@ -242,11 +246,11 @@ def _fine_flywheel(chapter: Chapter) -> Markup | str:
 def _firing(chapter: Chapter) -> TableBlock:
     """The best firing orders with the greatest load of a main journal."""
     columns = [
-        Column("Порядок работы", 1.7),
-        Column("Промежутки, °", 3.2),
-        Column("Неравномерность чередования", 1.9),
-        Column(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
-        Column(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
+        TableColumn("Порядок работы", 1.7),
+        TableColumn("Промежутки, °", 3.2),
+        TableColumn("Неравномерность чередования", 1.9),
+        TableColumn(symbol_head(r"\Sigma_{0{,}5}", ""), 0.9),
+        TableColumn(symbol_head(r"R_{\mathrm{к.ш}\,\max}", "кН"), 1.4),
     ]
     load = chapter.terms.quantity("Rmain1_max_kN")
     rows = [
@@ -262,3 +266,60 @@ def _firing(chapter: Chapter) -> TableBlock:
         for ranked in rank_firing_orders(to_engine(chapter.input))[:_MOST_ORDERS]
     ]
     return table_block(columns, rows)
+
+
+# Definitions that no single formula of the sheets states.
+_COMPANION_FORMULAS = {
+    "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
+    "series": r"\bar s = 1 + k_s - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
+    r" - p_6\cos 6\varphi + p_8\cos 8\varphi",
+    "exact": r"\bar j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
+    r" + \lambda\dfrac{\cos^2\varphi}{\cos^3\beta}",
+}
+_COMPANION_LISTS = {
+    "second": (
+        "Второй порядок крутящего момента",
+        ("d_j", "t_gas2", "gamma_gas2_deg", "t_inertia2", "t_j2", "t_gas2_idle",
+         "n_zone1", "n_zone2", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts"),
+    ),
+    "segal": (
+        "Погрешности приближений и крайние ускорения",
+        ("ds_max", "alpha_ds_deg", "dv_max", "alpha_dv_deg", "dj_max", "alpha_dj_deg", "j_rel_tdc",
+         "j_rel_bdc", "j_exact_min", "alpha_j_exact_min_deg", "j_two_term_min",
+         "alpha_j_two_term_min_deg"),
+    ),
+    "neiman": (
+        "Коэффициенты ряда перемещения",
+        ("neiman_k", *(f"neiman_p{n}" for n in (2, 4, 6, 8))),
+    ),
+}  # fmt: skip
+_TORQUE = ["order", "gas_amplitude_MPa", "gas_phase_deg", "inertia_amplitude_MPa",
+           "inertia_phase_deg", "cylinders_sum", "M_engine_order_Nm"]  # fmt: skip
+
+
+def companions(chapter: Chapter) -> Markup:
+    """Torque orders, exact motion and its series."""
+    terms = chapter.terms
+    if "balance_orders" not in terms.model.tables:  # no series: an offset or articulated rods
+        return Markup("")
+    tables: dict[str, TablePlan | None] = {
+        name: chapter.scalars(caption, keys, size="dense", keep=True)
+        for name, (caption, keys) in _COMPANION_LISTS.items()
+    }
+    tables |= {
+        "torque": TablePlan(
+            partial(counted_table, terms, "torque_orders", _TORQUE),
+            "Гармоники удельной тангенциальной силы и момента двигателя", keep=True,
+        ),
+        "inverse": chapter.columns(
+            "segal_inverse", caption="Угол поворота кривошипа по положению поршня"
+        ),
+    }  # fmt: skip
+    suppressed = terms.has("zone") and "suppression" in asked_devices(chapter)
+    return chapter.page(
+        "companions",
+        formulas=_COMPANION_FORMULAS,
+        tables=tables,
+        zone=round(terms.value("zone")) if suppressed else 0,
+        series_error=written(terms.value("j_series_error"), scientific(1)),
+    )

@@ -1,4 +1,4 @@
-"""What every chapter is given: writer, terms and the words for formulas, tables and figures."""
+"""Chapter tools: writer, terms, words for formulas, tables and figures; choice of chapters."""
 
 from __future__ import annotations
 
@@ -7,24 +7,106 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
 
+import numpy as np
 from markupsafe import Markup
 
+from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
-from reports.document.page.numbering import Kind
-from reports.document.page.spec_tables import angle_table, scalar_table
+from reports.document.page.numbering import Kind, TablePlan, Writer
 from reports.document.page.style import Style
-from reports.document.page.writer import TablePlan, Writer
-from reports.document.text.numbers import of_digits
 from reports.document.text.terms import Terms, with_unit
-from reports.inputs.checks.grid import GridError
+from reports.document.text.texts import of_digits
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
+from reports.inputs.solve_input import GridError
 from reports.model.blocks import Grid, Model
-from reports.model.shape import Shape
+from reports.model.shape import Shape, pin_name
 from reports.shared.russian import NBSP, fixed, joined, runs
+from reports.tables.cycle_names import section_of
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+_ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
+_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
+_COURSE = _SHORT | {"running", "torsion", "oil", "regimes", "checks", "appendices"}
+_FULL = _COURSE | {"balance", "bearings", "reference", "companions"}
+_PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
+
+
+def chosen(model: InputFile) -> set[str]:
+    """Names of the report's chapters: its profile or the person's own list."""
+    report = model.report
+    wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
+    # Who fills in the section wants to read of it; the short report ends before.
+    has_balance = report.chapters is None and report.detail == "course" and model.balance.asked
+    # Both were one chapter: files that name it get what they got.
+    if has_balance or "companions" in wanted:
+        wanted = wanted | {"balance"}
+    return wanted | _ALWAYS
+
+
+def relevant_chapters(model: InputFile) -> set[str]:
+    """Chosen chapters that apply to the engine."""
+    lacking = {"torsion"} if model.torsion is None else set()
+    lacking |= {"oil"} if model.bearings is None else set()
+    lacking |= {"cycle"} if section_of(model) is None else set()
+    shape = Shape.of(model)
+    lacking |= {"balance", "companions"} if shape.offset or shape.articulated else set()
+    return chosen(model) - lacking
+
+
+_PRESSURE = 2  # decimals of the greatest pressure in a sentence
+_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+
+
+def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
+    """Numbers, from 1, of the scalars that are printed as large as the largest."""
+    values = [terms.value(name) for name in names]
+    most = terms.num(names[int(np.argmax(values))])
+    return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
+
+
+def pin_stems(shape: Shape) -> list[str]:
+    """Stems of the keys of the crankpins, from the nose: ``pin``, ``pin2``."""
+    return [f"pin{pin_name(number)}" for number in range(1, len(shape.pins) + 1)]
+
+
+def worst_pin(terms: Terms) -> int:
+    """Number of the most loaded crankpin by the workbook."""
+    return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
+
+
+def greatest_pressure(terms: Terms) -> tuple[Markup, str, Markup | str]:
+    """Greatest tabulated pressure, its angle, the greatest between rows where it is higher."""
+    column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
+    row = int(column.argmax())
+    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
+    most = terms.value(names[0]) if names else 0.0
+    in_table, peak = (fixed(float(value), _PRESSURE) for value in (column[row], most))
+    missed = most > column[row] + 0.5 * 10.0**-_PRESSURE
+    angle = fixed(terms.model.tables["gas"].rows[row], 0)
+    return with_unit(in_table, unit), angle, with_unit(peak, unit) if missed else ""
+
+
+def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
+    """Main journals and crankpins with the greatest range of the running-on torque."""
+    mains = leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])  # journal 1 has none
+    return [k + 1 for k in mains], leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)])
+
+
+def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
+    """Whether columns over a cycle hold the same values, at whatever angles."""
+    # The last row repeats the first.
+    first, *others = (np.sort(terms.column(name)[:-1]) for name in columns)
+    scale = float(np.abs(first).max())
+    return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
+
+
+def are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
+    """Whether columns are zero compared with a scale in their unit."""
+    return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)
+
 
 BOOK = "gots"
 ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
@@ -162,18 +244,18 @@ class Chapter:
 
     def _linked(self, kind: Kind, names: Iterable[str]) -> Markup:
         links = [self.writer.n.refer(kind, name) for name in names]
-        place = f" {ELSEWHERE}"  # said once for all of them
-        if all(link.endswith(place) for link in links):
-            links = [link.removesuffix(place) for link in links]
+        elsewhere = f" {ELSEWHERE}"  # said once for all of them
+        if all(link.endswith(elsewhere) for link in links):
+            links = [link.removesuffix(elsewhere) for link in links]
         else:
-            place = ""
+            elsewhere = ""
         stretches = []
         for first, last in runs([str(link.striptags()) for link in links]):
             if last - first > 1:
                 stretches.append(links[first] + "–" + links[last])
             else:
                 stretches += links[first : last + 1]
-        return Markup(joined(stretches) + place)
+        return Markup(joined(stretches) + elsewhere)
 
     def told(self, name: str, *, symbol: bool = False, angle: bool = False) -> Markup:
         """A scalar with its unit and, where the grid is too coarse for it, with the fine value.

@@ -8,18 +8,25 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import balance, facts, oil, regimes, torsion
-from reports.document.chapters.chapter import BOOK, Chapter
+from reports.document.chapters import balance, oil, regimes, torsion
+from reports.document.chapters.chapter import (
+    BOOK,
+    Chapter,
+    chosen,
+    greatest_pressure,
+    leaders,
+    pin_stems,
+    relevant_chapters,
+    worst_pin,
+    worst_running,
+)
 from reports.document.chapters.journals import least_ray
-from reports.document.chapters.profiles import chosen, told
-from reports.document.page.blocks import Column, TableBlock, table_block
-from reports.document.page.spec_tables import angle_table
-from reports.document.page.writer import TablePlan
-from reports.document.text.numbers import of_digits
+from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
+from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
 from reports.document.text.terms import Terms
-from reports.inputs.checks.flywheel import flywheel_remark
-from reports.inputs.checks.grid import remark_on
+from reports.document.text.texts import of_digits
+from reports.inputs.solve_input import flywheel_remark, remark_on
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
 from reports.shared.russian import NBSP, capital, fixed
@@ -92,16 +99,16 @@ def checks(chapter: Chapter) -> Markup:
 
 
 def _remarks(chapter: Chapter) -> list[Markup]:
-    """Remarks on the input that no chapter tells itself."""
-    told = [remark_on(chapter.terms.grid_errors, chapter.input)]
+    """Remarks on the input outside of all chapters."""
+    remarks = [remark_on(chapter.terms.grid_errors, chapter.input)]
     if "torsion" in chosen(chapter.input):
-        told.append(flywheel_remark(chapter.input))
+        remarks.append(flywheel_remark(chapter.input))
     if "torque" in chosen(chapter.input):
-        told.append(reasons_of(chapter.input).get("power", ""))
+        remarks.append(reasons_of(chapter.input).get("power", ""))
     return [
         remark_html(line)
         for line in chapter.terms.model.remarks
-        if not any(part and line.endswith(part) for part in told)
+        if not any(part and line.endswith(part) for part in remarks)
     ]
 
 
@@ -109,14 +116,14 @@ def _grid_table(chapter: Chapter) -> TableBlock:
     """Results on the grid of the tables beside those of the fine step."""
     step = fixed(chapter.input.calculation.step_deg, 0)
     heads = (f"Шаг {step}°", "Шаг 1°", "Разность, %")
-    columns = [Column("Величина", 5, text=True), *(Column(head, 1.5) for head in heads)]
+    columns = [TableColumn("Величина", 5, text=True), *(TableColumn(head, 1.5) for head in heads)]
     rows = []
     for error in chapter.terms.grid_errors:
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]
-        apart = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
-        rows.append([capital(error.title) + unit, *shown, apart])
+        difference = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
+        rows.append([capital(error.title) + unit, *shown, difference])
     return table_block(columns, rows)
 
 
@@ -139,7 +146,11 @@ def failed(terms: Terms) -> list[tuple[Markup, str]]:
 
 
 def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
-    columns = (Column("Проверка", 6, text=True), Column("Значение", 1.5), Column("Выполнено", 1.5))
+    columns = (
+        TableColumn("Проверка", 6, text=True),
+        TableColumn("Значение", 1.5),
+        TableColumn("Выполнено", 1.5),
+    )
     rows = [
         [
             titled_html(terms.model.scalars[f"check_{key}"].note),
@@ -154,21 +165,21 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
 def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
     terms, throws = chapter.terms, chapter.shape.throws
-    names, pin = facts.pin_stems(chapter.shape), facts.worst_pin(terms)
-    mains, pins = facts.worst_running(terms, throws)
+    names, pin = pin_stems(chapter.shape), worst_pin(terms)
+    mains, pins = worst_running(terms, throws)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
         failed=failed(terms),
         verdict=verdict(terms),
         load=chapter.worst("worst_main_load"),
-        loads=facts.leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
-        names=told(chapter.input) & _CONCLUDED,
+        loads=leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
+        names=relevant_chapters(chapter.input) & _CONCLUDED,
         mains=mains,
         pins=pins,
         pins_count=len(names),
-        worst_pins=facts.leaders(terms, [f"R{name}_max" for name in names]),
-        pressed=facts.leaders(terms, [f"q_{name}_max" for name in names]),
+        worst_pins=leaders(terms, [f"R{name}_max" for name in names]),
+        pressed=leaders(terms, [f"q_{name}_max" for name in names]),
         names_of_pins=names,
         pin_number=pin,
         pin=names[pin - 1],
@@ -177,7 +188,7 @@ def conclusion(chapter: Chapter) -> Markup:
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        pz=facts.greatest_pressure(terms),
+        pz=greatest_pressure(terms),
     )
 
 
@@ -224,7 +235,7 @@ def appendices(chapter: Chapter) -> Markup:
         *((key, None, "") for key in _loads(shape)),
         *((f"P4_3_{k}", reactions, "") for k in range(1, shape.throws + 2)),
         *((key, _moments(terms, key), wide) for key in ("P4_4", "P4_5", "P4_5s")),
-        (rays_table(facts.worst_pin(terms)), None, "dense"),
+        (rays_table(worst_pin(terms)), None, "dense"),
     ]
     return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),
                         forces=_plans(chapter, "Б", forces))  # fmt: skip
@@ -250,7 +261,7 @@ def _plans(
 ) -> list[tuple[str, TablePlan]]:
     """Tables of an appendix, numbered within it; the textbook's number stands in the title."""
     plans = []
-    for place, (key, columns, size) in enumerate(tables, 1):
+    for number, (key, columns, size) in enumerate(tables, 1):
         spec = chapter.model.tables[key]
         build = partial(
             angle_table,
@@ -263,6 +274,6 @@ def _plans(
         own = _TEXTBOOKS.fullmatch(spec.number)
         title = f"{spec.title} ({spec.number})" if own else spec.title
         usual = "" if chapter.whole else "dense"
-        plan = TablePlan(build, title, number=f"{letter}.{place}", size=size or usual)
+        plan = TablePlan(build, title, number=f"{letter}.{number}", size=size or usual)
         plans.append((key, plan))
     return plans

@@ -8,12 +8,18 @@ from functools import partial
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.spec_tables import list_block, unit_cell
-from reports.document.page.writer import TablePlan
-from reports.document.text import numbers
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    list_block,
+    symbol_head,
+    table_block,
+    unit_cell,
+)
+from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
+from reports.document.text.texts import of_digits
 from reports.model.blocks import ScalarTable
 from reports.shared.russian import MINUS, capital, fixed
 from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
@@ -115,25 +121,23 @@ def _coefficients(terms: Terms) -> TableBlock:
 def _passes(chapter: Chapter, name: str) -> TableBlock:
     """A grid of passes turned: one row a pass."""
     grid, terms = chapter.grid(name), chapter.terms
-    columns = [Column("Проход")]
+    columns = [TableColumn("Проход")]
     cells: list[list[str]] = [[str(i + 1) for i in range(len(grid.labels))]]
     for row in grid.rows:
         q = row.quantity
         tex = q.tex.replace("n -", f"n_{name[-1]} -")  # of n₁ or n₂
-        columns.append(Column(symbol_head(tex, q.unit_label)))
+        columns.append(TableColumn(symbol_head(tex, q.unit_label)))
         digits = replace(q.digits, decimals=min(q.digits.decimals, _MOST_DECIMALS))
-        cells.append(
-            [numbers.of_digits(terms.value(c.key), digits) for c in row.cells if c is not None]
-        )
+        cells.append([of_digits(terms.value(c.key), digits) for c in row.cells if c is not None])
     return table_block(columns, list(zip(*cells, strict=True)))
 
 
 def _balance(terms: Terms) -> TableBlock:
     columns = [
-        Column("Составляющая", 5.0, text=True),
-        Column("Обозначение", 1.5),
-        Column("кВт", 1.3),
-        Column("%", 1.2),
+        TableColumn("Составляющая", 5.0, text=True),
+        TableColumn("Обозначение", 1.5),
+        TableColumn("кВт", 1.3),
+        TableColumn("%", 1.2),
     ]
     parts = {f"bal_{name}": terms.num(f"bal_{name}_share") for name in _BALANCE}
     parts["bal_total"] = "100,0"
@@ -165,14 +169,14 @@ def _outside(terms: Terms) -> list[Markup]:
 
 def _ranges(terms: Terms) -> TableBlock:
     columns = [
-        Column("Величина", 4.6, text=True),
-        Column("Значение", 1.3),
-        Column("Обычно", 1.5),
-        Column("Вывод", 1.6),
+        TableColumn("Величина", 4.6, text=True),
+        TableColumn("Значение", 1.3),
+        TableColumn("Обычно", 1.5),
+        TableColumn("Вывод", 1.6),
     ]
     sourced = _are_sourced(terms)
     if sourced:
-        columns.append(Column("Откуда предел", 2.8, text=True))
+        columns.append(TableColumn("Откуда предел", 2.8, text=True))
     rows = []
     for key in _range_keys(terms):
         scalar = terms.model.scalars[f"range_value_{key}"]
@@ -180,10 +184,10 @@ def _ranges(terms: Terms) -> TableBlock:
         value = terms.value(f"range_value_{key}")
         shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
-        place = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
+        source = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
         low, _, high = usual.partition("…")
         limits = (low if low == high else usual).replace("-", MINUS)
-        rows.append([titled_html(title), shown, limits, verdict, *place])
+        rows.append([titled_html(title), shown, limits, verdict, *source])
     return table_block(columns, rows)
 
 

@@ -1,28 +1,106 @@
-"""Chapter on dynamics: masses, gas pressure, forces (figures 46-48 of the textbook)."""
+"""Chapters on kinematics, dynamics and torque (figures 41-49, 56, 57), reference tables."""
 
 from __future__ import annotations
 
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from markupsafe import Markup
 
-from reports.document.chapters import facts
-from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.layout import rods_text
-from reports.document.page.blocks import Column, TableBlock, table_block
+from reports.document.chapters.chapter import Chapter, greatest_pressure, worst_running
+from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
+from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.charts import Row
-from reports.document.page.writer import TablePlan
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms
-from reports.document.text.texcases import cases
-from reports.document.text.texts import rich
-from reports.inputs.checks.indicated import indicated_of
+from reports.document.text.tex import cases
+from reports.document.text.texts import of_digits, rich
+from reports.inputs.checks.gas import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.geometry import sizes_of
-from reports.model.blocks import NO, Grid, ScalarTable
+from reports.inputs.to_si.masses import sizes_of
+from reports.model.blocks import NO, YES, Grid, ScalarTable
 from reports.model.context import diagram_kind
-from reports.shared.russian import fixed
+from reports.model.shape import rods_table
+from reports.shared.russian import NBSP, fixed, short
+from reports.tables.verdicts import reasons_of
+
+EXAMPLE = 30.0  # crank angle of the worked lines [deg]; every grid has it
+
+
+def kinematics(chapter: Chapter) -> Markup:
+    """Kinematics of piston and rod, and of articulated rods where there are some."""
+    terms, offset = chapter.terms, chapter.shape.offset
+    lam = min(max(terms.value("lam"), 0.1), 0.6)
+    k = min(max(terms.value("k_offset"), -0.6), 0.6) if offset else 0.0
+    word = "дезаксиального" if offset else "центрального"
+    sketch = Figure(
+        partial(mechanism_sketch, lam, k=k),
+        f"Схема {word} кривошипно-шатунного механизма: а{NBSP}— размеры и углы; б{NBSP}— силы",
+    )
+    half = terms.value("P3_1.s_mm", 90.0) / (1000 * terms.value("S_stroke"))
+    template = "offset" if offset else "kinematics"
+    page = chapter.page(template, sketch=sketch, at=EXAMPLE, half=fixed(half, 3))
+    return page + (chapter.page("articulated") if chapter.shape.articulated else "")
+
+
+_ERRORS = tuple(
+    key
+    for name in ("s", "v", "j", "Pj", "N", "T", "M")
+    for key in (f"e{name}_max", f"phi_e{name}_deg", f"e{name}_rel")
+)
+
+
+def reference(chapter: Chapter) -> Markup:
+    """Errors of the approximation, figure 20 and, where asked for, tables 1-8."""
+    terms, section = chapter.terms, chapter.input.reference
+    sketch = velocity = None
+    tables: list[tuple[str, TablePlan]] = []
+    if section is not None:
+        lam, angle = terms.value("lam"), section.angle_deg
+        velocity = Figure(
+            partial(velocity_sketch, lam, angle), "Графическое определение скорости поршня"
+        )
+        if 0.1 <= lam <= 0.6 and 10 <= angle <= 80:
+            sketch = Figure(partial(mechanism_sketch, lam, angle), "Движение шатуна: схема и силы")
+        for name, table in chapter.model.tables.items():
+            if table.columns[-1].key.startswith("ref_lambda"):
+                build = partial(_table, terms, name, len(section.lambdas))
+                tables.append((name, TablePlan(build, table.title, size="dense")))
+    return chapter.page(
+        "reference",
+        errors=chapter.scalars("Наибольшие погрешности", _ERRORS, size="dense"),
+        asked=section is not None,
+        sketch=sketch,
+        velocity=velocity,
+        tables=tables,
+        left_out=_left_out(chapter),
+    )
+
+
+def _left_out(chapter: Chapter) -> str:
+    """λk: what the offset's force is of the first order, beside the vectors; nothing without."""
+    value = chapter.terms.value
+    return fixed(abs(value("lam") * value("k_offset")), 3) if chapter.shape.offset else ""
+
+
+def _table(terms: Terms, table: str, count: int) -> TableBlock:
+    numbers = range(1, count + 1)
+    rows = [
+        [
+            fixed(angle, 0),
+            *(fixed(terms.value(f"{table}.ref_lambda{n}", angle), 3) for n in numbers),
+        ]
+        for angle in terms.model.tables[table].rows
+    ]
+    heads = (short(terms.value(f"reference_lambda_{n}_value"), 4) for n in numbers)
+    columns = [
+        TableColumn(symbol_head(r"\varphi", "°")),
+        *(TableColumn(f"λ = {head}") for head in heads),
+    ]
+    return table_block(columns, rows)
+
 
 _POINTS = (
     "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
@@ -36,7 +114,7 @@ def dynamics(chapter: Chapter) -> Markup:
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     return chapter.page(
         "dynamics",
-        peak=facts.greatest_pressure(terms)[2],
+        peak=greatest_pressure(terms)[2],
         corners=_corners(terms, two_stroke=chapter.shape.strokes == 2),
         points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS, keep=True),
         polytropic=polytropic,
@@ -95,10 +173,11 @@ def _indicated(model: InputFile) -> dict[str, str]:
     """Figures of a diagram by points as they are printed; nothing of another one."""
     if not isinstance(model.gas, TableGasSection):
         return {}
-    found = indicated_of(model, model.gas, sizes_of(model))
+    indicated = indicated_of(model, model.gas, sizes_of(model))
     printed = {
-        "peak": (found.peak, 3), "peak_at": (found.peak_at, 1), "intake": (found.intake, 3),
-        "compression": (found.compression, 2), "expansion": (found.expansion, 2),
+        "peak": (indicated.peak, 3), "peak_at": (indicated.peak_at, 1),
+        "intake": (indicated.intake, 3),
+        "compression": (indicated.compression, 2), "expansion": (indicated.expansion, 2),
     }  # fmt: skip
     return {
         key: "" if value is None else fixed(value, digits)
@@ -124,7 +203,7 @@ def _nodes(terms: Terms) -> TableBlock:
         for n, name in enumerate(nodes.labels, 1)
     ]  # fmt: skip
     heads = ("φ, °", "p, МПа", "Наклон, МПа/°")
-    return table_block([Column("Точка", text=True), *map(Column, heads)], rows)
+    return table_block([TableColumn("Точка", text=True), *map(TableColumn, heads)], rows)
 
 
 _PRESSURE = "gas.p_MPa"
@@ -174,3 +253,116 @@ def _corners(terms: Terms, *, two_stroke: bool) -> list[Row]:
         before = np.asarray(terms.model.tables["gas"].rows) <= terms.value("phi_open_deg") + 1e-9
         corners.append(("$b$", int(np.flatnonzero(before)[-1])))
     return corners
+
+
+def rods_text(chapter: Chapter) -> Markup:
+    """Sums of the forces of two rods on a throw; nothing where throws carry one."""
+    shape = chapter.shape
+    if shape.single_rods:
+        return Markup("")
+    tables = [rods_table(k) for k in range(1, shape.throws + 1)]
+    hung = f"cylinder_{shape.cylinders}" if shape.articulated else ""
+    return chapter.page("rods", rods=rods_table(1), group=shape.groups[0], hung=hung, tables=tables)
+
+
+_MOST_PANELS = 2
+
+
+def torque(chapter: Chapter) -> Markup:
+    """Total torque, its mean and extremes, the check against the indicated power."""
+    terms = chapter.terms
+    mean = terms.value("M_mean")
+    return chapter.page(
+        "torque",
+        cylinders=chapter.input.engine.cylinders,
+        intervals=_intervals(chapter),
+        has_power=terms.has("T_ref"),
+        agrees=terms.values.scalars.get("check_power") == YES,
+        accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
+        powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
+        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.terms.grid_errors),
+        swing=of_digits(
+            terms.value("M_max") - terms.value("M_min"), terms.quantity("M_max").digits
+        ),
+        ratio=fixed(terms.value("M_max") / mean, 2) if mean > 0 else "",
+    )
+
+
+def _powers(chapter: Chapter) -> TablePlan:
+    """From the pressure of the diagram that is not rounded to the effective one, Gots 2.8."""
+    terms, step = chapter.terms, fixed(chapter.input.calculation.step_deg, 0)
+    steps = (
+        ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", ""),
+        ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas"),
+        (f"Динамический расчёт по той же диаграмме с шагом {step}°", "p_i_calc", "N_i_calc"),
+        ("Индикаторные показатели с коэффициентом полноты", "cyc_p_i", "cyc_N_i"),
+        ("Эффективные показатели", "cyc_p_e", "cyc_N_e"),
+    )
+    columns = [TableColumn("Ступень", 4.2, text=True), TableColumn("Среднее давление, МПа", 2.0),
+               TableColumn("Мощность, кВт", 1.8)]  # fmt: skip
+
+    def cell(name: str) -> str:
+        return f"{terms.sym(name)} = {terms.num(name)}" if name else "—"
+
+    build = partial(
+        table_block, columns, [[title, Markup(cell(p)), Markup(cell(n))] for title, p, n in steps]
+    )
+    return TablePlan(build, "Мощности расчёта цикла и динамического расчёта", keep=True)
+
+
+def _intervals(chapter: Chapter) -> list[str]:
+    """The different intervals between the beginnings of the power strokes [deg]."""
+    starts = list(chapter.strokes_at)
+    gaps = [b - a for a, b in pairwise([*starts, starts[0] + chapter.shape.period])]
+    return [f"{short(gap)}°" for gap in sorted({round(gap, 2) for gap in gaps})]
+
+
+def running(chapter: Chapter) -> Markup:
+    """Running-on torques on main journals and crankpins, ranges, the most loaded ones."""
+    terms, count = chapter.terms, chapter.shape.throws
+    main = [f"fig56_{k}" for k in range(2, count + 2)]
+    pins = [f"fig57_{i}" for i in range(1, count + 1)]
+    gap = max(
+        float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
+        for i in range(1, count + 1)
+    )
+    mains, worst = worst_running(terms, count)
+    if not chapter.whole:
+        main, pins = [f"fig56_{mains[0]}"], [f"fig57_{worst[0]}"]
+    digits = terms.quantity("dM_pin1").digits  # as in the table of the ranges
+    return chapter.page(
+        "running",
+        shown=[*_figures(main), *_figures(pins)],
+        some=not chapter.whole and count > 1,
+        ranges=TablePlan(partial(_ranges, terms, count), "Размах набегающих моментов", keep=True),
+        last=count + 1,
+        count=count,
+        gap=of_digits(gap, digits) if gap > 0.5 * 10**-digits.decimals else "",
+        beside=not (chapter.shape.single_rods or chapter.shape.articulated),
+        mains=mains,
+        pins=worst,
+    )
+
+
+def _figures(charts: list[str]) -> list[list[str]]:
+    """Charts in as few figures as will do, as many in each."""
+    count = -(-len(charts) // _MOST_PANELS)
+    size = -(-len(charts) // count)
+    return [charts[start : start + size] for start in range(0, len(charts), size)]
+
+
+def _ranges(terms: Terms, count: int) -> TableBlock:
+    heads = (r"M_{\max}", r"M_{\min}", r"\Delta M")
+    columns = [
+        TableColumn("Шейка", 2.4, text=True),
+        *(TableColumn(symbol_head(h, "Н·м")) for h in heads),
+    ]
+    names = [(f"коренная {k}", f"P4_4.Mmain{k}_Nm", f"dM_main{k}") for k in range(2, count + 2)]
+    names += [(f"шатунная {i}", f"P4_5.Mpin{i}_Nm", f"dM_pin{i}") for i in range(1, count + 1)]
+    rows = []
+    for title, column, key in names:
+        values = terms.column(column)
+        numbers = (float(values.max()), float(values.min()), terms.value(key))
+        digits = terms.quantity(key).digits  # as in the text below the table
+        rows.append([title, *(of_digits(number, digits) for number in numbers)])
+    return table_block(columns, rows)

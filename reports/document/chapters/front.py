@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.profiles import told
+from reports.document.chapters.chapter import Chapter, relevant_chapters
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -86,7 +85,7 @@ def assignment(chapter: Chapter) -> Words:
 def abstract(chapter: Chapter) -> Words:
     """Counts of what the report holds, and key words."""
     n = chapter.writer.n
-    names = {"", *told(chapter.input)}
+    names = {"", *relevant_chapters(chapter.input)}
     words = [word for name, word in _KEYWORDS if name in names]
     return {
         "figures": n.count("figure"),
@@ -101,7 +100,7 @@ def abstract(chapter: Chapter) -> Words:
 
 
 def _aim(names: set[str]) -> str:
-    """What the work is to find; the whole mechanism where its chapters name nothing."""
+    """Aim of the work from its chapters; by default the whole mechanism."""
     found = [words for chapters, words in _AIMS if chapters & names]
     aims = (found or [words for _, words in _AIMS[1:4]])[:_MOST_AIMS]
     if " и " in aims[-1]:
@@ -111,7 +110,7 @@ def _aim(names: set[str]) -> str:
 
 
 def _further(names: set[str]) -> str:
-    """What the workbook invites to and the report has not done itself."""
+    """Further work that the workbook offers."""
     left = [word for name, word in _FURTHER if name not in names]
     return f"проверить {joined(left)}" if left else ""
 
@@ -131,7 +130,7 @@ _CELLS = {
 
 
 def crowded(model: InputFile, frame: str | None = None) -> list[str]:
-    """What the title block cannot show whole even in the smallest type, told in lines."""
+    """Remarks on texts too long for the title block."""
     block = title_block(model, frame)
     return [
         f"рамка листа: «{', '.join(_CELLS[cell][0])}» не помещается в графу; сократите"

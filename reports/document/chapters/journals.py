@@ -10,12 +10,16 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import roman
-from reports.document.chapters import facts
-from reports.document.chapters.chapter import Chapter
-from reports.document.figures.shaft import crank_scheme
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.spec_tables import grid_table
-from reports.document.page.writer import Figure, TablePlan
+from reports.document.chapters.chapter import Chapter, are_alike, leaders, pin_stems, worst_pin
+from reports.document.figures.schemes import crank_scheme
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    grid_table,
+    symbol_head,
+    table_block,
+)
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms
 from reports.model.shape import pin_figure, pin_table, rays_table
 from reports.shared.russian import capital, fixed, joined
@@ -44,7 +48,7 @@ def crankpin(chapter: Chapter) -> Markup:
     """Loads on the crankpins, wear and the best place of the oil hole."""
     terms, rays, pins = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.pins
     numbers = range(1, len(pins) + 1)
-    names, worst = facts.pin_stems(chapter.shape), facts.worst_pin(terms)
+    names, worst = pin_stems(chapter.shape), worst_pin(terms)
     others, name = [n for n in numbers if n != worst], names[worst - 1]
     loads = partial(_loads, terms, names, (*_MOST, *_MEAN), 1.0)
     number = f" {worst}" if others else ""
@@ -63,15 +67,15 @@ def crankpin(chapter: Chapter) -> Markup:
         others=others,
         tables=[pin_table(n) for n in others],
         diagrams=[(pin_figure("fig50", n), pin_figure("fig52", n)) for n in others],
-        same_curves=facts.are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
+        same_curves=are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
         same_loads=all(
-            len(facts.leaders(terms, [key.format(name) for name in names])) == len(names)
+            len(leaders(terms, [key.format(name) for name in names])) == len(names)
             for key, _, _ in (_MOST[0], *_MEAN)
         ),
         same_gaps=_have_equal_gaps(chapter),
         pin_loads=TablePlan(loads, "Нагрузки на шатунные шейки", size="dense"),
-        worst_pins=facts.leaders(terms, [f"R{name}_max" for name in names]),
-        pressed=facts.leaders(terms, [f"q_{name}_max" for name in names]),
+        worst_pins=leaders(terms, [f"R{name}_max" for name in names]),
+        pressed=leaders(terms, [f"q_{name}_max" for name in names]),
         rays=rays,
         sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
         best=least_ray(terms, name),
@@ -142,8 +146,8 @@ def journals(chapter: Chapter) -> Markup:
             for start in range(0, len(numbers), share)
         ],
         worst=k,
-        pin_wear=pin_figure("fig52", facts.worst_pin(terms)),
-        leaders=facts.leaders(terms, [f"Rmain{n}_max" for n in numbers]),
+        pin_wear=pin_figure("fig52", worst_pin(terms)),
+        leaders=leaders(terms, [f"Rmain{n}_max" for n in numbers]),
         sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )
@@ -160,17 +164,19 @@ def _loads(
     terms: Terms, names: Sequence[str], wanted: Sequence[tuple[str, str, str]], last: float
 ) -> TableBlock:
     """Loads of all crankpins or main journals side by side."""
-    columns = [Column(symbol_head(tex, unit)) for _, tex, unit in wanted[:-1]]
+    columns = [TableColumn(symbol_head(tex, unit)) for _, tex, unit in wanted[:-1]]
     _, tex, unit = wanted[-1]
     rows = [
         [str(number), *(_load(terms, key, name) for key, _, _ in wanted)]
         for number, name in enumerate(names, 1)
     ]
-    return table_block([Column("Шейка", 0.8), *columns, Column(symbol_head(tex, unit), last)], rows)
+    return table_block(
+        [TableColumn("Шейка", 0.8), *columns, TableColumn(symbol_head(tex, unit), last)], rows
+    )
 
 
 def _load(terms: Terms, key: str, name: str) -> str:
-    """A number, but for the angles of a journal that bears nothing: rounding noise has none."""
+    """A load as printed; an unloaded journal has no angle."""
     idle = round(float(terms.value(f"R{name}_max")), 9) == 0
     return "—" if idle and key.endswith("_deg") else terms.num(key.format(name))
 
@@ -190,10 +196,49 @@ def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
 
 def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> TableBlock:
     """Sums of the forces by rays, a column for each surface."""
-    columns = [Column("Луч"), Column(symbol_head(r"\alpha_{\mathrm{л}}", "°"))]
-    columns += [Column(symbol_head(head, "МПа")) for head in heads]
+    columns = [TableColumn("Луч"), TableColumn(symbol_head(r"\alpha_{\mathrm{л}}", "°"))]
+    columns += [TableColumn(symbol_head(head, "МПа")) for head in heads]
     rows = []
     for i in range(1, rays + 1):
         sums = [fixed(terms.value(f"{name}_sum{i}"), _SUM_DIGITS) for name in names]
         rows.append([roman(i), fixed(terms.value(f"{names[0]}_deg{i}"), 0), *sums])
     return table_block(columns, rows)
+
+
+_MOST_SHOWN = 3
+_THREE_MOMENTS = (
+    r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
+    r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
+    r" - \sum P \dfrac{w\,(l_k^2 - w^2)}{l_k}"
+)
+_BENDING = (
+    "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",
+    "Malpha_mean", "alpha_best_deg", "Mbest_swing",
+)  # fmt: skip
+
+
+def bearings(chapter: Chapter) -> Markup:
+    """Loads on the bearings and what the strength of the shaft needs."""
+    terms, first = chapter.terms, " 1" if chapter.shape.throws > 1 else ""
+    schemes, shown = None, []
+    if "continuous" in terms.model.tables:
+        build = partial(grid_table, terms, chapter.grid("schemes"))
+        schemes = TablePlan(build, "Разрезная и неразрезная схемы", keep=True)
+        shown = [f"continuous_{k}" for k in _supports(terms)]
+    return chapter.page(
+        "bearings",
+        several=len(chapter.shape.pins[0]) > 1,
+        worst=chapter.worst("worst_main_load"),
+        given=chapter.input.crankshaft.oil_hole_deg is not None,
+        bending=chapter.scalars(f"Изгиб шатунной шейки{first}", _BENDING, keep=True),
+        schemes=schemes,
+        shown=shown,
+        three_moments=_THREE_MOMENTS,
+    )
+
+
+def _supports(terms: Terms) -> list[int]:
+    """Supports whose greatest loads the two schemes find most apart."""
+    count = sum(key.startswith("dRc") and key.endswith("_max") for key in terms.model.scalars)
+    order = sorted(range(1, count + 1), key=lambda k: -abs(terms.value(f"dRc{k}_max")))
+    return sorted(order[:_MOST_SHOWN])

@@ -11,8 +11,8 @@ from markupsafe import Markup
 
 from kshm.arrays import Array
 from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.writer import TablePlan
+from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
+from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.bearings import MATERIALS
@@ -62,9 +62,9 @@ def oil(chapter: Chapter) -> Markup:
     )
     gaps = terms.column("oil_orbits.oil_orb_h_um")
     mean = [terms.value(f"oil_hmin{case.number}_um") for case in cases]
-    place = int(gaps.argmin())
-    thin = _worst(cases[place], float(gaps[place]))
-    under = float(terms.column("oil_orbits.oil_under")[place])
+    thinnest = int(gaps.argmin())
+    thin = _worst(cases[thinnest], float(gaps[thinnest]))
+    under = float(terms.column("oil_orbits.oil_under")[thinnest])
     critical = terms.value("oil_hcr_um")
     shown = cases[0].bearing
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
@@ -86,7 +86,7 @@ def oil(chapter: Chapter) -> Markup:
         enough=steady.value >= section.reserve_allowed,
         thicker=_times(mean, gaps),
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
-        angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[place]), 0),
+        angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),
         open=float(terms.column("oil_orbits.oil_open").max()) > _CLOSED,
         shown=shown,
         of=f"коренного подшипника {shown}" if shown else "шатунного подшипника",
@@ -122,7 +122,7 @@ def concluded(chapter: Chapter) -> Markup:
 
 
 def _times(mean: Sequence[float], gaps: Array) -> str:
-    """How many times the mean load's film is thicker than the cycle's, empty if it is not."""
+    """Ratio of film thicknesses, mean load to cycle; empty below one."""
     times = float((np.array(mean) / gaps).max())
     return fixed(times, 1) if times >= _TOLD else ""
 
@@ -171,17 +171,21 @@ def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
             symbol_head(f"{q.tex}", q.unit_label), Markup(" — {}").format(titled_html(q.title))
         )
         rows.append([head, *(terms.num(cell.key) for cell in row.cells if cell is not None)])
-    columns = [Column("Величина", 5.0, text=True), *(Column(capital(n)) for n in grid.labels)]
+    columns = [
+        TableColumn("Величина", 5.0, text=True),
+        *(TableColumn(capital(n)) for n in grid.labels),
+    ]
     return table_block(columns, rows)
 
 
 def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
     heads = [
-        Column("Подшипник", 3.2, text=True), Column(symbol_head(r"k_{\mathrm{ср}}", "МПа")),
-        Column(symbol_head(r"\chi", "")), Column(symbol_head(r"t_{\mathrm{м}}", "°C")),
-        Column(symbol_head(r"\mu", "мПа·с")), Column(symbol_head(r"h_{\min}", "мкм")),
-        Column(symbol_head("K_h", "")), Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
+        TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"k_{\mathrm{ср}}",
+                                                                          "МПа")),
+        TableColumn(symbol_head(r"\chi", "")), TableColumn(symbol_head(r"t_{\mathrm{м}}", "°C")),
+        TableColumn(symbol_head(r"\mu", "мПа·с")), TableColumn(symbol_head(r"h_{\min}", "мкм")),
+        TableColumn(symbol_head("K_h", "")), TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
@@ -196,12 +200,13 @@ def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
 
 def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
     heads = [
-        Column("Подшипник", 3.2, text=True), Column(symbol_head(r"\chi_{\max}", "")),
-        Column(symbol_head(r"h_{\min}", "мкм")), Column(symbol_head(r"\varphi", "°")),
-        Column(symbol_head(r"\delta_{\mathrm{в}}", "°")),
-        Column(symbol_head(r"\delta_{\mathrm{ш}}", "°")), Column(symbol_head(r"\nu", "%")),
-        Column(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        Column(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
+        TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"\chi_{\max}", "")),
+        TableColumn(symbol_head(r"h_{\min}", "мкм")), TableColumn(symbol_head(r"\varphi", "°")),
+        TableColumn(symbol_head(r"\delta_{\mathrm{в}}", "°")),
+        TableColumn(symbol_head(r"\delta_{\mathrm{ш}}", "°")), TableColumn(symbol_head(r"\nu",
+                                                                                       "%")),
+        TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
+        TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip
     keys = (
         ("oil_eps_max", 4), ("oil_orb_h_um", 2), ("oil_orb_phi_deg", 0), ("oil_shell_deg", 0),

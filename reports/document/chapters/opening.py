@@ -9,19 +9,24 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.layout import scheme_text
-from reports.document.chapters.profiles import told
-from reports.document.figures.parts import mechanism_of, sizes_figure, throw_of
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.spec_tables import list_block, unit_cell
-from reports.document.page.writer import Figure, TablePlan
+from reports.document.chapters.chapter import Chapter, relevant_chapters
+from reports.document.figures.schemes import engine_scheme
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    list_block,
+    symbol_head,
+    table_block,
+    unit_cell,
+)
+from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text, plain_number
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
-from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.input_file import LAYOUTS, InputFile
 from reports.model.context import diagram_kind
 from reports.model.shape import Shape
 from reports.shared.russian import joined
@@ -96,11 +101,11 @@ _FOUND = (
 
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    names = told(chapter.input)
+    names = relevant_chapters(chapter.input)
     # Some things have an «и» of their own.
-    found = joined([what for name, what in _FOUND if name in names], ", а также ")
+    results = joined([what for name, what in _FOUND if name in names], ", а также ")
     return chapter.page(
-        "introduction", found=found, cycle="cycle" in names, appended="appendices" in names
+        "introduction", found=results, cycle="cycle" in names, appended="appendices" in names
     )
 
 
@@ -169,9 +174,9 @@ def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
     count, numbers = shape.cylinders, range(1, shape.cylinders + 1)
     angles = list(_named(fields, "throw_angle_{}_deg", shape.throws))
     columns = [
-        Column("Цилиндр" if shape.banks else "Цилиндр и колено"),
-        Column(symbol_head(r"\theta_i", "°")),
-        Column(symbol_head(r"\gamma_i", "°")),
+        TableColumn("Цилиндр" if shape.banks else "Цилиндр и колено"),
+        TableColumn(symbol_head(r"\theta_i", "°")),
+        TableColumn(symbol_head(r"\gamma_i", "°")),
     ]
     cells = [
         [str(i) for i in numbers],
@@ -179,11 +184,11 @@ def _phases(fields: Sequence[Field], model: InputFile) -> TableBlock:
         [angles[shape.throw_of(i) - 1] for i in numbers],
     ]
     if shape.banks:
-        columns[1:1] = [Column("Ряд"), Column("Колено")]
+        columns[1:1] = [TableColumn("Ряд"), TableColumn("Колено")]
         banks = ["правый" if shape.is_right(i) else "левый" for i in numbers]
         cells[1:1] = [banks, [str(shape.throw_of(i)) for i in numbers]]
     if model.crankshaft.force_offsets_deg is not None:
-        columns.append(Column(symbol_head(r"\theta^{*}_i", "°")))
+        columns.append(TableColumn(symbol_head(r"\theta^{*}_i", "°")))
         cells.append(list(_named(fields, "force_offset_{}_deg", count)))
     return table_block(columns, list(zip(*cells, strict=True)))
 
@@ -199,11 +204,11 @@ def _webs(fields: Sequence[Field]) -> TableBlock:
         (r"m_{\mathrm{пр}}", "кг"),
         (r"\alpha_{\mathrm{пр}}", "°"),
     )
-    columns = [Column("Щека"), *(Column(symbol_head(tex, unit)) for tex, unit in heads)]
+    columns = [TableColumn("Щека"), *(TableColumn(symbol_head(tex, unit)) for tex, unit in heads)]
     names = {field.name for field in fields}
     if "web_1_actual_mass_kg" in names:
         keys = ("actual_mass_kg", "centre_mm", *keys[1:])
-        columns.insert(2, Column(symbol_head(r"\rho", "мм")))
+        columns.insert(2, TableColumn(symbol_head(r"\rho", "мм")))
     elif "web_1_mass_kg" not in names:  # estimated: see the section on masses
         keys, columns = keys[1:], [columns[0], *columns[2:]]
     return table_block(columns, _numbered(fields, [f"web_{{}}_{key}" for key in keys], count))
@@ -212,7 +217,7 @@ def _webs(fields: Sequence[Field]) -> TableBlock:
 def _arms(fields: Sequence[Field]) -> TableBlock:
     count = sum(field.name.endswith("_l1_mm") for field in fields)
     heads = [rf"l_{i}" for i in range(1, 7)] + [r"h_{\mathrm{Л}}", r"h_{\mathrm{П}}"]
-    columns = [Column("Колено", 1.3), *(Column(inline_html(tex)) for tex in heads)]
+    columns = [TableColumn("Колено", 1.3), *(TableColumn(inline_html(tex)) for tex in heads)]
     return table_block(columns, _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count))
 
 
@@ -246,8 +251,25 @@ def _points(points: Points) -> TableBlock:
         [part for g in range(groups) for part in _at(texts, g * rows + row)] for row in range(rows)
     ]
     heads = [symbol_head(r"\varphi", "°"), symbol_head(r"p_{\mathrm{г}}", "МПа")]
-    return table_block([Column(head) for _ in range(groups) for head in heads], cells)
+    return table_block([TableColumn(head) for _ in range(groups) for head in heads], cells)
 
 
 def _at(texts: Sequence[tuple[str, str]], index: int) -> tuple[str, str]:
     return texts[index] if index < len(texts) else ("—", "—")
+
+
+def scheme_text(chapter: Chapter) -> Markup:
+    """Scheme of the engine drawn from the input, with the order of the power strokes."""
+    shape, shaft = chapter.shape, chapter.input.crankshaft
+    numbers = range(1, shape.cylinders + 1)
+    bank = shaft.bank_angle_deg or 0.0
+    draw = partial(
+        engine_scheme,
+        tuple(bank if shape.is_right(i) else 0.0 for i in numbers),
+        tuple(shape.throw_of(i) for i in numbers),
+        tuple(shaft.throw_angles_deg),
+        tuple(shaft.firing_offsets_deg),
+        float(shape.period),
+    )
+    scheme = Figure(draw, "Схема двигателя с носка вала и рабочие ходы цилиндров")
+    return chapter.page("layout", scheme=scheme, layout=LAYOUTS[chapter.input.engine.layout])

@@ -6,17 +6,15 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import facts
-from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import Column, TableBlock, table_block
-from reports.document.page.spec_tables import list_block, unit_cell
-from reports.document.page.writer import TablePlan
-from reports.document.text import numbers
+from reports.document.chapters.chapter import Chapter, pin_stems, worst_pin
+from reports.document.page.blocks import TableBlock, TableColumn, list_block, table_block, unit_cell
+from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
 from reports.document.text.terms import input_text
+from reports.document.text.texts import of_digits
 from reports.formula.tex import input_symbol_tex
+from reports.shared.font_coverage import cleaned
 from reports.shared.russian import BREAK, capital
-from reports.shared.signs import cleaned
 from reports.tables.regimes import regime_titles
 
 _PARTS = (
@@ -48,15 +46,15 @@ def concluded(chapter: Chapter) -> Markup:
     for part, name in _governing(chapter):
         by_regime.setdefault(name, []).append(part)
     # Between a quotation mark and a bracket no line ends by itself, not even at a space.
-    told = [
+    governing = [
         Markup("«{}» {}({})").format(cleaned(name), BREAK, "; ".join(parts))
         for name, parts in by_regime.items()
     ]
     count = len(chapter.input.regimes) + 1
-    words = "режим" if len(told) == 1 else "режимы"
-    verb = "определяет" if len(told) == 1 else "определяют"
+    words = "режим" if len(governing) == 1 else "режимы"
+    verb = "определяет" if len(governing) == 1 else "определяют"
     line = "из {} режимов работы расчёт {} {}: {}"
-    return Markup(line).format(count, verb, words, Markup(", ").join(told))
+    return Markup(line).format(count, verb, words, Markup(", ").join(governing))
 
 
 def _inputs(chapter: Chapter) -> TableBlock:
@@ -80,12 +78,12 @@ def _loads(chapter: Chapter) -> TableBlock:
         q = row.quantity
         values = [scalars[cell.key] for cell in row.cells if cell is not None]
         unit = f", {q.unit_label}" if q.unit_label else ""
-        shown = [numbers.of_digits(float(value), q.digits) for value in values[:-1]]
+        shown = [of_digits(float(value), q.digits) for value in values[:-1]]
         rows.append([capital(q.title) + unit, *shown, str(values[-1])])
     columns = [
-        Column("Величина", 3.0, text=True),
-        *(Column(title, 1.6) for title in titles),
-        Column("Определяющий режим", 1.6, text=True),
+        TableColumn("Величина", 3.0, text=True),
+        *(TableColumn(title, 1.6) for title in titles),
+        TableColumn("Определяющий режим", 1.6, text=True),
     ]
     return table_block(columns, rows)
 
@@ -93,7 +91,7 @@ def _loads(chapter: Chapter) -> TableBlock:
 def _governing(chapter: Chapter) -> list[tuple[str, str]]:
     """Parts of the mechanism with the regime that governs each."""
     main, pin = chapter.worst("worst_main_load"), chapter.worst("worst_pin_torque")
-    stems, worst = facts.pin_stems(chapter.shape), facts.worst_pin(chapter.terms)
+    stems, worst = pin_stems(chapter.shape), worst_pin(chapter.terms)
     number = f" {worst}" if len(stems) > 1 else ""
     parts = (
         *_PARTS,

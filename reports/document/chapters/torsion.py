@@ -9,13 +9,18 @@ import numpy as np
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.page.blocks import Column, TableBlock, symbol_head, table_block
-from reports.document.page.spec_tables import grid_table
-from reports.document.page.writer import TablePlan
-from reports.document.text import numbers
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    grid_table,
+    symbol_head,
+    table_block,
+)
+from reports.document.page.numbering import TablePlan
 from reports.document.text.terms import Terms, with_unit
+from reports.document.text.texts import of_digits, significant, to_tex
 from reports.formula.tex import number_tex
-from reports.inputs.checks.flywheel import INERTIAS, lighter_than
+from reports.inputs.solve_input import INERTIAS, lighter_than
 from reports.model.charts import Series
 from reports.shared.russian import fixed, short
 from reports.tables.torsion_members import ray_of
@@ -147,15 +152,15 @@ def concluded(chapter: Chapter) -> Markup:
     )
     verdict = "превышает допускаемую" if over else "не превышает допускаемой"
     allowed = terms.val("torsion_stress_allowed_mpa")
-    first = with_unit(numbers.significant(terms.value("tor_f1_hz"), _SURE), terms.unit("tor_f1_hz"))
+    first = with_unit(significant(terms.value("tor_f1_hz"), _SURE), terms.unit("tor_f1_hz"))
     return Markup(line).format(first, bare.shown, bare.at, verdict, allowed)
 
 
 def _peak(terms: Terms, which: str) -> Peak:
     stresses = terms.column(f"torsion_response.tor_tau{which}_MPa")
-    place = int(stresses.argmax())
-    speed = terms.column("torsion_response.tor_speed_rpm")[place]
-    return Peak(float(stresses[place]), fixed(float(stresses[place]), 1), fixed(float(speed), 0))
+    row = int(stresses.argmax())
+    speed = terms.column("torsion_response.tor_speed_rpm")[row]
+    return Peak(float(stresses[row]), fixed(float(stresses[row]), 1), fixed(float(speed), 0))
 
 
 def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
@@ -176,15 +181,15 @@ def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
 
 
 def _forms(terms: Terms, modes: list[int]) -> TableBlock:
-    heads = [Column("Масса", 2.6, text=True), Column(symbol_head("J", "кг·м²"))]
-    heads += [Column(symbol_head(f"a_{m}", "")) for m in modes]
+    heads = [TableColumn("Масса", 2.6, text=True), TableColumn(symbol_head("J", "кг·м²"))]
+    heads += [TableColumn(symbol_head(f"a_{m}", "")) for m in modes]
     grid = next(block for block in terms.model.blocks if block.id == "torsion_train")
     labels = getattr(grid, "labels", ())
     inertia = "torsion_forms.tor_J_kgm2"
     rows = [
         [
             label,
-            numbers.of_digits(float(terms.column(inertia)[k]), terms.quantity(inertia).digits),
+            of_digits(float(terms.column(inertia)[k]), terms.quantity(inertia).digits),
             *(fixed(float(terms.column(f"torsion_forms.tor_theta{m}")[k]), 5) for m in modes),
         ]
         for k, label in enumerate(labels)
@@ -205,9 +210,9 @@ def _holzer_row(terms: Terms) -> str:
     omega = 2 * np.pi * terms.value("tor_f1_hz")
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
     shown = [number_tex(each, 5) for each in (omega, inertia, moment, spring)]
-    second = numbers.to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
+    second = to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
     ground = terms.value("torsion_ground_nm_rad")
-    less = rf" - {numbers.to_tex(fixed(ground, 0))}" if ground else ""
+    less = rf" - {to_tex(fixed(ground, 0))}" if ground else ""
     return (
         rf"M_1 = {shown[0]}^2 \cdot {shown[1]}{less} = {shown[2]}\;\mathrm{{Н·м}}, \qquad "
         rf"a_2 = 1 - \dfrac{{{shown[2]}}}{{{shown[3]}}} = {second}"
@@ -223,17 +228,17 @@ def _hidden(terms: Terms, modes: list[int]) -> int:
 
 def _resonances(terms: Terms, modes: list[int]) -> list[tuple[int, int]]:
     """Form and row of the strongest resonances within the working speeds."""
-    found = []
+    resonances = []
     for m in modes:
         stresses = terms.column(f"torsion_critical.tor_in{m}_MPa")
-        found += [(float(stresses[k]), m, int(k)) for k in np.flatnonzero(stresses)]
-    return [(m, k) for _, m, k in sorted(found, reverse=True)[:_MOST_ROWS]]
+        resonances += [(float(stresses[k]), m, int(k)) for k in np.flatnonzero(stresses)]
+    return [(m, k) for _, m, k in sorted(resonances, reverse=True)[:_MOST_ROWS]]
 
 
-def _rays(terms: Terms, found: list[tuple[int, int]]) -> tuple[Series, ...]:
+def _rays(terms: Terms, resonances: list[tuple[int, int]]) -> tuple[Series, ...]:
     """Lines of the Campbell diagram: the orders of the strongest resonances."""
     orders = terms.column("torsion_critical.tor_order")
-    strongest = [*dict.fromkeys(float(orders[k]) for _, k in found)][:_MOST_RAYS]
+    strongest = [*dict.fromkeys(float(orders[k]) for _, k in resonances)][:_MOST_RAYS]
     return tuple(
         Series(
             "torsion_campbell.tor_speed_rpm",
@@ -244,12 +249,13 @@ def _rays(terms: Terms, found: list[tuple[int, int]]) -> tuple[Series, ...]:
     )
 
 
-def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
+def _resonance_table(terms: Terms, resonances: list[tuple[int, int]]) -> TableBlock:
     heads = [
-        Column("Форма"), Column(symbol_head(r"\nu", "")),
-        Column(symbol_head(r"n_{\mathrm{кр}}", "мин⁻¹")), Column(symbol_head(r"S_{\nu}", "")),
-        Column(symbol_head(r"M_{\nu}", "Н·м")), Column(symbol_head("A", "°")),
-        Column(symbol_head(r"\tau", "МПа")),
+        TableColumn("Форма"), TableColumn(symbol_head(r"\nu", "")),
+        TableColumn(symbol_head(r"n_{\mathrm{кр}}", "мин⁻¹")), TableColumn(symbol_head(r"S_{\nu}",
+                                                                                       "")),
+        TableColumn(symbol_head(r"M_{\nu}", "Н·м")), TableColumn(symbol_head("A", "°")),
+        TableColumn(symbol_head(r"\tau", "МПа")),
     ]  # fmt: skip
     moment = terms.quantity("torsion_critical.tor_M1_Nm").digits.decimals  # of the sheet
     keys = (("n{}_rpm", 0), ("sum{}", 3), ("M{}_Nm", max(0, moment - 1)), ("A{}_deg", 3),
@@ -263,14 +269,18 @@ def _resonance_table(terms: Terms, found: list[tuple[int, int]]) -> TableBlock:
                 for key, digits in keys
             ),
         ]
-        for m, k in sorted(found)
+        for m, k in sorted(resonances)
     ]
     return table_block(heads, rows)
 
 
 def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
     order, mode = terms.value("tor_worst_order"), round(terms.value("tor_worst_mode"))
-    heads = [Column("Величина", 3.4, text=True), Column("маховик"), Column("другой маховик")]
+    heads = [
+        TableColumn("Величина", 3.4, text=True),
+        TableColumn("маховик"),
+        TableColumn("другой маховик"),
+    ]
     firsts = [terms.value("tor_f1_hz"), terms.value("tor_f1_other_hz")]
     rows = [
         ["момент инерции, кг·м²", terms.num("tor_flywheel"), terms.num("tor_flywheel_other")],
@@ -286,9 +296,9 @@ def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:
 
 def _energy(terms: Terms) -> dict[str, Markup]:
     """Energy of a cycle at the speed of the greatest stress."""
-    place = int(terms.column("torsion_response.tor_tau_MPa").argmax())
+    row = int(terms.column("torsion_response.tor_tau_MPa").argmax())
     columns = {key: f"torsion_response.tor_{key}_J" for key in ("work", "lost")}
     return {
-        key: with_unit(numbers.significant(float(terms.column(name)[place]), _DIGITS), "Дж")
+        key: with_unit(significant(float(terms.column(name)[row]), _DIGITS), "Дж")
         for key, name in columns.items()
     }

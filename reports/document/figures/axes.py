@@ -1,21 +1,111 @@
-"""Axes as in a Russian textbook: units at the ends, heavier lines through zero."""
+"""Axes as in a Russian textbook: round marks, units at the ends, heavier lines through zero."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures.labels import Box, line_box, shown
-from reports.document.figures.sheet import Sheet
-from reports.document.figures.style import AXIS, EDGE, FONT_SIZE, GRID, SMALL, Look
-from reports.document.figures.ticks import Ticks
+from reports.document.figures.canvas import AXIS, EDGE, FONT_SIZE, GRID, SMALL, LineStyle, Sheet
+from reports.document.figures.labels import Box, line_box, shown, text_size
+from reports.shared.russian import fixed
 
-_GAP = 3.0  # between the texts of neighbouring marks [pt]
+_ANGLE_STEPS = (5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 120.0, 180.0)
+_MOST_ANGLES = 13
+_FACTORS = (1.0, 2.0, 2.5, 5.0, 10.0)
+_BEYOND, _GAP = 11.0, 3.0  # pt from the end of an axis and from its last text to its name
+
+
+@dataclass(frozen=True, slots=True)
+class Ticks:
+    """Marks of an axis: places, their texts, and the limits they span."""
+
+    places: tuple[float, ...]
+    texts: tuple[str, ...]
+
+    @property
+    def low(self) -> float:
+        """Lower end of the axis."""
+        return self.places[0]
+
+    @property
+    def high(self) -> float:
+        """Upper end of the axis."""
+        return self.places[-1]
+
+    def width(self) -> float:
+        """Room of the widest text [pt]."""
+        return max(text_size(text, SMALL)[0] for text in self.texts)
+
+    def beyond(self) -> float:
+        """Room beyond the end of the axis that its last text and a gap after it take [pt]."""
+        return max(_BEYOND, text_size(self.texts[-1], SMALL)[0] / 2 + _GAP)
+
+
+def value_ticks(low: float, high: float, *, count: int = 6, zero: bool = True) -> Ticks:
+    """Round marks that enclose a range.
+
+    Args:
+        low: Least value to show.
+        high: Greatest value to show.
+        count: Wanted number of intervals.
+        zero: Take zero into the range.
+
+    Raises:
+        ValueError: The range is not finite.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = bounds([[low, high, *([0.0] if zero else [])]])
+    if high - low <= 1e-12 * max(1.0, abs(high), abs(low)):
+        low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
+    locator = MaxNLocator(count, steps=_FACTORS, min_n_ticks=1)
+    places = [float(mark) for mark in locator.tick_values(float(low), float(high))]
+    return at_steps(round(places[0] / (places[1] - places[0])), len(places), places[1] - places[0])
+
+
+def at_steps(first: int, count: int, step: float) -> Ticks:
+    """So many marks at multiples of a step, with the decimals that the step needs."""
+    digits = max(0, -int(Decimal(f"{step:.3g}").normalize().as_tuple().exponent))
+    places = tuple((first + index) * step for index in range(count))
+    return Ticks(places, tuple(fixed(mark, digits) for mark in places))
+
+
+def angle_ticks(low: float, high: float, *, step: float | None = None) -> Ticks:
+    """Marks of an axis of crank angles [deg]; the axis ends where the curves do."""
+    span = high - low
+    if step is None:
+        step = next((s for s in _ANGLE_STEPS if s >= 30 and span / s < _MOST_ANGLES), 360.0)
+        if span / step < 3:
+            step = next(s for s in _ANGLE_STEPS if span / s < _MOST_ANGLES)
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    marks = {index * step: fixed(index * step, 0) for index in range(first, last + 1)}
+    for end in (low, high):
+        if all(abs(end - mark) > 1e-9 for mark in marks):
+            marks[end] = ""
+    places = sorted(marks)
+    return Ticks(tuple(places), tuple(marks[mark] for mark in places))
+
+
+def bounds(columns: Iterable[Iterable[float]]) -> tuple[float, float]:
+    """Least and greatest value of several columns.
+
+    Raises:
+        ValueError: A value is not finite or there is none.
+    """
+    values: Sequence[float] = [float(value) for column in columns for value in column]
+    if not values or not all(map(math.isfinite, values)):
+        msg = "Кривая пуста или содержит не число"
+        raise ValueError(msg)
+    return min(values), max(values)
+
+
+_MARK_GAP = 3.0  # between the texts of neighbouring marks [pt]
 _TOP = 0.75  # of the type above the baseline, which half a number's height stands off its mark
 
 
@@ -50,7 +140,7 @@ class Axes:
             places.append(start + (end - start) * (1 - share if turned else share))
         return np.stack(np.broadcast_arrays(*places), axis=-1)
 
-    def level(self, y: float, look: Look, layer: float = 2) -> None:
+    def level(self, y: float, look: LineStyle, layer: float = 2) -> None:
         """A line across the field."""
         self.page.line(self.at([self.x.low, self.x.high], [y, y]), look, layer)
 
@@ -58,7 +148,7 @@ class Axes:
         self,
         *,
         pads: tuple[float, float] = (3, 3),
-        edges: tuple[Look, Look] = (EDGE, EDGE),
+        edges: tuple[LineStyle, LineStyle] = (EDGE, EDGE),
         zeros: bool = False,
     ) -> None:
         """Grid, edges, numbers with decimal comma, heavier lines through zero.
@@ -81,8 +171,8 @@ class Axes:
         left_side = not self.reverse[0]
         side = left - pads[1] if left_side else right + pads[1]
         for y, text in zip(ys, self.y.texts, strict=True):
-            place = (side, y - _TOP * SMALL / 2)
-            page.text(place, text, SMALL, middle=False, align=float(left_side), layer=0.6)
+            anchor = (side, y - _TOP * SMALL / 2)
+            page.text(anchor, text, SMALL, middle=False, align=float(left_side), layer=0.6)
         corners = [(left, low), (right, low), (right, high), (left, high)]
         page.line(corners[1:], GRID, 0.6)
         for edge, look in zip((corners[::3], corners[:2]), edges, strict=True):
@@ -95,20 +185,20 @@ class Axes:
     def name_y(self, text: str) -> None:
         """Name and unit of the vertical axis above its upper end."""
         deep = line_box(shown(text), FONT_SIZE)[2]  # below it the number of the upper end stands
-        place = (self.field[0] - 8, self.field[3] + max(7.0, deep + _TOP * SMALL / 2 + 1.5))
-        self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
+        anchor = (self.field[0] - 8, self.field[3] + max(7.0, deep + _TOP * SMALL / 2 + 1.5))
+        self.page.text(anchor, text, FONT_SIZE, align=0.0, middle=False)
 
     def name_x(self, text: str) -> None:
         """Name and unit of the horizontal axis at its right end, in line with the numbers."""
-        place = (self.field[2] + self.x.beyond(), self.field[1] - 3 - 0.76 * SMALL)
-        self.page.text(place, text, FONT_SIZE, align=0.0, middle=False)
+        anchor = (self.field[2] + self.x.beyond(), self.field[1] - 3 - 0.76 * SMALL)
+        self.page.text(anchor, text, FONT_SIZE, align=0.0, middle=False)
 
 
 def _uncrowded(places: Sequence[float], ticks: Ticks) -> Sequence[str]:
     """Texts of marks; of marks closer than their texts are wide every second or third, with 0."""
-    widest = ticks.width() + _GAP
-    named = [place for place, text in zip(places, ticks.texts, strict=True) if text]
+    widest = ticks.width() + _MARK_GAP
+    named = [mark for mark, text in zip(places, ticks.texts, strict=True) if text]
     nearest = min((abs(b - a) for a, b in pairwise(named)), default=widest)
     every = math.ceil(widest / nearest - 1e-9)
-    zero = next((n for n, place in enumerate(ticks.places) if abs(place) < 1e-12), 0)
+    zero = next((n for n, mark in enumerate(ticks.places) if abs(mark) < 1e-12), 0)
     return [text if (n - zero) % every == 0 else "" for n, text in enumerate(ticks.texts)]

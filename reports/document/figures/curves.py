@@ -8,30 +8,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures.axes import Axes
-from reports.document.figures.labels import (
-    Points,
-    Room,
-    dense,
-    label_curve,
-    label_point,
-    text_size,
-)
-from reports.document.figures.sheet import Sheet
-from reports.document.figures.style import (
+from reports.document.figures.axes import Axes, angle_ticks, bounds, value_ticks
+from reports.document.figures.canvas import (
     EDGE,
     FONT_SIZE,
     GRID,
     PAGE_WIDTH,
     PATTERNS,
     SMALL,
-    Look,
+    LineStyle,
+    Sheet,
 )
-from reports.document.figures.ticks import angle_ticks, bounds, value_ticks
+from reports.document.figures.labels import (
+    LabelField,
+    Points,
+    dense,
+    label_curve,
+    label_point,
+    text_size,
+)
 
 LETTERS = "абвгдежиклмнпрстуфхцшщэюя"  # without з, о, ё, й, ъ, ы, ь, as the standard lists them
 _BOTTOM, _TOP, _BETWEEN = 20.0, 22.0, 38.0  # pt below, above and between the panels
-_LEVEL = Look(0.9, (12, 3, 2, 3))
+_LEVEL = LineStyle(0.9, (12, 3, 2, 3))
 # Of a legend [pt]: length of its lines, the gap before a name, between columns, between rows.
 _SAMPLE, _GAP, _COLUMNS_GAP, LEGEND_ROW = 30.8, 8.8, 15.4, 16.5
 _IN_ROW, _INSET = 4, 3.3
@@ -40,7 +39,7 @@ _BESIDE, _DOT = 4.0, 3.4  # pt between the stems of one order; dots at their end
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class PlotCurve:
     """A curve: its name (``$…$`` for symbols) and ordinates."""
 
     name: str
@@ -68,7 +67,7 @@ class Mark:
 class Panel:
     """One plot: ``zero`` is taken into the ordinate, ``points`` get dots, ``stems`` no curves."""
 
-    curves: Sequence[Curve]
+    curves: Sequence[PlotCurve]
     y_title: str
     levels: Sequence[Level] = ()
     marks: Sequence[Mark] = ()
@@ -172,25 +171,25 @@ def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
         # Segments of no length, which round caps make dots.
         dots = np.repeat(axes.at(*points), 2, axis=0).reshape(-1, 2, 2)
         colour = PATTERNS[number % len(PATTERNS)].colour
-        axes.page.lines(dots, Look(2.2, colour=colour, cap="round"))
+        axes.page.lines(dots, LineStyle(2.2, colour=colour, cap="round"))
     for level in panel.levels:
         axes.level(level.y, _LEVEL)
     _name(axes, panel, lines)
 
 
-def _stems(axes: Axes, tops: NDArray[np.float64], look: Look) -> None:
+def _stems(axes: Axes, tops: NDArray[np.float64], look: LineStyle) -> None:
     """A line from zero to each value, a dot at its end; nothing where the value is zero."""
     feet = np.column_stack([tops[:, 0], np.full(len(tops), axes.at(0.0, 0.0)[1])])
     seen = np.abs(tops - feet)[:, 1] > _DOT / 2
     axes.page.lines(np.stack([feet, tops], axis=1)[seen], replace(look, cap="butt"))
     dots = np.repeat(tops[seen], 2, axis=0).reshape(-1, 2, 2)
-    axes.page.lines(dots, Look(_DOT, colour=look.colour, cap="round"))
+    axes.page.lines(dots, LineStyle(_DOT, colour=look.colour, cap="round"))
 
 
 def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
-    """Names of marks, levels and curves, in this order of right to the room."""
+    """Names of marks, levels and curves in order of priority."""
     left, low, right, high = axes.field
-    room = Room((left + 2, low + 2, right - 2, high - 2))
+    room = LabelField((left + 2, low + 2, right - 2, high - 2))
     lines = [dense(line) for line in lines]
     ends = (axes.x.low, axes.x.high)
     across = [dense(axes.at(ends, y)) for y in (*(level.y for level in panel.levels), 0.0)]
@@ -198,9 +197,9 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
     for mark in panel.marks:
         _mark(axes, room, axes.at(mark.x, mark.y).tolist(), mark.name)
     for level, line in zip(panel.levels, across, strict=False):
-        place = label_curve(room, line, lines, text_size(level.name, FONT_SIZE))
-        if place:
-            axes.page.text(place, level.name, halo=True)
+        centre = label_curve(room, line, lines, text_size(level.name, FONT_SIZE))
+        if centre:
+            axes.page.text(centre, level.name, halo=True)
     if len(panel.curves) < 2:
         return
     places = []
@@ -208,8 +207,8 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
         others = [other for other in lines if other is not line]
         places.append(label_curve(room, line, others, text_size(curve.name, FONT_SIZE)))
     if places and all(places):
-        for curve, place in zip(panel.curves, places, strict=True):
-            axes.page.text(place or (0, 0), curve.name, halo=True)
+        for curve, centre in zip(panel.curves, places, strict=True):
+            axes.page.text(centre or (0, 0), curve.name, halo=True)
     else:
         legend(axes, [curve.name for curve in panel.curves])
 
@@ -232,8 +231,8 @@ def legend(axes: Axes, names: Sequence[str], *, in_row: int = _IN_ROW, above: fl
         x -= _GAP + _SAMPLE + _COLUMNS_GAP
 
 
-def _mark(axes: Axes, room: Room, point: tuple[float, float], name: str) -> None:
+def _mark(axes: Axes, room: LabelField, point: tuple[float, float], name: str) -> None:
     axes.page.circle((point[0], point[1]), 1.6, "#000000", None, 4)
-    place = label_point(room, (point[0], point[1]), text_size(name, SMALL))
-    if place:
-        axes.page.text(place, name, SMALL, halo=True)
+    centre = label_point(room, (point[0], point[1]), text_size(name, SMALL))
+    if centre:
+        axes.page.text(centre, name, SMALL, halo=True)

@@ -1,4 +1,4 @@
-"""Placing of texts in a figure: how large they are, and where they hit nothing."""
+"""Placement of labels in a figure: sizes and free places."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.document.text.fonts import FAMILY, face, text_em
+from reports.document.text.tex import for_mathtext
 from reports.document.text.texts import raised
-from reports.document.text.texwords import for_mathtext
+from reports.draw.fonts import ASCENT, DESCENT, text_box
 
 Points = NDArray[np.float64]
 Box = tuple[float, float, float, float]  # left, bottom, right, top [pt]
 Place = tuple[float, float]
 
 
-_ASCENT, _DESCENT = 0.75, 0.25  # of the type: the least that a line takes in STIX
 _WORD = 8.0  # names of two curves side by side are not read as one [pt]
 _SCALE = 100.0  # pt at which texts are measured
 
@@ -32,7 +31,7 @@ def text_size(text: str, size: float) -> tuple[float, float]:
 def line_box(words: str, size: float) -> tuple[float, float, float]:
     """Width of a line in mathtext's words, its height above and below the baseline [pt]."""
     width, height, depth = _measured(words)
-    return width * size, max(height - depth, _ASCENT) * size, max(depth, _DESCENT) * size
+    return width * size, max(height - depth, ASCENT) * size, max(depth, DESCENT) * size
 
 
 @functools.lru_cache(maxsize=2048)
@@ -43,21 +42,12 @@ def _measured(words: str) -> tuple[float, float, float]:
 
         parsed = read(words, _SCALE)
         return parsed.width / _SCALE, parsed.height / _SCALE, parsed.depth / _SCALE
-    from matplotlib.ft2font import LoadFlags
-
-    font = face(FAMILY)
-    if not font.get_charmap().keys() >= set(map(ord, words)):
-        return text_em(words), _ASCENT + _DESCENT, _DESCENT
-    font.set_size(_SCALE, 72)
-    font.set_text(words, 0.0, flags=LoadFlags.NO_HINTING)
-    width, height = font.get_width_height()
-    unit = 64 * _SCALE
-    return width / unit, height / unit, font.get_descent() / unit
+    return text_box(words)
 
 
 @functools.lru_cache(maxsize=2048)
 def shown(text: str) -> str:
-    """A label in matplotlib's words: TeX between dollars translated, «⁻¹» as a superscript."""
+    """A label in mathtext: TeX between dollars translated, «⁻¹» as a superscript."""
     parts = text.split("$")
     if len(parts) % 2 == 0:
         msg = f"Непарный знак $ в подписи рисунка: {text!r}"
@@ -69,8 +59,8 @@ def shown(text: str) -> str:
 
 
 @dataclass(slots=True)
-class Room:
-    """What is taken already: points of curves and boxes of texts, all in points of the sheet."""
+class LabelField:
+    """Occupied places of a figure: points of curves and boxes of texts [pt]."""
 
     limits: Box
     curves: list[Points] = field(default_factory=list)
@@ -131,7 +121,9 @@ def box_at(point: Sequence[float], size: Place, direction: Place, gap: float) ->
     return (x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 
-def label_curve(room: Room, own: Points, others: Sequence[Points], size: Place) -> Place | None:
+def label_curve(
+    room: LabelField, own: Points, others: Sequence[Points], size: Place
+) -> Place | None:
     """Centre for the name of a curve: beside it, clear of everything, far from the others."""
     best: tuple[float, Box] | None = None
     tangent = np.gradient(own, axis=0)
@@ -149,7 +141,7 @@ def label_curve(room: Room, own: Points, others: Sequence[Points], size: Place) 
 
 
 def label_point(
-    room: Room,
+    room: LabelField,
     point: Place,
     size: Place,
     *,

@@ -1,4 +1,4 @@
-"""Figures of the report from the chart specifications: what the workbook draws too."""
+"""Figures of the report from chart specifications and from sizes of the parts."""
 
 from __future__ import annotations
 
@@ -11,18 +11,96 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.document.figures.curves import LETTERS, Curve, Level, Mark, Panel, curves_figure
-from reports.document.figures.polar import Loop, Pole, polar_path
-from reports.document.figures.wear import wear_diagram
-from reports.document.page.writer import Figure
-from reports.document.text import numbers
-from reports.document.text.spoken import spoken
+from reports.document.figures.curves import LETTERS, Level, Mark, Panel, PlotCurve, curves_figure
+from reports.document.figures.polar import Loop, Pole, polar_path, wear_diagram
+from reports.document.page.numbering import Figure
+from reports.document.text.symbols import spoken
 from reports.document.text.terms import Terms
 from reports.document.text.tex import GREEK
+from reports.document.text.texts import significant
+from reports.draw.canvas import Canvas, Item, bounds, moved
+from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
+from reports.draw.writers import svg_of
 from reports.formula.numeric import evaluate
 from reports.model.blocks import TIE
 from reports.model.charts import ChartSpec, Series
+from reports.model.shape import Shape
 from reports.shared.russian import NBSP, fixed
+
+_THROW, _MECHANISM = (98.0, 92.0), (52.0, 92.0)  # width and height of both on the figure [mm]
+_BETWEEN, _LETTERS = 8.0, 2.5
+
+
+def throw_of(terms: Terms, number: int = 1) -> ThrowSizes:
+    """Sizes of a throw, counted from the nose."""
+    shaft = terms.model.input.crankshaft
+    arms = shaft.arms[number - 1]
+    main = partial(_size, shaft.main_diameter_mm, shaft.main_diameters_mm)
+    webs = shaft.webs[2 * number - 2 : 2 * number]
+    return ThrowSizes(
+        arms=(arms.l1_mm, arms.l2_mm, arms.l3_mm, arms.l4_mm, arms.l5_mm, arms.l6_mm),
+        webs=(arms.left_web_mm, arms.right_web_mm),
+        radius=1000 * terms.value("r_crank"),
+        pin=_size(shaft.pin_diameter_mm, shaft.pin_diameters_mm, number),
+        mains=(main(number), main(number + 1)),
+        lengths=(shaft.main_lengths_mm[number - 1], shaft.main_lengths_mm[number]),
+        weights=(bool(webs[0].counterweight_kg), bool(webs[1].counterweight_kg)),
+    )
+
+
+def _size(common: float | None, own: tuple[float, ...] | None, number: int) -> float:
+    """A diameter common to all journals or one of its own."""
+    return own[number - 1] if own is not None else common or 0.0
+
+
+def mechanism_of(terms: Terms) -> MechanismSizes:
+    """Sizes of the mechanism."""
+    offset = terms.value("k_offset") * terms.value("r_crank") if terms.has("k_offset") else 0.0
+    # Of an engine that is designed for a power the cycle tells the bore.
+    bore = terms.value("geometry_bore_mm" if terms.has("geometry_bore_mm") else "cyc_D")
+    return MechanismSizes(
+        bore, 1000 * terms.value("r_crank"), 1000 * terms.value("L_rod"), 1000 * offset
+    )
+
+
+def sizes_figure(throw: ThrowSizes, mechanism: MechanismSizes, *, size: float = 1.0) -> str:
+    """A throw beside the mechanism, each to a scale of its own, as SVG for the report.
+
+    ``size`` makes the drawings smaller, but not their letters.
+    """
+    rooms = ((size * wide, size * tall) for wide, tall in (_THROW, _MECHANISM))
+    draws = (partial(throw_drawing, throw), partial(mechanism_drawing, mechanism))
+    parts = [
+        _fitted(partial(draw, letters=_LETTERS), room)
+        for draw, room in zip(draws, rooms, strict=True)
+    ]
+    canvas = Canvas()
+    left_end, ends = 0.0, []
+    for items in parts:
+        left, _, right, high = bounds(items)
+        canvas.items += moved(items, left_end - left, -high)
+        ends.append(left_end + (right - left) / 2)
+        left_end += right - left + _BETWEEN
+    low = bounds(canvas.items)[1] - 2.5 * _LETTERS
+    for middle, letter in zip(ends, "аб", strict=True):
+        canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
+    left, low, right, high = bounds(canvas.items)
+    return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
+
+
+def _fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:
+    """A drawing to the scale at which it fits a room; letters keep their height."""
+    scale = 1.0
+    for _ in range(6):  # what letters take does not shrink with the drawing
+        left, low, right, high = bounds(draw(scale=scale))
+        scale *= min(room[0] / (right - left), room[1] / (high - low))
+    return draw(scale=scale)
+
+
+def throws_of(terms: Terms) -> list[ThrowSizes]:
+    """Sizes of all throws."""
+    return [throw_of(terms, n) for n in range(1, Shape.of(terms.model.input).throws + 1)]
+
 
 HEIGHT = 76.0  # mm
 _LETTER = "A-Za-zΑ-Ωα-ω"
@@ -89,7 +167,7 @@ def _curves(
     panel = _panel(terms, chart, columns, rows)
     if closed:
         x = np.append(x, x[0])
-        curves = (Curve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
+        curves = (PlotCurve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
         panel = replace(panel, curves=tuple(curves))
     return partial(
         curves_figure, x, (panel,), _axis(terms, name),
@@ -107,18 +185,18 @@ def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, l
     series = [chart.drawn_by("report") for chart in charts]
     name = series[0][0].x
     abscissa, *columns = terms.curves([name, *(s.y for each in series for s in each)])
-    found = iter(columns)
-    return name, abscissa, [[next(found) for _ in each] for each in series]
+    ordinates = iter(columns)
+    return name, abscissa, [[next(ordinates) for _ in each] for each in series]
 
 
 def _something(
     series: Sequence[Series], columns: Sequence[Column]
 ) -> tuple[Sequence[Series], Sequence[Column]]:
-    """Without curves that are zero all along beside others that are not."""
+    """Drop curves of zeros beside others."""
     sizes = [float(np.abs(column).max(initial=0.0)) for column in columns]
-    kept = [place for place, size in enumerate(sizes) if size > _NOISE * max(sizes)]
+    kept = [number for number, size in enumerate(sizes) if size > _NOISE * max(sizes)]
     places = kept or range(len(columns))
-    return [series[place] for place in places], [columns[place] for place in places]
+    return [series[number] for number in places], [columns[number] for number in places]
 
 
 def _panel(
@@ -138,7 +216,7 @@ def _panel(
     title = chart.y_tex or (_axis(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title))
     return Panel(
         tuple(
-            Curve(_name(terms, series), column)
+            PlotCurve(_name(terms, series), column)
             for series, column in zip(drawn, columns, strict=True)
         ),
         title,
@@ -222,7 +300,7 @@ def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
             y = np.where(np.abs(y) < _NOISE * np.abs(y).max(), 0.0, y)
             unit, angle = terms.unit(series.y), spoken(terms.tex(series.x))
             parts = (
-                f"{word} {numbers.significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
+                f"{word} {significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
                 f" при {angle} = {fixed(x[row], 0)}°"
                 for word, row in (("наибольшее", y.argmax()), ("наименьшее", y.argmin()))
             )

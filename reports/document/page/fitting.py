@@ -1,4 +1,4 @@
-"""A table made to fit the width of the text: other widths, smaller type, parts by columns.
+"""Fit of tables and paragraphs: widths, smaller type, parts by columns, count of lines.
 
 No number may be broken and nothing may stand over the edge of the page; so the width that
 every column needs is found from what stands in it.
@@ -6,16 +6,22 @@ every column needs is found from what stands in it.
 
 from __future__ import annotations
 
+import functools
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from html import unescape
+from typing import TYPE_CHECKING, NamedTuple
 
 from markupsafe import Markup
 
-from reports.document.page.blocks import Column, TableBlock
+from reports.document.page.blocks import TableBlock, TableColumn
 from reports.document.page.style import USUAL, Style
-from reports.document.text.fonts import text_em
+from reports.draw.fonts import text_em
 from reports.shared.russian import NBSP
+
+if TYPE_CHECKING:
+    from pyphen import Pyphen
 
 _SIZES = ("", "dense", "tiny")
 _AROUND = 8.5  # px of padding and rule of a cell
@@ -24,6 +30,12 @@ _SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>")
 _SMALLER = 0.7  # of indices, as in report.css.j2
 _SLANTED = 1.06  # slanted letters may be a little wider than upright ones
 _ROOM = 0.999  # rounding of the widths in per cent
+DIVIDED = (4, 2, 2)  # letters of a word that is divided and of its parts, at least
+_TOKEN = re.compile(r"<(/?)(\w+)([^>]*)>|([^<]+)")
+_UNBROKEN = re.compile(r'class="(?:nb|ref)"')
+# After a hyphen, a dash or a stroke before a letter a line may end.
+_PARTS = re.compile(r"(?<=[^\W\d]-)(?=[^\W\d])|(?<=–)(?=[^\s])|(?<=[^\W\d]/)(?=[^\W\d]|\()")
+_LETTERS = re.compile(r"[^\W\d_]+")
 
 
 def fitted(block: TableBlock, size: str, style: Style) -> tuple[list[TableBlock], str]:
@@ -64,17 +76,17 @@ def _needs(block: TableBlock, em: float) -> list[float]:
     ]
 
 
-def _head_em(column: Column) -> float:
+def _head_em(column: TableColumn) -> float:
     return max(map(_width, _pieces(column.head)), default=0.0)
 
 
-def _cell_em(cell: str, column: Column) -> float:
+def _cell_em(cell: str, column: TableColumn) -> float:
     widest = max(map(_width, _pieces(cell)), default=0.0)
     return min(widest, _WORD_EM) if column.text else widest
 
 
 def _pieces(text: str) -> Sequence[str]:
-    """What a line may not be broken within; tags have no spaces here but in attributes."""
+    """Unbreakable pieces of a line."""
     return re.split(r" (?![^<]*>)|<br>|(?<=-)(?=[А-яё])", text)
 
 
@@ -154,3 +166,96 @@ def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> fl
         if max(words, default=0.0) <= room and lines * size * _LINE <= height_mm / 25.4 * 72:
             return size
     return 0.0
+
+
+class _Piece(NamedTuple):
+    """An unbreakable piece of a line; plain text may be hyphenated."""
+
+    width: float
+    space: float  # after it
+    text: str = ""
+
+
+def line_count(html: str, room: float, *, indent: float = 0.0, divided: bool = True) -> int:
+    """Lines of a paragraph.
+
+    Args:
+        html: Its text; the only elements are inline ones.
+        room: Width of a line [em].
+        indent: Of the first line [em].
+        divided: Words are hyphenated.
+    """
+    lines, used = 1, indent
+    for width, space, text in _line_pieces(html):
+        if used + width <= room or not used:
+            used += width + space
+            continue
+        rest = _divided(text, room - used) if text and divided else 0.0
+        lines, used = lines + 1, (rest or width) + space
+    return lines
+
+
+def _line_pieces(html: str) -> Iterator[_Piece]:
+    """Pieces of the text with their widths."""
+    width, plain, text = 0.0, True, ""
+    for run, small, unbroken, slanted in _runs(html):
+        scale = _SMALLER if small else 1.0
+        words = [run] if unbroken else re.split(r"( +)", run)
+        for word in words:
+            if word and not word.strip(" "):
+                if width:
+                    yield _Piece(width, text_em(" "), text if plain else "")
+                width, plain, text = 0.0, True, ""
+                continue
+            parts = [word] if unbroken or small else _PARTS.split(word)
+            for part in parts[:-1]:
+                width += scale * text_em(part, slanted=slanted)
+                yield _Piece(width, 0.0, text + part if plain else "")
+                width, plain, text = 0.0, True, ""
+            width += scale * text_em(parts[-1], slanted=slanted)
+            plain = plain and not (small or unbroken or slanted)
+            text += parts[-1]
+    if width:
+        yield _Piece(width, 0.0, text if plain else "")
+
+
+def _runs(html: str) -> Iterator[tuple[str, bool, bool, bool]]:
+    """Stretches of text: whether they are small, must not be divided, are slanted."""
+    small = unbroken = slanted = 0
+    open_tags: list[tuple[bool, bool, bool]] = []
+    for closing, tag, attributes, text in _TOKEN.findall(html):
+        if text:
+            run = re.sub(r"[ \n\t]+", " ", unescape(text))
+            yield run, small > 0, unbroken > 0, slanted > 0
+        elif closing:
+            if open_tags:
+                less, whole, turned = open_tags.pop()
+                small, unbroken, slanted = small - less, unbroken - whole, slanted - turned
+        elif tag not in ("br", "img") and not attributes.endswith("/"):
+            less, whole = tag in ("sub", "sup"), bool(_UNBROKEN.search(attributes))
+            open_tags.append((less, whole, tag == "i"))
+            small, unbroken, slanted = small + less, unbroken + whole, slanted + (tag == "i")
+
+
+def _divided(text: str, room: float) -> float:
+    """Width of the part of a word that goes on to the next line; 0 if none fits before."""
+    word = next((m for m in _LETTERS.finditer(text) if len(m.group()) >= DIVIDED[0]), None)
+    if word is None:
+        return 0.0
+    for split in reversed(_places(word.group())):
+        at = word.start() + split
+        if text_em(text[:at]) + text_em("-") <= room:
+            return text_em(text[at:])
+    return 0.0
+
+
+@functools.lru_cache(maxsize=4096)
+def _places(word: str) -> tuple[int, ...]:
+    return tuple(_dictionary().positions(word))
+
+
+@functools.cache
+def _dictionary() -> Pyphen:
+    from pyphen import Pyphen
+
+    return Pyphen(lang="ru_RU", left=DIVIDED[1], right=DIVIDED[2])

@@ -9,15 +9,79 @@ than these lines of blank paper.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from markupsafe import Markup
 
+from reports.document.page.fitting import line_count
+from reports.document.page.numbering import Figure
 from reports.document.page.placing import WIDTH, Block, Kind, Spot, filled
 from reports.document.page.style import Style
-from reports.document.text.fonts import text_em
-from reports.document.text.lines import line_count
+from reports.draw.fonts import text_em
+from reports.draw.writers import PT_PER_MM
+
+_PICTURE = re.compile(
+    r'<figure id="(?P<name>[^"]+)"><(?:svg|img) class="fig"[^>]*?style="width:(?P<width>[\d.]+)mm"'
+    r'[^>]*? data-size="(?P<wide>[\d.]+)/(?P<tall>[\d.]+)"[^>]*>'
+)
+_SIZE = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
+
+_SIZES = ("height", "most", "size")  # what the drawing functions call their size [mm]
+_TRIES = 8
+_CLOSE = 0.995  # of the height that there is
+
+
+def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, str], str]) -> str:
+    """The text with every reduced figure drawn within its new height.
+
+    Args:
+        body: HTML of the chapters, of each figure the picture as an image.
+        figures: Plans by the ids of the figures.
+        pictured: Makes an image of a drawing and its alternative text.
+    """
+
+    def anew(match: re.Match[str]) -> str:
+        share = float(match["width"]) * PT_PER_MM / float(match["wide"])
+        plan = figures.get(match["name"])
+        if plan is None or share >= _CLOSE:
+            return match.group()
+        svg = smaller(plan.draw, share * float(match["tall"]))
+        if svg is None:
+            return match.group()
+        return f'<figure id="{match["name"]}">{pictured(svg, plan.alt or plan.caption)}'
+
+    return _PICTURE.sub(anew, body)
+
+
+def smaller(draw: Callable[[], str], height: float) -> str | None:
+    """A drawing within a height [pt]; ``None`` where its size is not to be chosen."""
+    if not isinstance(draw, partial):
+        return None
+    key = next((name for name in _SIZES if name in draw.keywords), None)
+    if key is None:
+        return None
+    size, margins = float(draw.keywords[key]), 0.0
+    svg: str = draw()
+    for _ in range(_TRIES):
+        tall = _height(svg)
+        if tall <= height:
+            return svg
+        # The room of the type around the field does not shrink.
+        share = (_CLOSE * height - margins) / (tall - margins)
+        if share <= 0:
+            break
+        size *= share
+        svg = draw.func(*draw.args, **draw.keywords | {key: size})
+        margins = max(0.0, (_height(svg) - share * tall) / (1 - share))
+    return None
+
+
+def _height(svg: str) -> float:
+    match = _SIZE.search(svg)
+    return float(match[2]) if match else 0.0
+
 
 _TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
 _BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
@@ -76,7 +140,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
 def _fuller(
     chapter: Sequence[Block], spot: Spot, found: tuple[list[str], Spot], room: float, line: float
 ) -> tuple[list[str], Spot]:
-    """What ran on and left its page for a few lines begins on the next page instead."""
+    """Move a chapter that leaves few lines on a page to the next page."""
     _, end = found
     if not spot.used or end.page == spot.page or end.used > _SCANT * room:
         return found
@@ -87,8 +151,8 @@ def _fuller(
 
 def _number(chapter: Block) -> str:
     """Number in a chapter's heading, empty for introduction, conclusion, appendices."""
-    found = _NUMBERED.search(chapter.html)
-    return found[1] if found else ""
+    match = _NUMBERED.search(chapter.html)
+    return match[1] if match else ""
 
 
 def _blocks(body: str, style: Style) -> Iterator[Block]:

@@ -1,4 +1,4 @@
-"""Where the blocks of a chapter stand: figures and small tables float, text goes on.
+"""Page layout of a chapter: figures and small tables float, text goes on.
 
 Of the orders that keep figures and tables each in their own order the one is taken that costs
 least: blank feet of pages, figures reduced or far from their text or in the next section, and
@@ -114,13 +114,13 @@ def _with_tails(blocks: Sequence[Block]) -> list[Block]:
     kept: list[Block] = []
     after = Block("", "other", 0.0)
     for block in reversed(blocks):
-        told = block
+        tailed = block
         if block.kind in ("heading", "chapter"):
-            told = replace(block, tail=max(block.below, after.above) + _beginning(after))
+            tailed = replace(block, tail=max(block.below, after.above) + _beginning(after))
         elif _leads(block) and _is_formula(after):
-            told = replace(block, html=_leading(block.html), tail=after.above + after.height)
-        kept.append(told)
-        after = after if block.kind == "float" else told
+            tailed = replace(block, html=_leading(block.html), tail=after.above + after.height)
+        kept.append(tailed)
+        after = after if block.kind == "float" else tailed
     return kept[::-1]
 
 
@@ -152,10 +152,10 @@ def _beginning(block: Block) -> float:
 def _ways(layout: _Layout, room: float, line: float, together: int) -> Iterator[_Layout]:
     """Some, none or all of the waiting blocks placed here, each series in its order."""
     yield layout
-    for place, block in enumerate(layout.waiting):
-        if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:place]):
+    for number, block in enumerate(layout.waiting):
+        if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:number]):
             continue
-        waiting = layout.waiting[:place] + layout.waiting[place + 1 :]
+        waiting = layout.waiting[:number] + layout.waiting[number + 1 :]
         for html, spot in _put(block, waiting[:together], layout.spot, room, line):
             yield from _ways(layout.then(html, spot, waiting), room, line, together)
 
@@ -250,10 +250,10 @@ def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
     if block.kind == "table":
         whole = begin + _beginning(block) > room
         end, pages = block.height - sum(block.rows) + (block.above if whole else begin), int(whole)
-        for place, row in enumerate(block.rows):
+        for number, row in enumerate(block.rows):
             if end + row > room:
-                first = max(0, min(place, len(block.rows) - _TOGETHER))
-                end, pages = block.head + sum(block.rows[first:place]), pages + 1
+                first = max(0, min(number, len(block.rows) - _TOGETHER))
+                end, pages = block.head + sum(block.rows[first:number]), pages + 1
             end += row
         return end, pages, whole
     over, whole = begin + block.height - room, True
@@ -277,7 +277,7 @@ def _reduced(block: Block, share: float) -> str:
 
 
 def _paged(block: Block, page: int) -> str:
-    """A heading told its page as estimated: contents that nobody has renewed show it."""
+    """Write the estimated page into a heading, for contents not yet updated."""
     heading = block.kind in ("chapter", "heading")
     return (
         _HEADING.sub(rf'\g<0> data-page="{page}"', block.html, count=1) if heading else block.html

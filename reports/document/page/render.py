@@ -11,25 +11,80 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+import pydyf
 from markupsafe import Markup
 
 from reports.document.page import fitting
-from reports.document.page.finish import finish
+from reports.document.page.fitting import DIVIDED
 from reports.document.page.style import USUAL, Style
-from reports.document.text import fonts, texts
-from reports.document.text.complaints import complaints
-from reports.document.text.lines import DIVIDED
-from reports.document.text.mathsvg import formula_lines
+from reports.document.text import texts
+from reports.document.text.mathsvg import complaints, formula_lines
 from reports.document.text.symbols import inline_html
+from reports.document.text.texts import FORMULA
+from reports.draw import fonts
 from reports.shared.doctor import need_pango
-from reports.shared.garbage import uncollected
+from reports.shared.font_coverage import boxed
+from reports.shared.gc_pause import uncollected
 from reports.shared.russian import NBSP, joined
-from reports.shared.signs import boxed
 
 if TYPE_CHECKING:
     import weasyprint
     from jinja2 import Environment
     from weasyprint.urls import URLFetcher, URLFetcherResponse
+
+_TYPES = {".toml": "application/toml"}  # that Python's list of media types lacks
+
+
+def finish(pdf: Any) -> None:  # noqa: ANN401
+    """Formulas and headings of columns tagged as such; attachments named once, with their types.
+
+    Then each object is written: pydyf asks for its bytes twice, in the end for a hash.
+    """
+    for item in pdf.objects:
+        if isinstance(item, dict) and item.get("Type") == "/StructElem":
+            _tagged(item)
+        elif isinstance(item, dict) and item.get("Type") == "/Filespec":
+            _typed(pdf, item)
+    if "AF" in pdf.catalog:
+        pdf.catalog["AF"][:] = dict.fromkeys(pdf.catalog["AF"])
+    for number, item in enumerate(pdf.objects[1:], 1):  # one by one: each takes room
+        pdf.objects[number] = (_Stream if isinstance(item, pydyf.Stream) else _Object)(item)
+
+
+class _Written:
+    """A PDF object with its bytes."""
+
+    data = b""
+
+    def __init__(self, made: pydyf.Object) -> None:
+        super().__init__()
+        self.number, self.generation, self.free = made.number, made.generation, made.free
+        self.data = made.data
+
+
+class _Object(_Written, pydyf.Object):  # type: ignore[misc]
+    """A PDF object other than a stream."""
+
+
+class _Stream(_Written, pydyf.Stream):  # type: ignore[misc]
+    """A PDF stream."""
+
+
+def _tagged(element: dict[str, Any]) -> None:
+    words = element.get("Alt")
+    if words is not None and words.string.startswith(FORMULA):
+        words.string = words.string.removeprefix(FORMULA)
+        element["S"] = "/Formula"
+    elif element.get("S") == "/TH":
+        element["A"]["Scope"] = "/Column"
+
+
+def _typed(pdf: Any, file: dict[str, Any]) -> None:  # noqa: ANN401
+    for ending, media in _TYPES.items():
+        if file["UF"].string.endswith(ending):
+            stream = pdf.objects[int(file["EF"]["F"].split()[0])]
+            stream.extra["Subtype"] = f"/{media.replace('/', '#2f')}"
+
 
 _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
 _DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")

@@ -1,4 +1,4 @@
-"""How the sheets are set: what a department asks for instead of the usual."""
+"""Style file of a department: margins, type, front sheets, numbering."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from reports.inputs.load import tables_of
 from reports.inputs.messages import explain
-from reports.inputs.source import read_text
+from reports.inputs.normalise import read_text
 from reports.shared.errors import InputError, Problem
 
 HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
@@ -123,7 +123,7 @@ def read(path: Path) -> Style:
 
 
 def _said(error: ValidationError) -> str:
-    """All that is wrong in one line: key, what, what is allowed."""
+    """Validation errors in one line: key, fault, allowed values."""
     lines = []
     for item in error.errors():
         what, hint = explain(item, None)

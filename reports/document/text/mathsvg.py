@@ -12,8 +12,10 @@ Conventions of the TeX: Cyrillic indices as ``P_{\mathrm{г}}``, decimal comma a
 from __future__ import annotations
 
 import functools
+import logging
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from html import escape as escape_html
@@ -21,23 +23,47 @@ from typing import Any
 
 from markupsafe import Markup
 
-from reports.document.text import texcases
-from reports.document.text.complaints import complaints
-from reports.document.text.spoken import spoken
-from reports.document.text.symbols import SIGNS
+from reports.document.text.symbols import SIGNS, spoken
 from reports.document.text.tex import (
     FRACTIONS,
     GREEK,
     BreakPoint,
-    Node,
     TexError,
+    TexNode,
     break_points,
+    case_lines,
+    case_parts,
+    for_mathtext,
+    is_cases,
     steps,
     tree,
 )
 from reports.document.text.texts import pictured
-from reports.document.text.texwords import for_mathtext
 from reports.shared.russian import MINUS, NBSP
+
+
+class _Collector(logging.Handler):
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.lines: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        line = record.getMessage()
+        if line not in self.lines:
+            self.lines.append(line)
+
+
+@contextmanager
+def complaints(name: str) -> Iterator[list[str]]:
+    """Warnings of a logger, each once, while nothing of them reaches the screen."""
+    logger, collector = logging.getLogger(name), _Collector()
+    handlers, propagate = logger.handlers[:], logger.propagate
+    logger.handlers[:], logger.propagate = [collector], False
+    try:
+        yield collector.lines
+    finally:
+        logger.handlers[:], logger.propagate = handlers, propagate
+
 
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
 _PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
@@ -58,12 +84,12 @@ _ONE = re.compile(r"−?[\w.]+")  # an index or exponent that needs no brackets
 _DECIMAL_POINT = re.compile(r"\d\.\d")
 
 
-class FormulaError(ValueError):
+class FormulaImageError(ValueError):
     """The TeX of a formula cannot be set."""
 
 
 @dataclass(frozen=True, slots=True)
-class Formula:
+class FormulaImage:
     """A formula as an SVG element with its size in em of the surrounding text.
 
     ``height_em`` counts from the bottom of the box; ``depth_em`` is how far the box hangs
@@ -87,7 +113,7 @@ class Formula:
 
 
 @functools.lru_cache(maxsize=4096)
-def formula(tex: str) -> Formula:
+def formula(tex: str) -> FormulaImage:
     """Set one line of TeX (without dollar signs).
 
     Raises:
@@ -96,7 +122,7 @@ def formula(tex: str) -> Formula:
     width, height, depth, glyphs, rects = _parse(tex)
     baseline = height - depth
     parts = [*_texts(glyphs, baseline), *_rules(rects, baseline)]
-    return Formula(*_svg(tex, width, height, depth, parts), tex)
+    return FormulaImage(*_svg(tex, width, height, depth, parts), tex)
 
 
 def _svg(
@@ -118,9 +144,9 @@ def _svg(
     return svg, width_em, height_em, depth_em
 
 
-def _cases(tex: str) -> Formula:
+def _cases(tex: str) -> FormulaImage:
     """Branches of a value, each with its condition, behind one brace."""
-    lead, branches = texcases.parts(tex)
+    lead, branches = case_parts(tex)
     cells = [[_parse(cell) for cell in branch] for branch in branches]
     column = max(branch[0][0] for branch in cells) + _BETWEEN
     name_width, _, _, *name = _parse(lead)
@@ -136,7 +162,7 @@ def _cases(tex: str) -> Formula:
     body.append(_moved(0.0, 0.0, _texts(name[0], baseline), _rules(name[1], baseline)))
     body.append(_brace(name_width, height))
     width = left + max(column + branch[-1][0] for branch in cells)
-    return Formula(*_svg(tex, width, height, height - baseline, body), tex)
+    return FormulaImage(*_svg(tex, width, height, height - baseline, body), tex)
 
 
 def _moved(x: float, y: float, *parts: Iterable[str]) -> str:
@@ -158,7 +184,7 @@ def _brace(x: float, height: float) -> str:
 
 
 @functools.lru_cache(maxsize=4096)
-def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
+def formula_lines(tex: str, max_em: float = 28.0) -> tuple[FormulaImage, ...]:
     r"""Set a formula in as many lines as it needs to stay within a width.
 
     The break falls at a relation sign first, then at plus or minus, then at a product, all
@@ -173,17 +199,17 @@ def formula_lines(tex: str, max_em: float = 28.0) -> tuple[Formula, ...]:
     Raises:
         FormulaError: The TeX is wrong.
     """
-    lines: list[Formula] = []
-    if texcases.is_cases(tex):
+    lines: list[FormulaImage] = []
+    if is_cases(tex):
         lines = [_cases(tex)]
         if lines[0].width_em > max_em:
-            lines, tex = [], texcases.apart(tex)
+            lines, tex = [], case_lines(tex)
     for forced in tex.split(r"\\") if not lines else ():
         lines.extend(_fit(forced.strip(), max_em))
     return tuple(lines)
 
 
-def _fit(tex: str, max_em: float) -> list[Formula]:
+def _fit(tex: str, max_em: float) -> list[FormulaImage]:
     broken = _broken(tex, max_em)
     if all(line.width_em <= max_em for line in broken):
         return broken
@@ -197,15 +223,15 @@ def _fit(tex: str, max_em: float) -> list[Formula]:
     return lines
 
 
-def _is_wide(limit: float, nodes: Sequence[Node]) -> bool:
+def _is_wide(limit: float, nodes: Sequence[TexNode]) -> bool:
     return sum(map(_wide, nodes)) * _SIGN > limit
 
 
-def _broken(tex: str, max_em: float) -> list[Formula]:
+def _broken(tex: str, max_em: float) -> list[FormulaImage]:
     """Lines of a formula; one that cannot be broken stays wider."""
     # Setting a formula costs a millisecond a sign: lines are guessed by counting signs, and
     # the first guess that fits serves.
-    whole: Formula | None = None
+    whole: FormulaImage | None = None
     scale = _SIGN
     if _signs(tex) * scale <= 1.2 * max_em:
         whole = formula(tex)
@@ -244,7 +270,7 @@ def _signs(tex: str) -> int:
         return len(tex)
 
 
-def _wide(node: Node) -> int:
+def _wide(node: TexNode) -> int:
     """Signs of a node; of a fraction the wider part counts."""
     parts = [sum(map(_wide, part)) for part in node.parts]
     if node.token in FRACTIONS:
@@ -262,17 +288,17 @@ def _parse(tex: str) -> tuple[float, float, float, Iterable[Any], Iterable[Any]]
         source = ""
     if not source:
         msg = f"Формула пуста, содержит $, десятичную точку или непарные скобки: {tex!r}"
-        raise FormulaError(msg)
+        raise FormulaImageError(msg)
     with complaints("matplotlib.mathtext") as lines:  # a sign without a glyph is no formula
         try:
             parsed = read(f"${source}$", _UNITS)
         except (ValueError, RuntimeError) as error:
             reason = str(error).strip().splitlines()[-1]
             msg = f"Формула не набирается: {tex!r}: {reason}"
-            raise FormulaError(msg) from error
+            raise FormulaImageError(msg) from error
     if lines:
         msg = f"Формула не набирается: {tex!r}: {lines[0]}"
-        raise FormulaError(msg)
+        raise FormulaImageError(msg)
     return parsed.width, parsed.height, parsed.depth, parsed.glyphs, parsed.rects
 
 
@@ -312,8 +338,8 @@ def texts_of(
         style += ' font-style="italic"' if "Italic" in font.style_name else ""
         style += ' font-weight="bold"' if "Bold" in font.style_name else ""
         char = NBSP if code == _SPACE else escape_html(chr(code))
-        place = (number(origin[0] + x), number(origin[1] - y), char)
-        runs.setdefault((style, number(size)), []).append(place)
+        glyph = (number(origin[0] + x), number(origin[1] - y), char)
+        runs.setdefault((style, number(size)), []).append(glyph)
     return [
         f'<text{style} font-size="{size}" x="{_list(run, 0)}" '
         f'y="{_list(run, 1)}">{"".join(char for _, _, char in run)}</text>'
@@ -341,13 +367,13 @@ def _number(value: float) -> str:
 
 def plain(tex: str) -> str:
     """A formula on one line of signs."""
-    if texcases.is_cases(tex):
-        tex = texcases.apart(tex)
+    if is_cases(tex):
+        tex = case_lines(tex)
     tex = _INVISIBLE.sub("", tex.replace("{,}", ",").replace(r" \\", ";"))
     return re.sub(r"\s+", " ", "".join(map(_said, tree(tex)))).strip()
 
 
-def _said(node: Node) -> str:
+def _said(node: TexNode) -> str:
     parts = ["".join(map(_said, part)) for part in node.parts]
     if node.token in FRACTIONS:
         return f"({parts[0]})/({parts[1]})"

@@ -3,7 +3,7 @@ r"""matplotlib's mathtext without its parser, which takes nine tenths of its tim
 The library reads TeX by trying one rule after the other; its boxes are made by the rules'
 actions.  Here the same actions are called by a reader that looks at one sign and knows the
 rule; a formula with anything it does not know, or that goes wrong, is read by the library.
-The actions and boxes are no public interface: ``tests/document/test_text_mathtext.py`` compares
+The actions and boxes are no public interface: ``tests/document/test_text_mathsvg.py`` compares
 with the library's own reading, so another version that acts otherwise is noticed.
 ``./run bench document`` says what it gains.
 """
@@ -29,7 +29,7 @@ _ESCAPED = {"\\" + sign for sign in "%{}[]_|"}
 
 
 class _Unknown(Exception):  # noqa: N818
-    """Something that is left to the library."""
+    """A construct left to the library."""
 
 
 def read(text: str, size: float) -> VectorParse:
@@ -45,7 +45,7 @@ def read(text: str, size: float) -> VectorParse:
     font = FontProperties(family="STIXGeneral", size=size, math_fontfamily="stix")
     try:
         fonts = lib.StixFonts(font, LoadFlags.NO_HINTING)
-        placed = lib.ship(_Reader(text, font, fonts).boxes())
+        placed = lib.ship(_GlyphReader(text, font, fonts).boxes())
         drawn: VectorParse = placed.to_vector()
         for kept_by_itself in (fonts, placed):  # and all boxes with them
             vars(kept_by_itself).clear()
@@ -54,7 +54,7 @@ def read(text: str, size: float) -> VectorParse:
     return drawn
 
 
-class _Reader(lib.Parser):  # type: ignore[misc]
+class _GlyphReader(lib.Parser):  # type: ignore[misc]
     """The library's parser with another reading: one look at the next sign."""
 
     def __init__(self, text: str, font: FontProperties, fonts: Any) -> None:  # noqa: ANN401
@@ -70,18 +70,18 @@ class _Reader(lib.Parser):  # type: ignore[misc]
         parts = self._text.split("$")
         if len(parts) % 2 == 0 or "\\$" in self._text or "'" in self._text:
             raise _Unknown
-        found = []
+        boxes = []
         for number, part in enumerate(parts):
             if number % 2 == 0:
-                found += self.non_math([part])
+                boxes += self.non_math([part])
                 continue
             self._s, self._at = part, 0
             nodes = self._tokens()
             if self._at < len(part) or not nodes:
                 raise _Unknown
-            found.append(lib.Hlist(nodes))
+            boxes.append(lib.Hlist(nodes))
             self.pop_state()
-        return lib.Hlist(found)
+        return lib.Hlist(boxes)
 
     def _next(self) -> str:
         """The next command or sign that is no space; empty at the end."""
@@ -92,10 +92,10 @@ class _Reader(lib.Parser):  # type: ignore[misc]
             return ""
         if s[self._at] != "\\":
             return s[self._at]
-        found = _COMMAND.match(s, self._at)
-        if found is None:
+        match = _COMMAND.match(s, self._at)
+        if match is None:
             raise _Unknown
-        return found.group()
+        return match.group()
 
     def _take(self, token: str) -> None:
         if self._next() != token:
@@ -115,11 +115,11 @@ class _Reader(lib.Parser):  # type: ignore[misc]
             self._at += len(token)
             return _one(self.space({"space": token}))
         if token == r"\hspace":
-            found = _SPACE.match(self._s, self._at)
-            if found is None:
+            match = _SPACE.match(self._s, self._at)
+            if match is None:
                 raise _Unknown
-            self._at = found.end()
-            return _one(self.customspace({"space": float(found[1])}))
+            self._at = match.end()
+            return _one(self.customspace({"space": float(match[1])}))
         begin = self._at
         known: dict[str, Any] = {} if token in "_^" else {"nucleus": self._placeable(token)}
         indices: list[Any] = []
@@ -133,7 +133,7 @@ class _Reader(lib.Parser):  # type: ignore[misc]
         return _one(self.subsuper(self._s, begin, known))
 
     def _placeable(self, token: str) -> Any:  # noqa: ANN401
-        """What may have indices."""
+        """A nucleus that may carry indices."""
         begin = self._at
         rule = _RULES.get(token)
         if rule is not None:
@@ -198,7 +198,7 @@ class _Reader(lib.Parser):  # type: ignore[misc]
 
 
 def _one(made: Any) -> Any:  # noqa: ANN401
-    """What an action made, which may be a list of one."""
+    """Unwrap a list of one."""
     return made[0] if isinstance(made, list) else made
 
 

@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 
 from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import Quantity, quantity
-from reports.document.text import numbers
 from reports.document.text.symbols import inline_html
-from reports.document.text.texts import powers, rich
+from reports.document.text.texts import of_digits, of_digits_tex, powers, rich, to_tex
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
-from reports.inputs.checks.grid import GridError, grid_errors
 from reports.inputs.fields import Field
+from reports.inputs.solve_input import GridError, grid_errors
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model, Node
 from reports.model.evaluation import Values
@@ -28,15 +27,10 @@ from reports.shared.russian import NBSP, fixed
 
 # Symbols that would be ambiguous within a formula.
 _SYMBOLS = {
-    "L_rod": "L",
     "M_Nm": r"M_{\mathrm{ц}}",
     "volume_ratio": "x",
-    "x_start": r"x_{c}",
-    "p_start": r"p_{c1}",
-    "x_open": r"x_{\mathrm{в.о}}",
     "share": r"\dfrac{a_{\mathrm{п}}}{l}",
     "share2": r"\dfrac{a_{\mathrm{п}2}}{l}",
-    "psi_deg": r"\psi",
     "throw": "",
     TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
@@ -85,7 +79,7 @@ class WhereItem:
 
 @dataclass(frozen=True)
 class Terms:
-    """What a section asks for: symbols, numbers, formulas of nodes.
+    """Symbols, numbers and formulas of a model's nodes for the text.
 
     A node is a scalar (``omega``), an input (``geometry_bore_mm``) or a column
     (``P4_1.T_MPa``); a column's number is taken at the row of an angle.
@@ -97,7 +91,7 @@ class Terms:
 
     @cached_property
     def grid_errors(self) -> tuple[GridError, ...]:
-        """What the step of the tables puts far from the solution with a step of a degree."""
+        """Results whose error from the tables' step is visible."""
         return grid_errors(self.model.input)
 
     def curves(self, names: Sequence[str]) -> list[NDArray[np.float64]]:
@@ -179,7 +173,7 @@ class Terms:
         if beside:
             other = self._digits(beside).within(self.value(beside))
             digits = replace(digits, decimals=min(digits.decimals, other.decimals))
-        return numbers.of_digits(value, digits)
+        return of_digits(value, digits)
 
     def val(self, name: str, at: float | None = None, beside: str = "") -> Markup:
         """Number with unit: ``829 Н·м``, ``30°``."""
@@ -219,8 +213,8 @@ class Terms:
     def result_tex(self, name: str, at: float | None = None) -> str:
         """Result with unit for TeX."""
         if name in self.model.fields:
-            return numbers.to_tex(self.num(name, at)) + unit_tex(self.unit(name))
-        shown = numbers.of_digits_tex(self.value(name, at), self._digits(name))
+            return to_tex(self.num(name, at)) + unit_tex(self.unit(name))
+        shown = of_digits_tex(self.value(name, at), self._digits(name))
         return shown + unit_tex(self.unit(name))
 
     def branches(self, name: str) -> list[formulas.Piece]:
@@ -290,7 +284,7 @@ class Terms:
             return formulas.Raw(_number_tex(value))
         about = self.quantity(name)
         if about.unit == "rad":
-            text = numbers.to_tex(fixed(float(np.degrees(value)), 3))
+            text = to_tex(fixed(float(np.degrees(value)), 3))
             return formulas.Raw(text + r"^{\circ}")
         noise = about.digits.kind == "fixed" and abs(value) < 10.0 ** -(about.digits.decimals + 9)
         return formulas.Raw(_number_tex(0.0 if noise else value))
@@ -317,7 +311,7 @@ def book_place(*sources: str) -> str:
     word = "формула" if len(named) == 1 else "формулы"
     places = [f"{word}\u00a0{', '.join(named)}"] if named else []
     others = (_section_place(source) for source in own if not re.search(r"\(\d+[а-я]?\)", source))
-    return ", ".join([*places, *dict.fromkeys(place for place in others if place)])
+    return ", ".join([*places, *dict.fromkeys(reference for reference in others if reference)])
 
 
 def _section_place(source: str) -> str:

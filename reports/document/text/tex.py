@@ -7,7 +7,7 @@ index, ``\dfrac`` two parts; any other token has none.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|.", re.DOTALL)
@@ -42,11 +42,11 @@ class TexError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Node:
+class TexNode:
     """A token with its arguments."""
 
     token: str
-    parts: tuple[tuple[Node, ...], ...] = ()
+    parts: tuple[tuple[TexNode, ...], ...] = ()
 
     @property
     def command(self) -> str:
@@ -59,48 +59,48 @@ class Node:
         return self.token in _TAKES_ONE
 
 
-def tree(tex: str) -> tuple[Node, ...]:
+def tree(tex: str) -> tuple[TexNode, ...]:
     """Read a formula.
 
     Raises:
         TexError: braces do not pair up, or an argument is missing.
     """
     tokens = _TOKEN.findall(tex)
-    nodes, place = _sequence(tokens, 0)
-    if place < len(tokens):
+    nodes, end = _sequence(tokens, 0)
+    if end < len(tokens):
         msg = f"Лишняя скобка в формуле {tex!r}"
         raise TexError(msg)
     return nodes
 
 
-def _sequence(tokens: Sequence[str], place: int) -> tuple[tuple[Node, ...], int]:
+def _sequence(tokens: Sequence[str], start: int) -> tuple[tuple[TexNode, ...], int]:
     """Nodes up to the closing brace or the end, and the place there."""
     nodes = []
-    while place < len(tokens) and tokens[place] != "}":
-        node, place = _node(tokens, place)
+    while start < len(tokens) and tokens[start] != "}":
+        node, start = _node(tokens, start)
         nodes.append(node)
-    return tuple(nodes), place
+    return tuple(nodes), start
 
 
-def _node(tokens: Sequence[str], place: int) -> tuple[Node, int]:
-    token = tokens[place]
-    place += 1
+def _node(tokens: Sequence[str], start: int) -> tuple[TexNode, int]:
+    token = tokens[start]
+    start += 1
     if token == "{":
-        inner, place = _sequence(tokens, place)
-        if place == len(tokens):
+        inner, start = _sequence(tokens, start)
+        if start == len(tokens):
             msg = "Не закрыта фигурная скобка в формуле"
             raise TexError(msg)
-        return Node(token, (inner,)), place + 1
+        return TexNode(token, (inner,)), start + 1
     parts = []
     for _ in range(2 if token in FRACTIONS else 1 if token in _TAKES_ONE else 0):
-        while place < len(tokens) and tokens[place].isspace():
-            place += 1
-        if place == len(tokens) or tokens[place] == "}":
+        while start < len(tokens) and tokens[start].isspace():
+            start += 1
+        if start == len(tokens) or tokens[start] == "}":
             msg = f"Формула обрывается после {token}"
             raise TexError(msg)
-        part, place = _node(tokens, place)
+        part, start = _node(tokens, start)
         parts.append(part.parts[0] if part.token == "{" else (part,))
-    return Node(token, tuple(parts)), place
+    return TexNode(token, tuple(parts)), start
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,10 +133,10 @@ def break_points(tex: str) -> list[BreakPoint]:
     for match in _TOKEN.finditer(tex):
         token = match.group()
         if groups == 0 and previous:
-            place = _place(token, match, previous)
+            line_end = _place(token, match, previous)
             # Nothing but a carried sign stands before: such a break would repeat for ever.
-            if place is not None and not _CARRIED.fullmatch(tex[: match.start()]):
-                end, sign, carried, rank = place
+            if line_end is not None and not _CARRIED.fullmatch(tex[: match.start()]):
+                end, sign, carried, rank = line_end
                 shut, opened = r"\right." * sized, r"\left." * sized
                 points.append(
                     BreakPoint(
@@ -168,18 +168,18 @@ def _place(token: str, match: re.Match[str], previous: str) -> tuple[int, str, s
     return None
 
 
-def written(nodes: Sequence[Node]) -> str:
+def written(nodes: Sequence[TexNode]) -> str:
     """The TeX of some nodes."""
     return _LOOSE.sub(r"\1", "".join(_written(node) for node in nodes))
 
 
-def _written(node: Node) -> str:
+def _written(node: TexNode) -> str:
     parts = "".join(f"{{{written(part)}}}" for part in node.parts)
     bare = node.command.isalpha() and not node.parts
     return parts if node.token == "{" else node.token + parts + (" " if bare else "")
 
 
-def steps(tex: str, widest: Callable[[Sequence[Node]], bool]) -> list[str]:
+def steps(tex: str, widest: Callable[[Sequence[TexNode]], bool]) -> list[str]:
     """The formula with parts too wide for a line named, then each part by its name.
 
     Args:
@@ -191,10 +191,10 @@ def steps(tex: str, widest: Callable[[Sequence[Node]], bool]) -> list[str]:
     """
     named: list[str] = []
 
-    def shortened(node: Node) -> Node:
+    def shortened(node: TexNode) -> TexNode:
         names = _NAMES.get(node.token)
         if names is None:
-            return Node(node.token, tuple(tuple(map(shortened, part)) for part in node.parts))
+            return TexNode(node.token, tuple(tuple(map(shortened, part)) for part in node.parts))
         parts = []
         for name, part in zip(names, node.parts, strict=True):
             if not widest(part):
@@ -204,7 +204,113 @@ def steps(tex: str, widest: Callable[[Sequence[Node]], bool]) -> list[str]:
             symbol = rf"\mathrm{{{name}}}" + (f"_{{{count}}}" if count > 1 else "")
             named.append(f"{symbol} = {written(part)}")
             parts.append(tree(symbol))
-        return Node(node.token, tuple(parts))
+        return TexNode(node.token, tuple(parts))
 
     short = written([shortened(node) for node in tree(tex)])
     return [short, *named]
+
+
+_CASES = re.compile(r"(.*?)\\begin\{cases\}(.*)\\end\{cases\}", re.DOTALL)
+
+
+def cases(lead: str, branches: Iterable[tuple[str, str]]) -> str:
+    """TeX of a value from its branches, each a formula and the condition of it."""
+    body = r" \\ ".join(rf"{formula}, & {condition}" for formula, condition in branches)
+    return rf"{lead} \begin{{cases}} {body} \end{{cases}}"
+
+
+def is_cases(tex: str) -> bool:
+    """A formula that is a value given by branches."""
+    return _CASES.fullmatch(tex) is not None
+
+
+def case_parts(tex: str) -> tuple[str, list[list[str]]]:
+    """Text before the brace and the cells of each branch."""
+    match = _CASES.fullmatch(tex)
+    if match is None:
+        msg = f"no branches in {tex!r}"
+        raise ValueError(msg)
+    rows = match[2].split(r"\\")
+    return match[1].strip(), [[cell.strip() for cell in row.split("&")] for row in rows]
+
+
+def case_lines(tex: str) -> str:
+    """The same as lines of their own, without a brace."""
+    lead, rows = case_parts(tex)
+    return r" \\ ".join(rf"{lead} " + r"\quad ".join(row) for row in rows)
+
+
+_OPERATORS = {"tg", "ctg", "arctg", "sh", "ch", "sign"}  # unknown to mathtext
+_FUNCTIONS = _OPERATORS | {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "ln", "lg", "exp"}
+_RENAMED = {r"\le": r"\leq", r"\ge": r"\geq", r"\text": r"\mathrm", r"\ne": r"\neq"}
+_RENAMED |= {r"\bar": r"\overline"}  # the accent of mathtext breaks beside a prime
+_RENAMED |= {rf"\{name}": rf"\operatorname{{{name}}}" for name in _OPERATORS}
+_RENAMED |= {".": r".\hspace{-0.2}"}
+_BIG = {r"\sum", r"\int", r"\prod", r"\oint"}
+_DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
+_PRIMES = re.compile("'+")
+
+
+def for_mathtext(tex: str, *, level_primes: bool = False) -> str:
+    """Translate one formula; spaces it out as TeX would.
+
+    Args:
+        tex: The formula without dollar signs.
+        level_primes: Set primes as letters, for figures: mathtext raises them too high and
+            only :mod:`mathsvg` can bring them down again.
+
+    Raises:
+        TexError: The TeX is not well formed.
+    """
+    # mathtext would set an index beside a prime, not below it.
+    prime, around = (r"{\prime}", "{}") if level_primes else (r"\prime", "^{{{}}}")
+    tex = _PRIMES.sub(lambda match: around.format(prime * len(match.group())), tex)
+    return _words(tree(_DEGREE.sub("°", tex)))
+
+
+def _words(nodes: Sequence[TexNode]) -> str:
+    out: list[str] = []
+    closed = False  # something that takes room stands before
+    pending = False  # a fraction or a big operator does: a thin space if more follows
+    for node in nodes:
+        if (pending and _opens(node)) or (closed and _wants_room(node)):
+            out.append(r"\,")
+        if out and out[-1][0] == "\\" and out[-1][-1].isalpha() and node.token.isalpha():
+            out.append(" ")
+        out.append(_word(node))
+        if (
+            node.token not in ("_", "^") and not node.token.isspace()
+        ):  # an index belongs to its letter
+            pending = node.token in FRACTIONS or node.token in _BIG
+            closed = _closes(node)
+    return "".join(out)
+
+
+def _word(node: TexNode) -> str:
+    parts = "".join(f"{{{_words(part)}}}" for part in node.parts)
+    return parts if node.token == "{" else _RENAMED.get(node.token, node.token) + parts
+
+
+def _wants_room(node: TexNode) -> bool:
+    return node.token in FRACTIONS or node.token in _BIG or node.command in _FUNCTIONS
+
+
+def _closes(node: TexNode) -> bool:
+    """Whether the node ends something that takes room: a letter, a group, a bracket."""
+    return (
+        node.token.isalnum()
+        or node.token in ("{", ")", "]", "°")
+        or node.takes_one
+        or node.command in GREEK
+    )
+
+
+def _opens(node: TexNode) -> bool:
+    """Whether the node begins something that takes room."""
+    return (
+        node.token.isalnum()
+        or node.token in ("{", "(", "[", r"\left")
+        or _wants_room(node)
+        or (node.takes_one and node.token not in ("_", "^"))
+        or node.command in GREEK
+    )

@@ -44,7 +44,7 @@ class Decision:
 
     @property
     def key(self) -> tuple[int, str, str]:
-        """What is decided once."""
+        """Subject of the decision."""
         return self.number, self.item, self.file
 
 
@@ -129,13 +129,15 @@ def decided(
     Raises:
         InputError: no such student or item, or points that are none.
     """
-    made = {entry.key: entry for entry in kept}
+    entries = {entry.key: entry for entry in kept}
     for who, what, points, remark in words:
         book = _student(register, works, who)
         known = {line.id for work in works if work.number == book.number for line in work.items}
         item = _item(what, known)
         if points.strip() == WITHDRAW:
-            made = {key: entry for key, entry in made.items() if key[:2] != (book.number, item)}
+            entries = {
+                key: entry for key, entry in entries.items() if key[:2] != (book.number, item)
+            }
             continue
         value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
         work = counted.get(book.number)
@@ -145,8 +147,8 @@ def decided(
             book.number, item, value, one_line(remark, _MOST), one_line(author, 100),
             datetime.now().isoformat(timespec="minutes"), file,
         )  # fmt: skip
-        made[entry.key] = entry
-    return list(made.values())
+        entries[entry.key] = entry
+    return list(entries.values())
 
 
 def _points(text: str, maximum: float) -> float:
@@ -202,7 +204,7 @@ def from_gradebook(
         return list(kept)
     number_at, points_at, remark_at = (lines[0].index(head) for head in ("Вариант", *DECISION))
     file_at = lines[0].index(OF_FILE) if OF_FILE in lines[0] else None
-    made = {entry.key: entry for entry in kept}
+    entries = {entry.key: entry for entry in kept}
     problems: list[Problem] = []
     for row, line in enumerate(lines[1:], 2):
         number, points = line[number_at], str("" if line[points_at] is None else line[points_at])
@@ -216,10 +218,10 @@ def from_gradebook(
         work = counted.get(int(number))
         file = work.sha256 if work is not None else ""
         key = int(number), WHOLE, file if file_at is None else str(line[file_at] or "")
-        earlier = made.get(key)
+        earlier = entries.get(key)
         if not points.strip():
             if earlier is not None and not text:  # taken out by hand
-                del made[key]
+                del entries[key]
             continue
         try:
             value = None if points.strip() == ACCEPT else _points(points, maximum)
@@ -229,10 +231,10 @@ def from_gradebook(
             problems += [replace(problem, where=where) for problem in error.problems]
             continue
         if earlier is None or (earlier.points, earlier.remark) != (value, text):
-            made[key] = Decision(*key[:2], value, text, one_line(author, 100), date, key[2])
+            entries[key] = Decision(*key[:2], value, text, one_line(author, 100), date, key[2])
     if problems:
         raise InputError(problems)
-    return list(made.values())
+    return list(entries.values())
 
 
 def _lines(path: Path) -> tuple[list[tuple[Any, ...]], str, str]:
@@ -258,9 +260,9 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
     own = _of(result, decisions)
     if not own:
         return result
-    made = copy.deepcopy(result)
-    made["decisions"] = [asdict(entry) for entry in own]
-    lines = {line["id"]: line for line in made["items"]}
+    decided_result = copy.deepcopy(result)
+    decided_result["decisions"] = [asdict(entry) for entry in own]
+    lines = {line["id"]: line for line in decided_result["items"]}
     settled = set()
     for entry in own:
         line = lines.get(entry.item)
@@ -269,18 +271,20 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
                 line["points"] = entry.points
             line["decision"] = asdict(entry)
             settled.add(entry.item)
-    if made["status"] == "graded":
-        rescored(made)
+    if decided_result["status"] == "graded":
+        rescored(decided_result)
     whole = next((entry for entry in own if entry.item == WHOLE), None)
     open_ = [i for i, line in lines.items() if line["verdict"] == "unknown" and i not in settled]
     if whole is not None:
-        made["decision"] = asdict(whole)
+        decided_result["decision"] = asdict(whole)
         if whole.points is not None:
-            made["points"] = whole.points
-        made["manual"], made["doubts"] = [], []
+            decided_result["points"] = whole.points
+        decided_result["manual"], decided_result["doubts"] = [], []
     elif not open_:
-        made["manual"] = [text for text in made["manual"] if not text.startswith("не удалось")]
-    return made
+        decided_result["manual"] = [
+            text for text in decided_result["manual"] if not text.startswith("не удалось")
+        ]
+    return decided_result
 
 
 def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
@@ -289,14 +293,14 @@ def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
     former = {entry.item for entry in decisions if entry.number == result["number"]} - own
     if WHOLE in own or not former:
         return result
-    made = copy.deepcopy(result)
+    held = copy.deepcopy(result)
     if WHOLE in former:
-        made["manual"].append(_ANOTHER)
-        made["doubts"].append(_ANOTHER)
-    labels = [line["label"] for line in made["items"] if line["id"] in former]
+        held["manual"].append(_ANOTHER)
+        held["doubts"].append(_ANOTHER)
+    labels = [line["label"] for line in held["items"] if line["id"] in former]
     if labels:
-        made["manual"].append(_ANOTHER_COLUMN + ", ".join(labels[:8]))
-    return made
+        held["manual"].append(_ANOTHER_COLUMN + ", ".join(labels[:8]))
+    return held
 
 
 def _of(result: dict[str, Any], decisions: Sequence[Decision]) -> list[Decision]:

@@ -1,4 +1,4 @@
-"""What ``kshm grade`` does: every submission graded once, results written as they come."""
+"""Grade submissions once each; write results as they come."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from reports.grading.batch.cluster import grade_far
 from reports.grading.batch.decisions import (
     Decision,
     applied,
@@ -23,8 +22,7 @@ from reports.grading.batch.decisions import (
     save_decisions,
     waiting,
 )
-from reports.grading.batch.places import RESULTS, refuse_another_class, refuse_overlap
-from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all
+from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
 from reports.grading.issuing.issue import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
@@ -36,19 +34,19 @@ from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import choose, summarise, table_rows
 from reports.grading.reading.submissions import Submission, collect
-from reports.shared.aside import processors
+from reports.shared.background import processors
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, read_json, write_bytes, write_text
-from reports.shared.program import program
 from reports.shared.progress import Progress
+from reports.shared.resources import source_digest
 
 PAGES = "pages"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
-    """How to grade; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
+class GradeSetup:
+    """Options of grading; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
 
     workers: int = 0
     dask: str | None = None
@@ -61,7 +59,7 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Graded:
-    """What came out."""
+    """Outcome of a batch."""
 
     folder: Path
     summary: dict[str, Any]
@@ -81,7 +79,7 @@ def grade(
     *,
     rubric_file: Path | None = None,
     secret_file: Path | None = None,
-    options: Options | None = None,
+    options: GradeSetup | None = None,
 ) -> Graded:
     """Grade everything that was handed in.
 
@@ -90,7 +88,7 @@ def grade(
         OutputError: the folder cannot be written.
     """
     started = time.monotonic()
-    options = options or Options()
+    options = options or GradeSetup()
     register = checked_register(issued, secret_file)
     if rubric_file is not None:
         register = replace(register, rubric=load_rubric(rubric_file))
@@ -130,7 +128,7 @@ def grade(
 
 
 def _progress(done: int, count: int, reused: int, started: float) -> str:
-    """How far the batch is, and how long it will go on."""
+    """Progress of the batch and the time left."""
     text = f"Проверка работ: {done} из {count}"
     fresh = done - reused
     if fresh < 3 or done >= count:
@@ -141,7 +139,7 @@ def _progress(done: int, count: int, reused: int, started: float) -> str:
     )
 
 
-def decide(folder: Path, options: Options) -> Graded:
+def decide(folder: Path, options: GradeSetup) -> Graded:
     """Take a person's decisions into the results of an earlier run.
 
     Raises:
@@ -169,7 +167,9 @@ class _Batch:
         self.waiting: list[Submission] = []
         self.register_file = folder / RESULTS / FILE
         self._written = time.monotonic()
-        self._rules = hashlib.sha256(f"{program()} {register.json_text()}".encode()).hexdigest()
+        self._rules = hashlib.sha256(
+            f"{source_digest()} {register.json_text()}".encode()
+        ).hexdigest()
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
@@ -193,7 +193,7 @@ class _Batch:
             hint = "укажите папку, в которую проверены работы"
             raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
 
-    def check(self, options: Options, submissions: Sequence[Submission] = ()) -> None:
+    def check(self, options: GradeSetup, submissions: Sequence[Submission] = ()) -> None:
         """Read what people have decided, before anything is written.
 
         Raises:
@@ -211,20 +211,22 @@ class _Batch:
             known = {item.id for item in items}
             refuse_wrong_words(options.decisions, self.register, files, known)
 
-    def decide(self, options: Options) -> InputError | None:
+    def decide(self, options: GradeSetup) -> InputError | None:
         """Take in what people have decided, and what the command says; why not, if it cannot be."""
         kept, refused = self._kept, None
         before = load_decisions(self.folder)
         counted = self._decided(kept, also=before)  # what was seen before the new words
-        works, found = list(self.works.values()), kept
+        works, decisions = list(self.works.values()), kept
         try:
-            found = decided(kept, self.register, works, counted, options.decisions, options.author)
+            decisions = decided(
+                kept, self.register, works, counted, options.decisions, options.author
+            )
         except InputError as error:
             refused = error
-        if found or before:
-            save_decisions(self.folder, found)
-        if found != kept:
-            self._decided(found, also=kept)
+        if decisions or before:
+            save_decisions(self.folder, decisions)
+        if decisions != kept:
+            self._decided(decisions, also=kept)
         return refused
 
     def _decided(
@@ -250,15 +252,15 @@ class _Batch:
     def _result(self, work: Work) -> dict[str, Any]:
         """The result of a work as the program has made it."""
         path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        return found
+        result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        return result
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
         make_dir(self.folder / RESULTS)
         make_dir(self.folder / PAGES)
-        for place in (self.folder, self.folder / RESULTS, self.folder / PAGES):
-            for leftover in place.glob(".kshm-*"):  # of a run that was killed while writing
+        for leftovers_in in (self.folder, self.folder / RESULTS, self.folder / PAGES):
+            for leftover in leftovers_in.glob(".kshm-*"):  # of a run that was killed while writing
                 leftover.unlink(missing_ok=True)
         write_text(self.register_file, self.register.json_text())
         keys = {submission.key for submission in submissions}
@@ -283,16 +285,16 @@ class _Batch:
                 yield path, result
 
     def _earlier(self, keys: set[str]) -> dict[str, Work]:
-        found = {}
+        earlier = {}
         for path, result in self._results():
             key, page = result["key"], self.folder / result["page"]
             if key in keys and page.exists():
-                found[key] = work_of(result, self._shared)
+                earlier[key] = work_of(result, self._shared)
             else:  # of a file that is no longer there
                 path.unlink(missing_ok=True)
                 if page.parent == self.folder / PAGES:
                     page.unlink(missing_ok=True)
-        return found
+        return earlier
 
     def _fingerprint(self, submission: Submission) -> str:
         try:
@@ -347,8 +349,10 @@ class _Batch:
         }
         if any(work.moodle_id for work in self.ordered):
             files["moodle-feedback.zip"] = feedback_zip(rows, self.folder)
-        for name, made in files.items():
-            write_bytes(self.folder / name, made if isinstance(made, bytes) else made.encode())
+        for name, content in files.items():
+            write_bytes(
+                self.folder / name, content if isinstance(content, bytes) else content.encode()
+            )
         return summary
 
     def fill_worksheet(self, path: Path) -> None:
@@ -358,8 +362,8 @@ class _Batch:
             InputError: it is none.
         """
         rows = table_rows(self.register, self.ordered)
-        made = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
-        write_text(self.folder / "moodle-worksheet.csv", made.text)
+        worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
+        write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.
@@ -373,8 +377,8 @@ class _Batch:
         need_pango()
         for work in self.ordered:
             page = self.folder / work.page
-            made = render(page.read_text(encoding="utf-8"), variant=None)
-            write_bytes(page.with_suffix(".pdf"), made.pdf)
+            pdf = render(page.read_text(encoding="utf-8"), variant=None)
+            write_bytes(page.with_suffix(".pdf"), pdf.pdf)
 
 
 def _row(row: dict[str, Any]) -> dict[str, Any]:
@@ -389,3 +393,29 @@ def _stem(result: dict[str, Any]) -> str:
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
     name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
     return f"{name.strip('-') or 'file'}-{mark}"
+
+
+# --- where results may be written ----------------------------------------------------------------
+
+RESULTS = "results"
+
+
+def refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
+    """Results must not land among the files that are read."""
+    target = folder.resolve()
+    for read_folder in (submitted, issued):
+        source = read_folder.resolve()
+        if source.is_dir() and (target == source or source in target.parents):
+            what = f"результаты легли бы в папку {read_folder}"
+            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
+
+
+def refuse_another_class(folder: Path, register: Register) -> None:
+    """Decisions on one class are not those on the students with the same numbers of another."""
+    try:
+        earlier = load_register(folder / RESULTS / FILE)
+    except InputError:
+        return
+    if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
+        what = "здесь результаты и решения другой группы или другой выдачи"
+        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))

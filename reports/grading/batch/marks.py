@@ -1,4 +1,4 @@
-"""What grades one submission, everything imported while memory may still be used freely."""
+"""Grader of one submission; imports all before memory is limited."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ assert lxml.etree
 
 
 def marking(register_folder: Path) -> Callable[[Submission], tuple[dict[str, Any], str]]:
-    """What a submission comes to, and its page, by the register of a folder."""
+    """Grader that returns result and page, by the register of a folder."""
     np.ones((8, 8)) @ np.ones((8, 8))  # its library takes memory of its own
     marker = Marker(load_register(register_folder))
 

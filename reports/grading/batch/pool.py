@@ -1,17 +1,27 @@
-"""Submissions graded in parallel; one that hangs or kills its process costs itself alone."""
+"""Submissions graded in parallel processes or on a Dask cluster.
+
+A submission that hangs or kills its process costs itself alone.  A part for a cluster runs in
+a process of its own beside the cluster's worker: Dask's workers may not start processes
+themselves, and people's files are only opened in limited ones.
+"""
 
 from __future__ import annotations
 
+import pickle
+import subprocess
+import sys
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
 from reports.grading.reading.submissions import Submission
-from reports.shared.errors import KshmError
+from reports.shared.errors import InputError, KshmError
+from reports.shared.parallel_map import in_order
 from reports.shared.workers import MEMORY, Died, NeverStarted, Workers
 
 TIMEOUT_S = 60.0
@@ -26,7 +36,7 @@ Marked = tuple[dict[str, Any], str]
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What a worker said about a submission; ``result`` is None where it could not."""
+    """Outcome of a submission; ``result`` is None where the worker failed."""
 
     submission: Submission
     result: dict[str, Any] | None
@@ -50,16 +60,16 @@ def grade_all(
     if not submissions:
         return
     count = min(workers, len(submissions))
-    waiting, asked = iter(submissions), dict[Future[Marked], Submission]()
+    waiting, running = iter(submissions), dict[Future[Marked], Submission]()
     with Workers(count, _marking, register_folder, needs=_NEEDS, memory=memory) as pool:
         while True:
-            for submission in islice(waiting, _AHEAD * count - len(asked)):
-                asked[pool.ask(submission, seconds=timeout_s)] = submission
-            if not asked:
+            for submission in islice(waiting, _AHEAD * count - len(running)):
+                running[pool.ask(submission, seconds=timeout_s)] = submission
+            if not running:
                 return
             # Ctrl-C is heard between the waits.
-            for future in wait(asked, 0.5, FIRST_COMPLETED).done:
-                yield _outcome(asked.pop(future), future)
+            for future in wait(running, 0.5, FIRST_COMPLETED).done:
+                yield _outcome(running.pop(future), future)
 
 
 def _outcome(submission: Submission, future: Future[Marked]) -> Outcome:
@@ -80,3 +90,83 @@ def _outcome(submission: Submission, future: Future[Marked]) -> Outcome:
 def _marking(register_folder: Path) -> Callable[[Submission], Marked]:
     begin: Callable[[Path], Callable[[Submission], Marked]] = import_module(_NEEDS).marking
     return begin(register_folder)
+
+
+# --- a Dask cluster ------------------------------------------------------------------------------
+
+PART = 20  # files; starting the process costs as much as a few of them
+
+
+@dataclass(frozen=True, slots=True)
+class ClusterPart:
+    """Some submissions with their bytes, the register in force, seconds for a file."""
+
+    register: str
+    submissions: list[tuple[Submission, bytes]]
+    timeout_s: float
+
+
+Answers = list[tuple[str, dict[str, Any] | None, str, str]]  # key, result, page, problem
+
+
+def grade_far(
+    submissions: Sequence[Submission], register_file: Path, *, timeout_s: float, dask: str
+) -> Iterator[Outcome]:
+    """Outcomes as they come, as ``grade_all`` gives them.
+
+    Raises:
+        KshmError: the cluster cannot be reached or lost too many workers.
+    """
+    whole = {item.key: item for item in submissions}
+    unread: list[Submission] = []
+    parts = _parts(submissions, register_file.read_text(encoding="utf-8"), timeout_s, unread)
+    for answers in in_order(graded, parts, dask=dask):
+        for key, result, page, problem in answers:
+            yield Outcome(whole[key], result, page, problem)
+    yield from grade_all(unread, register_file, workers=1, timeout_s=timeout_s)
+
+
+def _parts(
+    submissions: Sequence[Submission], register: str, timeout_s: float, unread: list[Submission]
+) -> Iterator[ClusterPart]:
+    """The parts, read as they are sent; what cannot be read stays here."""
+    for begin in range(0, len(submissions), PART):
+        read = []
+        for item in submissions[begin : begin + PART]:
+            try:
+                read.append((item, item.read()))
+            except InputError:
+                unread.append(item)
+        if read:
+            yield ClusterPart(register, read, timeout_s)
+
+
+def graded(part: ClusterPart) -> Answers:
+    """Answers for a part, in the order of its files."""
+    done = subprocess.run(
+        [sys.executable, "-m", "reports.grading.batch.pool"],
+        input=pickle.dumps(part), stdout=subprocess.PIPE, check=False,
+    )  # fmt: skip
+    if done.returncode != 0:
+        msg = "процесс проверки на кластере не запустился; проверьте установку kshm на его узлах"
+        raise KshmError(msg)
+    answers: Answers = pickle.loads(done.stdout)
+    return answers
+
+
+def _grade_here(part: ClusterPart) -> Answers:
+    with tempfile.TemporaryDirectory(prefix="kshm-part-") as name:
+        register = Path(name) / "register.json"
+        register.write_text(part.register, encoding="utf-8")
+        moved = []
+        for number, (item, data) in enumerate(part.submissions):
+            path = Path(name) / f"{number}.bin"
+            path.write_bytes(data)
+            moved.append(replace(item, path=path, members=None))
+        outcomes = grade_all(moved, register, workers=1, timeout_s=part.timeout_s)
+        answers = {o.submission.key: (o.result, o.page, o.problem) for o in outcomes}
+        return [(item.key, *answers[item.key]) for item in moved]
+
+
+if __name__ == "__main__":
+    sys.stdout.buffer.write(pickle.dumps(_grade_here(pickle.load(sys.stdin.buffer))))

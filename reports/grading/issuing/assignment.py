@@ -1,4 +1,8 @@
-"""What is graded: the columns, grid rows and scalars of a model that the rubric asks for."""
+"""Items of a class: columns, grid rows and scalars that the rubric asks for.
+
+A number is given only where it is no function of what is asked.  What follows from the
+student's own columns is a live formula of them: it tells nothing before they are there.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +14,14 @@ from fnmatch import fnmatchcase
 from functools import cached_property
 from math import sqrt
 
+import numpy as np
+
 from kshm.nomenclature.quantity import Quantity
 from reports.formula.parse import names, parse
-from reports.grading.issuing.given import LIVE, NUMBER, states, with_own_shifts
 from reports.grading.issuing.rubric import Rubric
 from reports.inputs.messages import likely_word
 from reports.model.blocks import Block, Column, Grid, Model, Scalar, TableSpec
-from reports.model.evaluation import Graph, graph_of, nodes_of
+from reports.model.evaluation import Evaluation, Graph, graph_of, nodes_of
 from reports.shared.errors import InputError, Problem
 
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
@@ -59,7 +64,7 @@ class Assignment:
 
     @cached_property
     def graph(self) -> Graph:
-        """What depends on what."""
+        """Graph of dependencies."""
         return graph_of(self.model)
 
     def ancestors(self, item: Item) -> frozenset[str]:
@@ -71,21 +76,21 @@ class Assignment:
     @cached_property
     def items(self) -> tuple[Item, ...]:
         """All items, in the order of the book: what a person would calculate."""
-        found = [item for block in self.fill for item in _items(block)]
+        items = [item for block in self.fill for item in _items(block)]
         left = self.rubric.work.without
-        found = [
+        items = [
             item
-            for item in found
+            for item in items
             if not all(map(self._is_fixed, item.nodes)) and not matches((item.id,), left)
         ]
-        helpers = frozenset(node for item in found if item.helper for node in item.nodes)
+        helpers = frozenset(node for item in items if item.helper for node in item.nodes)
         read: dict[str, list[str]] = {}
         for node in self.model.nodes if helpers else ():
             for name in self.graph.references(node) & helpers:
                 read.setdefault(name, []).append(node)
         return tuple(
             item
-            for item in found
+            for item in items
             if not (item.helper and all(self._is_idle(n, read.get(n, ())) for n in item.nodes))
         )
 
@@ -153,7 +158,7 @@ class Assignment:
         return {id_: value / mean for id_, value in weights.items()}
 
     def _asks(self, item: Item) -> float:
-        """How much an item asks for: a formula, or only a copy of what stands elsewhere."""
+        """Effort of an item: a formula, or a mere copy."""
         texts = [self.graph.expression(node) or "" for node in item.nodes]
         return _COPY if all(map(_is_copy, texts)) else 1.0
 
@@ -170,7 +175,7 @@ class Assignment:
 
     def with_model(self, model: Model) -> Assignment:
         """The same tables for a model with the same blocks."""
-        made = Assignment(model, self.rubric, self.fill, self.given)
+        other = Assignment(model, self.rubric, self.fill, self.given)
         for name in (
             "graph",
             "items",
@@ -181,11 +186,11 @@ class Assignment:
             "given_nodes",
             "live_nodes",
         ):
-            made.__dict__[name] = getattr(self, name)
+            other.__dict__[name] = getattr(self, name)
         if "issued_formulas" in self.__dict__:
-            made.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]
-        made.__dict__["kept_model"] = self.kept_model.with_inputs(model.input, model.inputs)
-        return made
+            other.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]
+        other.__dict__["kept_model"] = self.kept_model.with_inputs(model.input, model.inputs)
+        return other
 
     @staticmethod
     def nodes(block: Block) -> list[str]:
@@ -203,7 +208,7 @@ class Assignment:
 
     @cached_property
     def states(self) -> Mapping[str, str]:
-        """How each computed value that is not asked stands in the work-book."""
+        """State in the work-book of each computed value that is not asked."""
         return states(self.model, self.graph, self.blocks, self.fill_nodes)
 
     @cached_property
@@ -256,24 +261,24 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
         for pattern in rubric.work.given
         if (named := {id_ for id_ in ids if fnmatchcase(id_, pattern)}) and named <= filled
     ]  # fmt: skip
-    made = Assignment(model, rubric, tuple(fill), tuple(given))
+    assignment = Assignment(model, rubric, tuple(fill), tuple(given))
     items = [item.id for block in fill for item in _items(block)]
     check("work.without", rubric.work.without, items, "столбца")
-    known = [*dict.fromkeys(item.id for item in made.items), *sorted(filled)]
+    known = [*dict.fromkeys(item.id for item in assignment.items), *sorted(filled)]
     what = "заполняемой таблицы или столбца"
     check("points", rubric.points, known, what)
     check("tolerance.items", rubric.tolerance.items, known, what)
     check("formulas.optional", rubric.formulas.optional, known, what)
-    if not problems and made.rubric.maximum and not sum(made.points.values()):
+    if not problems and assignment.rubric.maximum and not sum(assignment.points.values()):
         hint = "исправьте [points] или [work]"
         problems.append(Problem(source, "ни один столбец не оценивается", hint))
     if problems:
         raise InputError(problems)
-    return made
+    return assignment
 
 
 def _near(pattern: str, known: Collection[str]) -> str:
-    """What a name was meant for, or what there is."""
+    """Likely name, else the known names."""
     likely, table = likely_word(pattern, known), pattern.partition(".")[0]
     beside = sorted(known, key=lambda id_: not id_.startswith(table))  # those of its table first
     return f"возможно, {likely}" if likely else f"есть: {', '.join(beside[:12])}…"
@@ -365,3 +370,108 @@ def _scalar_item(block: str, scalar: Scalar) -> Item:
     about = scalar.quantity
     return Item(f"{block}.{scalar.key}", block, scalar.note or about.title, about.symbol, about,
                 (scalar.key,), ("",), scalar.source, False)  # fmt: skip
+
+
+# --- what stands beside the cells to fill in -----------------------------------------------------
+
+NUMBER, LIVE, HIDDEN = "number", "live", "hidden"
+_PHASE = "phase_deg"
+
+
+def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
+    """The model in which tables that repeat a filled one at a phase are read from that one.
+
+    The forces of cylinder 2 are those of cylinder 1 some degrees later: given as numbers
+    they would be the answers, given by the same formulas they would be the textbook.
+    """
+    tables_to_fill = [block for block in fill if isinstance(block, TableSpec)]
+    run = Evaluation(model)
+    changed: dict[str, TableSpec] = {}
+    for table in model.tables.values():
+        keys = {column.key for column in table.columns}
+        if table in tables_to_fill or _PHASE not in keys or len(table.rows) < 2:
+            continue
+        phase = np.asarray(run.value(f"{table.id}.{_PHASE}"), dtype=float)
+        tables = [_read_from(table, own, phase, run) for own in tables_to_fill]
+        best = max(tables, key=lambda shifted: _count_changed(shifted, table), default=table)
+        if best is not table:
+            changed[table.id] = best
+    if not changed:
+        return model
+    blocks = tuple(
+        changed.get(block.id, block) if isinstance(block, TableSpec) else block
+        for block in model.blocks
+    )
+    return replace(model, blocks=blocks)
+
+
+def _count_changed(shifted: TableSpec, table: TableSpec) -> int:
+    return sum(
+        mine is not theirs for mine, theirs in zip(shifted.columns, table.columns, strict=True)
+    )
+
+
+def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation) -> TableSpec:
+    """A table with those columns read from another that are the same at the phase."""
+    step = own.rows[1] - own.rows[0] if len(own.rows) > 1 else 0.0
+    if not step or not np.allclose(np.diff(own.rows), step):
+        return table
+    at = (phase - own.rows[0]) / step
+    rows = np.rint(at).astype(int)
+    if not np.allclose(at, rows) or rows.min() < 0 or rows.max() >= len(own.rows):
+        return table
+    first = f" - {own.rows[0]:g}" if own.rows[0] else ""
+    shared = {column.key for column in own.columns if column.expr is not None}
+    columns = []
+    for given in table.columns:
+        column = given
+        if column.key in shared and column.key != _PHASE:
+            theirs = np.asarray(run.value(f"{table.id}.{column.key}"), dtype=float)
+            mine = np.asarray(run.value(f"{own.id}.{column.key}"), dtype=float)[rows]
+            scale = float(np.nanmax(np.abs(mine))) or 1.0
+            if np.allclose(theirs, mine, rtol=0, atol=1e-9 * scale):
+                expr = f"element({own.id}.{column.key}, round(({_PHASE}{first})/{step:g}) + 1)"
+                column = replace(column, expr=expr, source=f"{own.number} в фазе цилиндра")
+        columns.append(column)
+    return table if columns == list(table.columns) else replace(table, columns=tuple(columns))
+
+
+def states(
+    model: Model, graph: Graph, blocks: Collection[Block], to_fill: Collection[str]
+) -> Mapping[str, str]:
+    """State of each computed value of some blocks that is not asked."""
+    to_fill = frozenset(to_fill)
+    there = {node for block in blocks for node in nodes_of(block)}
+    inputs = set(model.fields) | {
+        f"{table.id}.{column.key}"
+        for table in model.tables.values()
+        for column in table.columns
+        if column.expr is None
+    }
+    known: dict[str, str] = {}
+
+    def outside(node: str) -> frozenset[str]:
+        """What a node refers to; rows that follow from those before them refer in circles."""
+        table = model.whole_tables.get(node)
+        if table is None:
+            return graph.references(node)
+        own = frozenset(f"{table.id}.{column.key}" for column in table.columns)
+        return frozenset().union(*(graph.references(name) for name in own)) - own
+
+    def state(node: str) -> str:
+        if node in inputs or node in to_fill or node in model.input_runs:
+            return LIVE
+        if node not in there:
+            return HIDDEN
+        if node not in known:
+            known[node] = HIDDEN  # while it is looked at: no circles
+            known[node] = (
+                NUMBER
+                if to_fill.isdisjoint(graph.ancestors(node))
+                else LIVE
+                if all(state(name) != HIDDEN for name in outside(node))
+                else HIDDEN
+            )
+        return known[node]
+
+    return {node: state(node) for node in sorted(there - to_fill)}

@@ -1,10 +1,16 @@
-"""What ``kshm issue`` does: variants, input files, work-books and the register."""
+"""Issue work-books to a class: draw variants, write books and register."""
 
 from __future__ import annotations
 
+import copy
 import hashlib
+import itertools
+import json
+import math
+import random
 import re
 import unicodedata
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,19 +18,150 @@ from typing import Any
 import tomlkit
 
 from reports.grading.issuing.assignment import Assignment, assignment_of
-from reports.grading.issuing.handout import handout_bytes
-from reports.grading.issuing.leaks import check_for_leaks
-from reports.grading.issuing.register import FILE, Issued, Register, ticket_of
+from reports.grading.issuing.handout import check_for_leaks, handout_bytes
+from reports.grading.issuing.register import (
+    FILE,
+    Issued,
+    Register,
+    kept_secret,
+    secret_path,
+    ticket_of,
+)
 from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
-from reports.grading.issuing.ticket import kept_secret, secret_path
-from reports.grading.issuing.variants import Base, Variant, draw_variants, load_base
-from reports.inputs.fields import iter_fields, tables_shape
-from reports.inputs.load import load_mapping
+from reports.inputs.diagram_file import with_points
+from reports.inputs.fields import iter_fields, set_value, tables_shape
+from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
+from reports.inputs.normalise import read_text
+from reports.inputs.ranges import SECTION, ParameterRange, read_ranges, split_ranges
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import atomic_dir
 from reports.shared.progress import Progress
 from reports.tables.registry import build_model
+
+TRIES = 300  # random draws for one student before all combinations are tried
+MAX_COMBINATIONS = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """A base file: its sections as they are, and its ranges."""
+
+    source: str
+    raw: dict[str, Any]
+    ranges: tuple[ParameterRange, ...]
+    loaded: Loaded
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One variant: the sections of its input file and the drawn values by key."""
+
+    raw: dict[str, Any]
+    drawn: dict[str, float | int | str]
+    loaded: Loaded
+
+    @property
+    def key(self) -> str:
+        """Identity of a variant."""
+        return json.dumps(self.drawn, ensure_ascii=False, sort_keys=True)
+
+
+def load_base(path: Path, beside: Path | None = None) -> Base:
+    """A base file with its section [variants], or with the ranges in a file beside it.
+
+    Raises:
+        InputError: everything that is wrong with it.
+    """
+    text = read_text(path)
+    loaded = load_text(text, source=path.name, folder=path.parent)
+    raw, section = split_ranges(tables_of(text, source=path.name))
+    raw = with_points(raw, path.parent, path.name).raw
+    source = path.name
+    if beside is not None:
+        if section is not None:
+            what = "диапазоны заданы и в разделе [variants], и ключом --ranges"
+            raise InputError(Problem(path.name, what, "оставьте одно"))
+        data, source = tables_of(read_text(beside), source=beside.name), beside.name
+        section = data.get(SECTION, data)
+    if section is None:
+        what = "нет раздела [variants] с диапазонами параметров"
+        hint = 'пример: [variants] и строка "geometry.bore_mm" = {min = 84, max = 92, step = 1}'
+        raise InputError(Problem(path.name, what, hint))
+    ranges, problems = read_ranges(section, raw, source)
+    if problems:
+        raise InputError(problems)
+    return Base(path.name, raw, tuple(ranges), loaded)
+
+
+def draw_variants(base: Base, students: Sequence[str], seed: int) -> list[Variant]:
+    """A variant for each student, the same for the same seed and student.
+
+    Raises:
+        InputError: the ranges do not give enough different variants that pass the check.
+    """
+    total = math.prod(len(item.values) for item in base.ranges)
+    if total < len(students):
+        what = f"вариантов в диапазонах {total}, а студентов {len(students)}"
+        raise InputError(Problem(base.source, what, "расширьте диапазоны или уменьшите шаги"))
+    taken: set[str] = set()
+    variants: list[Variant] = []
+    for student in students:
+        variant = _draw(base, random.Random(f"{seed}:{student}"), taken)
+        if isinstance(variant, str):
+            what = (
+                f"различных вариантов, проходящих проверку, хватило только на {len(variants)} "
+                f"из {len(students)} студентов"
+            )
+            what += f"; один из отказов — {variant}" if variant else ""
+            raise InputError(Problem(base.source, what, "уменьшите шаги или приблизьте их к базе"))
+        taken.add(variant.key)
+        variants.append(variant)
+    return variants
+
+
+def _draw(base: Base, rng: random.Random, taken: set[str]) -> Variant | str:
+    """A variant that nobody has, or why one of those tried is none."""
+    why = ""
+    for values in _values(base.ranges, rng):
+        variant = _variant(base, values, taken)
+        if isinstance(variant, Variant):
+            return variant
+        why = why or variant
+    return why
+
+
+def _values(
+    ranges: Sequence[ParameterRange], rng: random.Random
+) -> Iterator[Sequence[float | int | str]]:
+    """Values by chance, then all there are."""
+    for _ in range(TRIES):
+        yield [rng.choice(item.values) for item in ranges]
+    if math.prod(len(item.values) for item in ranges) <= MAX_COMBINATIONS:
+        combinations = list(itertools.product(*(item.values for item in ranges)))
+        rng.shuffle(combinations)
+        yield from combinations
+
+
+def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -> Variant | str:
+    """The variant, or why the check does not accept it; nothing where it is taken."""
+    drawn = {item.key: value for item, value in zip(base.ranges, values, strict=True)}
+    if json.dumps(drawn, ensure_ascii=False, sort_keys=True) in taken:
+        return ""
+    raw = copy.deepcopy(base.raw)
+    for item, value in zip(base.ranges, values, strict=True):
+        set_value(raw, item.path, value)
+    try:
+        loaded = load_mapping(raw, source=base.source)
+    except InputError as error:
+        return error.lines()[0]
+    # A variant may be as odd as its base, but not odder.
+    known = {problem.where for problem in base.loaded.warnings}
+    odd = [problem.line() for problem in loaded.warnings if problem.where not in known]
+    return odd[0] if odd else Variant(raw, drawn, loaded)
+
+
+# --- the class -----------------------------------------------------------------------------------
 
 # Russian letters and those of neighbours.
 _LATIN = dict(
@@ -39,7 +176,7 @@ _LATIN = dict(
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What was written; ``new_secret`` where one had to be made."""
+    """Result of an issue; ``new_secret`` where one had to be made."""
 
     register: Register
     folder: Path
@@ -71,10 +208,10 @@ def issue(
     for read in (base_file, *base.loaded.beside, roster_file, rubric_file, ranges_file):
         _refuse_own(read, folder)
     variants = draw_variants(base, [student.id for student in students], seed)
-    place = secret_path(secret_file)
-    _refuse_inside(place, folder)
-    fresh = not place.exists()
-    secret = kept_secret(place)
+    secret_at = secret_path(secret_file)
+    _refuse_inside(secret_at, folder)
+    fresh = not secret_at.exists()
+    secret = kept_secret(secret_at)
     batch = _batch(base, seed)
     with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
         books = []
@@ -89,7 +226,7 @@ def issue(
         register = Register(batch, seed, base.source, rubric, tuple(books))
         (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
         (temporary / "register.csv").write_text(register.csv_text(), encoding="utf-8")
-    return Result(register, folder, place if fresh else None)
+    return Result(register, folder, secret_at if fresh else None)
 
 
 def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:
@@ -112,8 +249,8 @@ def _with_title(raw: dict[str, Any], student: Student, number: int) -> dict[str,
 def _issued(number: int, student: Student, variant: Variant, secret: bytes, batch: str) -> Issued:
     stem = f"{number:02d}-{_slug(student.full)}"
     file = f"{stem}.xlsx"
-    made = ticket_of(secret, batch, student, file, variant.raw)
-    return Issued(number, student, stem, file, made, variant.drawn, variant.raw)
+    identifier = ticket_of(secret, batch, student, file, variant.raw)
+    return Issued(number, student, stem, file, identifier, variant.drawn, variant.raw)
 
 
 def _write(folder: Path, book: Issued, assignment: Assignment, source: str) -> None:
@@ -141,7 +278,7 @@ def latin(text: str) -> str:
 
 
 def _batch(base: Base, seed: int) -> str:
-    """What tells one issue from another."""
+    """Identity of an issue."""
     text = tomlkit.dumps(base.raw) + repr([(r.key, r.values) for r in base.ranges]) + str(seed)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 

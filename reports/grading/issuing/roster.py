@@ -1,14 +1,171 @@
-"""The list of a group, as Excel, Moodle or a person writes it: the same rules for any file."""
+"""Rosters: lists of students as Excel, Moodle and people write them."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
-from dataclasses import dataclass
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from reports.grading.issuing.listing import MAX_FIELD, Line, Listing, listings, refused
-from reports.shared.errors import InputError, Problem
-from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
+from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.file_types import ARCHIVE, OFFICE, TEXT, UTF16, kind_of, read_bytes
+from reports.workbook.intake import check_data
+from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell
+
+if TYPE_CHECKING:  # openpyxl is loaded when a book is read
+    from openpyxl.cell import ReadOnlyCell
+    from openpyxl.worksheet.worksheet import Worksheet
+
+MAX_BYTES, MAX_FIELD = 2_000_000, 200
+_MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
+_FIRST_LINES = 20  # by which the delimiter is known
+
+
+@dataclass(frozen=True, slots=True)
+class RosterLine:
+    """A line that holds anything; ``faults`` are columns whose cells cannot be read, and why."""
+
+    number: int
+    cells: list[str]
+    faults: dict[int, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class RosterListing:
+    """The lines of a CSV file, or of a sheet with a title."""
+
+    file: str
+    title: str
+    lines: list[RosterLine]
+
+    def place(self, line: RosterLine, column: int) -> str:
+        """Address of a cell, for messages."""
+        if not self.title:
+            return f"{self.file}, строка {line.number}"
+        address = Cell("", line.number, column + 1).coordinate
+        return f"{self.file}, лист «{self.title}», {address}"
+
+
+def listings(path: Path) -> list[RosterListing]:
+    """What a CSV file or the sheets of a book hold, in their order; hidden sheets are left out.
+
+    Raises:
+        InputError: it is neither.
+    """
+    data = read_bytes(path, MAX_BYTES, "это не список группы")
+    kind = kind_of(data)
+    if kind in (ARCHIVE, OFFICE):
+        return _sheets(path, data)
+    if kind == UTF16:
+        raise refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
+    if kind != TEXT:
+        raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
+    return [RosterListing(path.name, "", _csv_lines(path, _text(path, data)))]
+
+
+def refused(path: Path, what: str, hint: str) -> InputError:
+    """The error of a file that is no list."""
+    return InputError(Problem(path.name, what, hint))
+
+
+def _clean(cell: str) -> str:
+    return one_line(unicodedata.normalize("NFC", cell), MAX_FIELD + 1)
+
+
+# --- CSV -------------------------------------------------------------------------------------
+
+
+def _csv_lines(path: Path, text: str) -> list[RosterLine]:
+    first = text.splitlines()[:_FIRST_LINES]
+    delimiter = max(";\t,", key=lambda char: sum(char in line for line in first))
+    try:
+        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
+    except csv.Error:
+        raise refused(path, "это не CSV: не закрыта кавычка", "сохраните список заново") from None
+    lines = [RosterLine(i, [_clean(cell) for cell in row]) for i, row in enumerate(rows, 1)]
+    lines = [line for line in lines if any(line.cells)]
+    if lines and lines[0].cells[0].casefold() == "sep=":  # Excel's word on the delimiter
+        del lines[0]
+    return lines
+
+
+def _text(path: Path, data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        pass
+    text = data.decode("cp1251", errors="replace")
+    letters = [char for char in text if char.isalpha()]
+    russian = sum("а" <= char.casefold() <= "я" or char in "ёЁ" for char in letters)
+    if "\ufffd" in text or russian < len(letters) / 3:
+        raise refused(path, "кодировка не UTF-8 и не Windows-1251", "сохраните как «CSV UTF-8»")
+    return text
+
+
+# --- a book of Excel -------------------------------------------------------------------------
+
+
+def _sheets(path: Path, data: bytes) -> list[RosterListing]:
+    from openpyxl import load_workbook
+
+    check_data(data, path.name)
+    try:
+        shown, written = (
+            load_workbook(io.BytesIO(data), read_only=True, data_only=values)
+            for values in (True, False)
+        )
+        return [
+            RosterListing(path.name, sheet.title, list(_sheet_lines(sheet, written[sheet.title])))
+            for sheet in shown.worksheets
+            if sheet.sheet_state == "visible"
+        ]
+    except Exception:  # whatever openpyxl meets in a file of a program that it does not know
+        raise refused(path, "книга не читается", "сохраните список как CSV") from None
+
+
+def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
+    """Lines of a sheet with the saved values of its formulas."""
+    for sheet in (shown, written):
+        sheet.reset_dimensions()  # a claim of the file, and often a wrong one
+    edge = {"max_row": _MOST_ROWS, "max_col": _MOST_COLUMNS}
+    rows = (sheet.iter_rows(**edge) for sheet in (shown, written))
+    for number, (values, sources) in enumerate(zip(*rows, strict=True), 1):
+        faults = {
+            i: why
+            for i, (cell, source) in enumerate(zip(values, sources, strict=True))
+            if (why := _fault(cell, source))
+        }
+        cells = ["" if i in faults else _clean(_shown(cell)) for i, cell in enumerate(values)]
+        if any(cells) or faults:
+            yield RosterLine(number, cells, faults)
+
+
+def _fault(cell: ReadOnlyCell, source: ReadOnlyCell) -> str:
+    """Why a cell's text is not known, empty where it is."""
+    if cell.value is None:
+        return "значение формулы не сохранено" if source.data_type == "f" else ""
+    if cell.data_type == "e":
+        return f"ошибка {cell.value}"
+    if cell.is_date:  # what was typed is lost: «3-12» became the third of December
+        return "дата вместо текста"
+    return "логическое значение вместо текста" if cell.data_type == "b" else ""
+
+
+def _shown(cell: ReadOnlyCell) -> str:
+    """The text of a cell as its sheet shows it."""
+    value = cell.value
+    if not isinstance(value, (int, float)):
+        return str(value or "")
+    text = f"{value:.15g}".replace(".", ",")
+    zeros = cell.number_format  # «000000»: a number with the zeros in front of it
+    return text.zfill(len(zeros)) if zeros and not zeros.strip("0") else text
+
+
+# --- students ------------------------------------------------------------------------------------
 
 MAX_STUDENTS = 2000
 _TITLES = 20  # lines above the head: what the list is, of which year
@@ -58,16 +215,16 @@ def read_roster(path: Path) -> list[Student]:
     Raises:
         InputError: everything that is wrong with it.
     """
-    found = listings(path)
-    if {CONTENTS_SHEET, INPUT_SHEET} <= {listing.title for listing in found}:
+    all_listings = listings(path)
+    if {CONTENTS_SHEET, INPUT_SHEET} <= {listing.title for listing in all_listings}:
         raise refused(path, "это рабочая книга, а не список группы", "укажите файл списка")
-    if not any(listing.lines for listing in found):
+    if not any(listing.lines for listing in all_listings):
         raise refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
-    lists = [made for listing in found if (made := _headed(listing)) is not None]
+    lists = [headed for listing in all_listings if (headed := _headed(listing)) is not None]
     if not lists:
         what = "нет столбца «Фамилия» или «ФИО»"
         raise refused(path, what, "первая строка: Фамилия;Имя;Группа;Номер;Email")
-    lists = [made for made in lists if made.people]
+    lists = [headed for headed in lists if headed.people]
     if not lists:
         raise refused(path, "в списке нет ни одного студента", "впишите их под заголовком")
     if len(lists[0].people) > MAX_STUDENTS:
@@ -80,23 +237,23 @@ def read_roster(path: Path) -> list[Student]:
 class _List:
     """People under a head that names the columns."""
 
-    listing: Listing
+    listing: RosterListing
     columns: dict[str, int]
-    people: list[Line]
+    people: list[RosterLine]
 
-    def given(self, line: Line) -> dict[str, str]:
-        """What stands under each known head."""
+    def given(self, line: RosterLine) -> dict[str, str]:
+        """Texts under each known head."""
         cells = line.cells
         return {key: cells[i] if i < len(cells) else "" for key, i in self.columns.items()}
 
-    def where(self, line: Line) -> str:
+    def where(self, line: RosterLine) -> str:
         """The cell of a surname, for messages."""
         return self.listing.place(
             line, next(self.columns[k] for k in _SURNAMES if k in self.columns)
         )
 
 
-def _headed(listing: Listing) -> _List | None:
+def _headed(listing: RosterListing) -> _List | None:
     """The list of a sheet or file; titles may stand above its head, and a head has two lines."""
     heads = [_columns(line.cells) for line in listing.lines[: _TITLES + 2]]
     named = [not head.keys().isdisjoint(_SURNAMES) for head in heads]
@@ -116,45 +273,45 @@ def _headed(listing: Listing) -> _List | None:
         for line in listing.lines[last + 1 :]
         if line.cells not in repeated and not _is_number(line)
     ]
-    made = _List(listing, heads[first] | heads[last], people)
-    if made.columns.keys() & set(_SURNAMES) != {"either"}:
-        return made
-    column = made.columns.pop("either")
-    made.columns[_order(made, head, column)] = column
-    return made
+    headed = _List(listing, heads[first] | heads[last], people)
+    if headed.columns.keys() & set(_SURNAMES) != {"either"}:
+        return headed
+    column = headed.columns.pop("either")
+    headed.columns[_order(headed, head, column)] = column
+    return headed
 
 
-def _order(made: _List, head: Line, column: int) -> str:
+def _order(headed: _List, head: RosterLine, column: int) -> str:
     """Which of a surname and a name comes first under a head that does not say it.
 
     A patronymic stands behind a name; how a site writes one name it writes them all.
     """
-    names = [line.cells[column].split() for line in made.people if column < len(line.cells)]
+    names = [line.cells[column].split() for line in headed.people if column < len(line.cells)]
     marks = [[_is_patronymic(word) for word in words[1:]] for words in names if len(words) == 3]
     second = {first for first, last in marks if first != last}
     if len(second) == 1 or not names:
         return "turned" if second == {True} else "full"
     what = f"столбец «{head.cells[column]}»: не видно, где фамилия, а где имя"
     hint = "назовите его «Фамилия Имя» или «Имя Фамилия», как в нём написано"
-    raise InputError(Problem(made.listing.place(head, column), what, hint))
+    raise InputError(Problem(headed.listing.place(head, column), what, hint))
 
 
 def _is_patronymic(word: str) -> bool:
     return re.fullmatch(r"\w+(ич|вна|чна)", word.casefold()) is not None
 
 
-def _is_number(line: Line) -> bool:
+def _is_number(line: RosterLine) -> bool:
     """Whether a line holds only its number: lists are numbered ahead."""
     return not line.faults and all(not c or c.rstrip(".)").isdigit() for c in line.cells)
 
 
 def _refuse_another(path: Path, lists: list[_List]) -> None:
     """Two groups on two sheets must not become one; a sheet of marks repeats the people."""
-    known, *others = ({_named(made.given(line))[0].casefold() for line in made.people}
-                      for made in lists)  # fmt: skip
-    for other, made in zip(others, lists[1:], strict=True):
+    known, *others = ({_named(headed.given(line))[0].casefold() for line in headed.people}
+                      for headed in lists)  # fmt: skip
+    for other, headed in zip(others, lists[1:], strict=True):
         if other - known - {""}:
-            first, second = lists[0].listing.title, made.listing.title
+            first, second = lists[0].listing.title, headed.listing.title
             what = f"на листе «{second}» есть студенты, которых нет на листе «{first}»"
             raise refused(path, what, "оставьте в книге один лист со списком")
 
@@ -169,15 +326,15 @@ def _named(given: dict[str, str]) -> tuple[str, str]:
     return surname, f"{name} {given.get('patronymic', '')}".strip()
 
 
-def _students(made: _List) -> list[Student]:
+def _students(headed: _List) -> list[Student]:
     problems: list[Problem] = []
     students: list[Student] = []
     seen: dict[str, int] = {}
-    for line in made.people:
-        given, where = made.given(line), made.where(line)
+    for line in headed.people:
+        given, where = headed.given(line), headed.where(line)
         surname, name = _named(given)
-        if faults := sorted(line.faults.keys() & made.columns.values()):
-            where = made.listing.place(line, faults[0])
+        if faults := sorted(line.faults.keys() & headed.columns.values()):
+            where = headed.listing.place(line, faults[0])
             problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
             continue
         words = given.get("turned", "").split()
@@ -208,11 +365,11 @@ def _students(made: _List) -> list[Student]:
 
 
 def _columns(head: list[str]) -> dict[str, int]:
-    found: dict[str, int] = {}
+    columns: dict[str, int] = {}
     for index, cell in enumerate(head):
         words = re.split(r"[\s.,*:()/]+", cell.casefold().replace("ё", "е"))
         word = " ".join(word for word in words if word and word not in _BESIDES)
         for key, heads in _HEADS.items():
             if word in heads:
-                found.setdefault(key, index)
-    return found
+                columns.setdefault(key, index)
+    return columns

@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from reports.inputs import messages
 from reports.inputs.load import tables_of
-from reports.inputs.source import read_text
+from reports.inputs.normalise import read_text
 from reports.shared.errors import InputError, Problem, one_line
 
 Share = Annotated[float, Field(ge=0, le=1)]
@@ -20,11 +20,11 @@ Positive = Annotated[float, Field(gt=0)]
 Points = Annotated[float, Field(ge=0, le=1e6)]
 
 
-class _Part(BaseModel):
+class _Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class Work(_Part):
+class WorkTables(_Section):
     """[work]: the tables of the work-book, by id; ``*`` stands for any ending.
 
     ``without`` names columns and values of the tables to fill in that nobody is asked for.
@@ -36,7 +36,7 @@ class Work(_Part):
     without: tuple[str, ...] = ()
 
 
-class Credit(_Part):
+class Credit(_Section):
     """[credit]: share of the points; ``rows`` for the right rows of a column with wrong ones."""
 
     carried: Share = 1.0
@@ -44,14 +44,14 @@ class Credit(_Part):
     rows: Share = 1.0
 
 
-class Formulas(_Part):
+class Formulas(_Section):
     """[formulas]: where formulas are demanded."""
 
     required: bool = True
     optional: tuple[str, ...] = ()
 
 
-class Tolerance(_Part):
+class ToleranceRules(_Section):
     """[tolerance]: ``units`` of the last printed digit, and absolute ones by item."""
 
     units: Positive = 0.5
@@ -59,14 +59,14 @@ class Tolerance(_Part):
     items: dict[str, Positive] = {}
 
 
-class LateRule(_Part):
+class LateRule(_Section):
     """After so many hours past the deadline the points are multiplied by the factor."""
 
     after_hours: Annotated[float, Field(ge=0)] = 0.0
     factor: Share
 
 
-class Late(_Part):
+class Late(_Section):
     """[late]: no deadline, no rule.
 
     ``per_day`` is taken off for each day begun after the free ones, instead of the rules.
@@ -87,33 +87,33 @@ class Late(_Part):
         return value
 
 
-class Attempts(_Part):
+class Attempts(_Section):
     """[attempts]: which of several files counts."""
 
     count: Literal["last", "best"] = "last"
 
 
-class Minimum(_Part):
+class Minimum(_Section):
     """[minimum]: share of the items that must be filled in for any points at all."""
 
     filled: Share = 0.0
 
 
-class Feedback(_Part):
+class Feedback(_Section):
     """[feedback]: hints only, or the right values too."""
 
     mode: Literal["hints", "full"] = "hints"
 
 
-class Rubric(_Part):
+class Rubric(_Section):
     """All rules."""
 
     maximum: Positive = 100.0
-    work: Work = Work()
+    work: WorkTables = WorkTables()
     points: dict[str, Points] = {}
     credit: Credit = Credit()
     formulas: Formulas = Formulas()
-    tolerance: Tolerance = Tolerance()
+    tolerance: ToleranceRules = ToleranceRules()
     late: Late = Late()
     attempts: Attempts = Attempts()
     minimum: Minimum = Minimum()

@@ -1,4 +1,4 @@
-"""The likely cause of a wrong column: usual mistakes are tried one after the other."""
+"""Likely cause of a wrong column: usual mistakes tried one after the other."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.judgement import Array, Judgement
+from reports.grading.judging.judgement import Array, Judgement, close, distance, tolerance
 from reports.grading.judging.mistakes import mistakes, symbol_of
-from reports.grading.judging.response import Response
-from reports.grading.judging.rows import moved, row_indices, slips, told
-from reports.grading.judging.tolerances import apart, close, tolerance
-from reports.grading.reading.student import Student, known_values
+from reports.grading.judging.response import FormulaResponse
+from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
+from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
 from reports.shared.russian import fixed, short
 
@@ -44,11 +44,11 @@ class Causes:
 
     def __init__(
         self,
-        student: Student,
+        student: StudentBook,
         others: Sequence[OtherVariant],
         titles: dict[str, str],
         whole: dict[int, Evaluation] | None = None,
-        response: Response | None = None,
+        response: FormulaResponse | None = None,
     ) -> None:
         self.student, self.others, self.titles = student, others, titles
         self.whole = {} if whole is None else whole  # other variants, the same for a class
@@ -65,11 +65,11 @@ class Causes:
             return shifted
         if _is_place(item):
             return ""  # 2 for 4 may come of anything
-        found = self._common(judgement)
+        cause = self._common(judgement)
         allowed = tolerance(item, judgement.expected, self.student)
         good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
-        rows = [] if found or judgement.coarse else slips(judgement, good)
-        return told(judgement, rows, self._explained(judgement, rows)) if rows else found
+        rows = [] if cause or judgement.coarse else slips(judgement, good)
+        return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
 
     def _common(self, judgement: Judgement) -> str:
         """A cause that all values have in common."""
@@ -86,9 +86,9 @@ class Causes:
         item, values = judgement.item, judgement.values
         known = self._known(judgement)
         for base in [known, {}] if known else [{}]:
-            found = self._first(item, values, self.student.expected.fork(base), rows)
-            if found:
-                return found
+            cause = self._first(item, values, self.student.expected.fork(base), rows)
+            if cause:
+                return cause
         # Mistakes before this one, in what the program calculates from them too: its formula is
         # looked at without them.
         alone = self.response.tryout.alone(item) if self.response is not None else None
@@ -106,10 +106,10 @@ class Causes:
             for words, attempt in self._attempts(item, run, right, beyond)
             if attempt is not None and self._fits(item, values, attempt, right, rows)
         )
-        found = next(fitting, "")
+        cause = next(fitting, "")
         # What a condition picks, many wrong ones pick.
         picks = any(isinstance(self._tree(node), ast.IfExp) for node in item.nodes)
-        return "" if picks and any(words != found for words in fitting) else found
+        return "" if picks and any(words != cause for words in fitting) else cause
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
         """The student's own earlier values, where they are not the right ones."""
@@ -122,7 +122,7 @@ class Causes:
         if isinstance(right, str):
             return False
         own, wanted = (np.ravel(np.asarray(one, dtype=float)) for one in (value, right))
-        away = apart([node], own, wanted, self.student.expected)
+        away = distance([node], own, wanted, self.student.expected)
         near = away <= 1e-8 + 1e-9 * np.abs(wanted)
         return not (near | (np.isnan(own) & np.isnan(wanted))).all()
 
@@ -198,16 +198,16 @@ class Causes:
         """A reference to one cell that was filled down without its $."""
         grid, placement = self.student.grid, self.student.placement
         single = {
-            (place.sheet, place.column, place.rows[0]): name
-            for name, place in placement.places.items()
-            if len(place.rows) == 1
+            (location.sheet, location.column, location.rows[0]): name
+            for name, location in placement.places.items()
+            if len(location.rows) == 1
         }
         for node in item.nodes if item.is_column else ():
             for run in self.student.runs(node):
-                for found, area in grid.located(run) if run.count > 1 else ():
-                    one = found.first == found.last and not found.name
+                for reference, area in grid.located(run) if run.count > 1 else ():
+                    one = reference.first == reference.last and not reference.name
                     name = single.get((area.sheet, area.first_column, area.first_row))
-                    if one and name and not found.first.row_fixed:
+                    if one and name and not reference.first.row_fixed:
                         symbol = symbol_of(name, item.block, self.student.assignment.model)
                         return f"в ссылке на {symbol} нет знака $: при протягивании она сдвигается"
         return ""
@@ -336,3 +336,48 @@ def _is_place(item: Item) -> bool:
     """Whether a result is the number of a journal, a mass, a cylinder."""
     has_parts = item.quantity.unit or item.quantity.digits.decimals
     return len(item.nodes) == 1 and not item.is_column and not has_parts
+
+
+# --- rows ----------------------------------------------------------------------------------------
+
+_LEAST = 3  # values of an item that one of them is told distance from
+
+
+def moved(right: Array, values: Array, by: int) -> Array:
+    """Right values moved by a row; the row without a right value is the student's own."""
+    shifted = np.roll(right, by)
+    shifted[0 if by > 0 else -1] = values[0 if by > 0 else -1]
+    return shifted
+
+
+def row_indices(own: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
+    """For each row of a table the row of another table with the same angle."""
+    if own.rows == other.rows:
+        return np.arange(len(own.rows))
+    places = {angle: i for i, angle in enumerate(other.rows)}
+    if any(angle not in places for angle in own.rows):
+        return None
+    return np.array([places[angle] for angle in own.rows])
+
+
+def slips(judgement: Judgement, good: NDArray[np.bool_]) -> list[int]:
+    """The wrong rows where they are few and all others are right; ``good`` are right numbers."""
+    rows = list(judgement.rows)
+    ready = set(judgement.typed)
+    wrong = [i for i in rows if np.isfinite(judgement.values[i]) and not (i in ready and good[i])]
+    few = len(good) >= _LEAST and 0 < len(rows) <= len(good) / 2
+    return rows if few and wrong == rows else []
+
+
+def rows_text(judgement: Judgement, rows: list[int], cause: str) -> str:
+    """Cause of a few wrong rows in words."""
+    column, count = judgement.item.is_column, len(judgement.values)
+    if len(rows) == 1:
+        which = f"неверна одна строка из {count}" if column else f"неверно одно из {count} значений"
+    else:
+        kind = "строк" if column else "значений"
+        which = f"неверно {kind}: {len(rows)} из {count}"
+    if not cause:
+        ready = set(rows) <= set(judgement.typed)
+        cause = "вместо формулы вписано число" if ready else "сравните формулу с соседними"
+    return f"{which}, остальные верны: {cause}"

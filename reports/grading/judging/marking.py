@@ -18,30 +18,34 @@ from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
 from reports.grading.judging.judgement import EMPTY, GROUNDLESS, UNKNOWN
-from reports.grading.judging.lines import feedback_line
-from reports.grading.judging.marks import formula_marks, own_marks
-from reports.grading.judging.response import Proofs, Response
-from reports.grading.judging.trials import trials_of
+from reports.grading.judging.proven import Proofs
+from reports.grading.judging.response import FormulaResponse
+from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
-from reports.grading.reading.addresses import address
-from reports.grading.reading.matching import Match, file_properties, find_by_name, find_owner
+from reports.grading.judging.works import feedback_line, formula_marks, own_marks
+from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import leave_out_unused, restore
-from reports.grading.reading.student import Student
-from reports.grading.reading.submissions import Submission
+from reports.grading.reading.student import StudentBook
+from reports.grading.reading.submissions import (
+    Match,
+    Submission,
+    file_properties,
+    find_by_name,
+    find_owner,
+)
 from reports.inputs.fields import cell_name
-from reports.inputs.ranges import Range
+from reports.inputs.ranges import ParameterRange
 from reports.model.blocks import TURN
 from reports.model.evaluation import Evaluation
-from reports.recalculation.evaluate import Engine
-from reports.recalculation.forms import Forms
-from reports.recalculation.grid import BadBook, Grid
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.evaluate import Evaluator
+from reports.recalculation.formulas import UnknownFormula
+from reports.recalculation.grid import BadBook, CellGrid
 from reports.recalculation.read import read_grid
+from reports.recalculation.sheets import Forms
 from reports.shared.errors import InputError
 from reports.shared.russian import short
-from reports.workbook.intake import check_data
+from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout
-from reports.workbook.package import Package
 
 FORMAT = 7
 Result = dict[str, Any]
@@ -70,7 +74,7 @@ def blank_result(submission: Submission) -> Result:
 
 @dataclass
 class _Tables:
-    """What the students with the same tables share; ``assignment`` is one of theirs."""
+    """Shared data of students with the same tables; ``assignment`` is one of theirs."""
 
     assignment: Assignment
     layout: Layout
@@ -124,19 +128,19 @@ class Marker:
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
         """The tables of a student's work-book and where they were issued."""
-        found = self._assignments.get(book.number)
-        if found is None:
+        known = self._assignments.get(book.number)
+        if known is None:
             first = self._first
             assignment = assignment_for(book, self.register.rubric, first.assignment)
             alike = assignment.fill is first.assignment.fill
             layout = first.layout if alike else Layout.of(assignment.model)
             if len(self._assignments) > 8:  # a class must not fill the memory
                 self._assignments.clear()
-            found = self._assignments[book.number] = (
+            known = self._assignments[book.number] = (
                 assignment,
                 replace(layout, model=assignment.model),
             )
-        return found
+        return known
 
     @cached_property
     def _first(self) -> _Tables:
@@ -145,7 +149,7 @@ class Marker:
         return _Tables(assignment, Layout.of(assignment.model), self.register)
 
     def _tables(self, assignment: Assignment) -> _Tables:
-        """What is known of a student's tables."""
+        """Shared data of a student's tables."""
         if assignment.fill is self._first.assignment.fill:
             return self._first
         return _Tables(assignment, Layout.of(assignment.model), self.register)
@@ -157,19 +161,19 @@ class Marker:
         result["manual"].append(f"файл не принят: {why}")
         return result
 
-    def response(self, student: Student) -> Response:
-        """How a student's formulas respond to other input data."""
-        return Response(student, self._tables(student.assignment).proofs)
+    def response(self, student: StudentBook) -> FormulaResponse:
+        """Response of a student's formulas to other input data."""
+        return FormulaResponse(student, self._tables(student.assignment).proofs)
 
-    def student(self, book: Issued, grid: Grid, package: Package | None = None) -> Student:
+    def student(self, book: Issued, grid: CellGrid, package: Package | None = None) -> StudentBook:
         """The workbook under its assignment."""
-        made = Student.of(*self.assignment(book), grid)
-        made.package = package
-        restore(made)
-        leave_out_unused(made)
-        return made
+        student = StudentBook.of(*self.assignment(book), grid)
+        student.package = package
+        restore(student)
+        leave_out_unused(student)
+        return student
 
-    def _grade(self, result: Result, grid: Grid, book: Issued, package: Package) -> None:
+    def _grade(self, result: Result, grid: CellGrid, book: Issued, package: Package) -> None:
         assignment = self.assignment(book)[0]
         student = self.student(book, grid, package)
         response = self.response(student)
@@ -214,36 +218,36 @@ class Marker:
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
 
-    def _variant_of(self, student: Student, book: Issued) -> str:
-        """Whose variant the input data are that were typed over those issued."""
+    def _variant_of(self, student: StudentBook, book: Issued) -> str:
+        """Owners of the variant typed over the issued input data."""
         typed = {change.name: change.now for change in student.changed}
-        names = {key: cell_name(Range.path_of(key)) for key in book.drawn}
+        names = {key: cell_name(ParameterRange.path_of(key)) for key in book.drawn}
         mine = {key for key, name in names.items() if name in typed}
         if not mine:
             return ""
         drawn = {**book.drawn, **{key: typed[names[key]] for key in mine}}
-        found = [
+        owners = [
             f"{other.number} ({other.student.full})"
             for other in self.register.books
             if other.number != book.number
             and all(_equal(drawn[key], value) for key, value in other.drawn.items())
         ]
-        return ", ".join(found[:4])
+        return ", ".join(owners[:4])
 
     def others(self, number: int) -> list[OtherVariant]:
-        """What the other students' variants have different."""
+        """Values in which other students' variants differ."""
         mine = next(book for book in self.register.books if book.number == number)
-        found = []
+        others = []
         for other in self.register.books:
             if other.number == number:
                 continue
             values = {
-                cell_name(Range.path_of(key)): float(value)
+                cell_name(ParameterRange.path_of(key)): float(value)
                 for key, value in other.drawn.items()
                 if isinstance(value, (int, float)) and value != mine.drawn.get(key)
             }
-            found.append(OtherVariant(other.number, values))
-        return found
+            others.append(OtherVariant(other.number, values))
+        return others
 
     @staticmethod
     def titles(assignment: Assignment) -> dict[str, str]:
@@ -271,22 +275,24 @@ def _take_match(result: Result, match: Match) -> None:
     result["submitter"] = match.submitter
 
 
-def altered(student: Student, original: Grid | None) -> list[str]:
+def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
     """Cells whose saved value is not what their formula gives."""
     grid = original or student.grid
-    engine = student.engine if original is None else Engine(original)
-    found = []
+    engine = student.engine if original is None else Evaluator(original)
+    cells = []
     places = [student.placement.places.get(node) for node in student.answers]
-    columns = {(place.sheet, place.column): place for place in places if place is not None}
+    columns = {
+        (location.sheet, location.column): location for location in places if location is not None
+    }
     turning = {
-        (place.sheet, place.column)
+        (location.sheet, location.column)
         for node in student.answers
-        if (place := student.placement.places.get(node)) is not None
+        if (location := student.placement.places.get(node)) is not None
         and student.assignment.model.nodes[node].quantity.unit == "deg"
     }
-    for place in columns.values():
-        column = grid.column(place.sheet, place.column)
-        for run in engine.grid.column(place.sheet, place.column).runs:
+    for location in columns.values():
+        column = grid.column(location.sheet, location.column)
+        for run in engine.grid.column(location.sheet, location.column).runs:
             claims = column.saved_of(run)
             if not np.nan_to_num(claims).any():  # XlsxWriter saves noughts: it calculates nothing
                 continue
@@ -295,7 +301,7 @@ def altered(student: Student, original: Grid | None) -> list[str]:
             except UnknownFormula:
                 continue
             away = np.abs(claims - values)
-            if (place.sheet, place.column) in turning:  # −180° and 180° are one direction
+            if (location.sheet, location.column) in turning:  # −180° and 180° are one direction
                 away = np.abs(away - float(TURN) * np.round(away / float(TURN)))
             if not (away > 1e-6).any():
                 continue
@@ -303,15 +309,15 @@ def altered(student: Student, original: Grid | None) -> list[str]:
             scale = max(1.0, float(known.max())) if known.size else 1.0
             off = away > 1e-6 * scale
             for index in np.flatnonzero(off)[:3]:
-                where = address(run.first + int(index), place.column)
+                where = address(run.first + int(index), location.column)
                 now, was = short(values[index]), short(claims[index])
                 if now != was:  # a program that saves few digits has changed nothing
-                    found.append(f"{place.sheet}!{where}: сохранено {was}, формула даёт {now}")
-    return found
+                    cells.append(f"{location.sheet}!{where}: сохранено {was}, формула даёт {now}")
+    return cells
 
 
 def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
-    """What a person is asked where blanks take more points with them than they are worth."""
+    """Question to a person where blanks cost more points than they are worth."""
     taken = [line for line in lines if line["verdict"] == GROUNDLESS]
     roots = {origin for line in taken for origin in line["origins"]}
     own = [line for line in lines if line["id"] in roots]

@@ -1,31 +1,237 @@
-"""The usual mistakes in a formula: in words, and as what they make of it."""
+"""Usual mistakes in a formula, as changes of its tree."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
+from typing import ClassVar
 
 from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, names, parse
-from reports.grading.judging.rewriting import (
-    MIXED,
-    SIGNS,
-    Flipped,
-    OtherExponent,
-    OtherRatio,
-    Renamed,
-    WithoutFactor,
-    WithoutNumber,
-    WithoutPower,
-    WithoutPowers,
-    WithoutSummand,
-    factors,
-    numbers,
-    summands,
-    without_radians,
-)
 from reports.model.blocks import Model, TableSpec
 from reports.model.evaluation import node_of
 from reports.shared.russian import short
+
+# Quantities that are taken for each other.
+MIXED = (
+    ("r_crank", "S_stroke", "ход поршня S вместо радиуса кривошипа r"),
+    ("S_stroke", "r_crank", "радиус кривошипа r вместо хода поршня S"),
+    ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
+    ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
+    ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
+    ("m_j", "m_2", "масса m2 вместо mj"),
+    ("m_2", "m_j", "масса mj вместо m2"),
+    ("m_1", "m_2", "масса m2 вместо m1"),
+    ("m_2", "m_1", "масса m1 вместо m2"),
+    ("m_1", "masses_rod_kg", "вся масса шатуна вместо m1"),
+    ("m_2", "masses_rod_kg", "вся масса шатуна вместо m2"),
+    ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
+    ("geometry_bore_mm", "S_stroke", "ход поршня S вместо диаметра цилиндра"),
+)
+
+
+def summands(tree: ast.AST) -> list[ast.expr]:
+    """Summands of all sums of a formula but those of its exponents, as they are written."""
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Pow):
+        return summands(tree.left)
+    terms: list[ast.expr] = []
+    for side in ast.iter_child_nodes(tree):
+        if _is_sum(tree) and isinstance(side, ast.expr) and not _is_sum(side):
+            terms.append(side)
+        terms += summands(side)
+    return terms
+
+
+def _is_sum(tree: ast.AST) -> bool:
+    return isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
+
+
+def factors(tree: ast.expr) -> list[str]:
+    """Names and functions of a formula; what it multiplies or divides by is among them."""
+    nodes = (node for node in ast.walk(tree) if isinstance(node, (ast.Name, ast.Call)))
+    return sorted({ast.unparse(node) for node in nodes})
+
+
+def numbers(tree: ast.expr) -> list[float]:
+    """Numbers by which a formula multiplies or divides."""
+    literals = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
+            for side in (node.left, node.right):
+                if isinstance(side, ast.Constant) and isinstance(side.value, (int, float)):
+                    literals.append(float(side.value))
+    return sorted(set(literals) - {1.0})
+
+
+class WithoutSummand(ast.NodeTransformer):
+    """Leaves one summand out, where there is one: nought stands in its place."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.wanted: ast.AST = ast.Constant(0)
+
+    def changed(self, tree: ast.expr) -> ast.AST:
+        """The formula without it."""
+        terms = summands(tree)
+        self.wanted = terms[self.number] if self.number < len(terms) else self.wanted
+        return self.visit(tree)
+
+    def visit(self, node: ast.AST) -> ast.AST:
+        """Nought for the summand."""
+        return ast.Constant(0) if node is self.wanted else self.generic_visit(node)
+
+
+class WithoutFactor(ast.NodeTransformer):
+    """Leaves a factor or a divisor out, with its power: a name, or a function of something."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def _is(self, node: ast.expr) -> bool:
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            node = node.left
+        return ast.unparse(node) == self.text
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other side of a product, one in the place of what is divided."""
+        if isinstance(node.op, (ast.Mult, ast.Div)):
+            if self._is(node.right):
+                return self.visit(node.left)  # type: ignore[no-any-return]
+            if self._is(node.left):
+                node.left = ast.Constant(1)
+        self.generic_visit(node)
+        return node
+
+
+class WithoutPower(ast.NodeTransformer):
+    """Takes the power from a name."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The name alone."""
+        self.generic_visit(node)
+        named = isinstance(node.left, ast.Name) and node.left.id == self.name
+        return node.left if isinstance(node.op, ast.Pow) and named else node
+
+
+class WithoutPowers(ast.NodeTransformer):
+    """Takes the power of a number from what stands in brackets."""
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The bracket alone."""
+        self.generic_visit(node)
+        squared = isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant)
+        return node.left if squared and isinstance(node.left, ast.BinOp) else node
+
+
+class OtherExponent(ast.NodeTransformer):
+    """Takes n for n − 1 in an exponent, or n − 1 for n."""
+
+    def __init__(self, *, more: bool) -> None:
+        self.more = more
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other exponent."""
+        self.generic_visit(node)
+        if not isinstance(node.op, ast.Pow):
+            return node
+        less_one = isinstance(node.right, ast.BinOp) and ast.unparse(node.right).endswith(" - 1")
+        if self.more and less_one and isinstance(node.right, ast.BinOp):
+            node.right = node.right.left
+        elif not self.more and isinstance(node.right, ast.Name):
+            node.right = ast.BinOp(node.right, ast.Sub(), ast.Constant(1))
+        return node
+
+
+class WithoutNumber(ast.NodeTransformer):
+    """Leaves a factor or divisor that is a number out."""
+
+    def __init__(self, value: float) -> None:
+        self.value = value
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other side."""
+        self.generic_visit(node)
+        if isinstance(node.op, (ast.Mult, ast.Div)):
+            for side, other in ((node.right, node.left), (node.left, node.right)):
+                is_factor = side is node.right or isinstance(node.op, ast.Mult)
+                same = isinstance(side, ast.Constant) and side.value == self.value
+                if is_factor and same:
+                    return other
+        return node
+
+
+def without_radians(tree: ast.expr) -> ast.expr:
+    """Degrees where radians are wanted."""
+    result = NoRadians().visit(tree)
+    assert isinstance(result, ast.expr)
+    return result
+
+
+class OtherRatio(ast.NodeTransformer):
+    """Takes the sine for the cosine and the cosine for the sine, in one place or in all."""
+
+    _OTHER: ClassVar = {"sin": "cos", "cos": "sin"}
+
+    def __init__(self, number: int | None) -> None:
+        self.number, self.seen = number, -1
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The other ratio of the same angle."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in self._OTHER:
+            self.seen += 1
+            if self.number in (None, self.seen):
+                node.func = ast.Name(self._OTHER[node.func.id], ast.Load())
+        return node
+
+
+class NoRadians(ast.NodeTransformer):
+    """Leaves the conversion out."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The angle as it is."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "rad":
+            return node.args[0]
+        return node
+
+
+class Renamed(ast.NodeTransformer):
+    """Takes one name for another."""
+
+    def __init__(self, old: str, new: str) -> None:
+        self.old, self.new = old, new
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """The other name."""
+        return (
+            ast.copy_location(ast.Name(self.new, ast.Load()), node) if node.id == self.old else node
+        )
+
+
+SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
+
+
+class Flipped(ast.NodeTransformer):
+    """Turns one operation of the formula round: a sum and a difference, a product and a ratio."""
+
+    def __init__(self, number: int, one: type[ast.operator], other: type[ast.operator]) -> None:
+        self.number, self.pair, self.seen = number, {one: other, other: one}, -1
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """The other operation."""
+        self.generic_visit(node)
+        other = self.pair.get(type(node.op))
+        if other is not None:
+            self.seen += 1
+            if self.seen == self.number:
+                node.op = other()
+        return node
+
+
+# --- the mistakes --------------------------------------------------------------------------------
 
 _PRODUCTS = 4  # of a formula, in which it may divide instead
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
@@ -35,8 +241,8 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     """What may have become of the formula of a value of a block, the likeliest first."""
     used = names(ast.unparse(tree))
     yield "градусы вместо радиан в sin, cos", without_radians
-    for place in (None, 0, 1, 2):
-        yield "sin и cos взяты друг вместо друга", OtherRatio(place).visit
+    for which in (None, 0, 1, 2):
+        yield "sin и cos взяты друг вместо друга", OtherRatio(which).visit
     yield from _shorter(tree, block, model)
     for wrong_for, taken, words in MIXED:
         if wrong_for in used and (taken in model.scalars or taken in model.fields):
@@ -97,8 +303,8 @@ def symbol_of(name: str, block: str, model: Model) -> str:
 
 def _symbols(tree: ast.expr, block: str, model: Model) -> str:
     used = sorted(names(ast.unparse(tree)))
-    found = "·".join(dict.fromkeys(symbol_of(name, block, model) for name in used))
+    symbols = "·".join(dict.fromkeys(symbol_of(name, block, model) for name in used))
     if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name):
         name = tree.func.id
-        return found if name in _NAMELESS else f"{_CALLED.get(name, name)} {found}"
-    return found or ast.unparse(tree).replace("pi", "π")
+        return symbols if name in _NAMELESS else f"{_CALLED.get(name, name)} {symbols}"
+    return symbols or ast.unparse(tree).replace("pi", "π")

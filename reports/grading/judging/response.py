@@ -8,24 +8,24 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.lists import is_of_angles, listed, reads_a_list
-from reports.grading.judging.settled import EXACT, settled
-from reports.grading.judging.shaking import Shaking
-from reports.grading.judging.tolerances import apart, close, tolerance
-from reports.grading.judging.trials import Trial, fixed, turned
-from reports.grading.judging.tryout import Tryout
-from reports.grading.reading.signatures import Signatures
-from reports.grading.reading.student import Student
-from reports.recalculation.bench import cuts, pinned, rounded_to, unrounded_grid
+from reports.grading.judging.judgement import Rule, close, decide, distance, tolerance
+from reports.grading.judging.literal_tables import is_of_angles, listed, reads_a_list
+from reports.grading.judging.perturbation import Shaking
+from reports.grading.judging.proven import EXACT, Proofs, Signatures, settled
+from reports.grading.judging.trial_evaluation import Trial, Tryout, fixed, turned
+from reports.grading.reading.student import StudentBook
+from reports.recalculation.trial_sheet import cuts, pinned, rounded_to, unrounded_grid
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED, IDLE = "prctsw-uli"
@@ -35,23 +35,66 @@ _NEARLY = 0.1  # of a change: digits that are left out do not make a list of a f
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
 
+@dataclass(frozen=True, slots=True)
+class ResponseEvidence:
+    """Evidence of the trials of a node's formulas, for each cell."""
+
+    formula: Mask
+    number: Mask  # a number on the right values of the first trial
+    right: Mask  # its run is right for every trial that decides
+    rounded: Mask  # its run is, but for roundings that a person may make
+    few: Mask  # right in a run with one or two wrong rows
+    coarse: Mask  # its run is right but for its roundings
+    stands: Mask  # one value for all trials and all angles
+    listed: Mask  # its run is a list of numbers that the angles do not explain
+    others: Mask  # right where all input data change
+    same: Mask  # right value alike for every engine
+    idle: Mask  # one number whatever stands in the cells that it refers to
+    reads: bool  # numbers typed in beside the tables are read
+    made_up: bool  # these, or those of a list, are not explained by the angles
+    own_rows: bool = False  # wrong between the angles of the rows
+
+    @property
+    def follows(self) -> Mask:
+        """Mask of formulas that follow their precedents."""
+        return self.right | self.rounded | self.few
+
+    @property
+    def unsure(self) -> Mask:
+        """Where it does not, or only while the same input data change as for the class."""
+        return ~(self.follows & self.others)
+
+    @property
+    def numbers(self) -> Mask:
+        """Where a formula may be numbers: what all variants have in common is none otherwise.
+
+        Such a number is one only where nothing follows from anything.
+        """
+        return ~self.follows | ~(self.others | self.same)
+
+
+RESPONSE_RULES = (
+    Rule[ResponseEvidence]("no formula", NOTHING, lambda e: ~e.formula),
+    Rule[ResponseEvidence]("no number", WRONG, lambda e: ~e.follows & ~e.number),
+    Rule[ResponseEvidence]("stands still", STILL, lambda e: e.stands & e.numbers),
+    Rule[ResponseEvidence]("list of numbers", STILL, lambda e: e.listed & e.numbers),
+    Rule[ResponseEvidence]("right at its own rows", PASTED,
+                           lambda e: (e.unsure | (e.follows & e.made_up)) & e.own_rows),
+    Rule[ResponseEvidence]("reads a list", PASTED, lambda e: e.unsure & e.reads),
+    Rule[ResponseEvidence]("idle", IDLE, lambda e: e.follows & e.idle),
+    Rule[ResponseEvidence]("right", RIGHT, lambda e: e.right),
+    Rule[ResponseEvidence]("rounded", ROUNDED, lambda e: e.rounded),
+    Rule[ResponseEvidence]("one or two rows wrong", RIGHT, lambda e: e.few),
+    Rule[ResponseEvidence]("coarse", COARSE, lambda e: e.coarse),
+    Rule[ResponseEvidence]("partly", PARTLY, lambda e: e.formula | True),
+)  # fmt: skip
+
+
 @dataclass
-class Proofs:
-    """Formulas that are right for every trial, and refer to nothing but cells of the work-book.
+class FormulaResponse:
+    """Response of one student's formulas to the trials."""
 
-    Many students write the same formulas: they are tried once for a class.  What else is said of
-    a formula may rest on the engine of its student, and is said of nobody else's.
-    """
-
-    trials: tuple[Trial, ...]
-    known: dict[tuple[object, ...], bool] = field(default_factory=dict)  # to the last digit or not
-
-
-@dataclass
-class Response:
-    """How the formulas of one student respond."""
-
-    student: Student
+    student: StudentBook
     proofs: Proofs
 
     @property
@@ -71,7 +114,7 @@ class Response:
 
     @cached_property
     def _keys(self) -> dict[str, tuple[object, ...]]:
-        """What the response of a node follows from, where it may be known of another book."""
+        """Keys of nodes whose response may be proven by another book."""
         signatures = Signatures(self.student)
         return {
             node: (*key, *self._not_tried(node))
@@ -115,7 +158,7 @@ class Response:
         return "".join(self._of_node(replace(item, nodes=(n,)), n) for n in item.nodes)
 
     def fixed(self, item: Item) -> NDArray[np.bool_]:
-        """Where the right value is the same whatever the engine: 0 at dead centre."""
+        """Mask of right values alike for every engine: 0 at dead centre."""
         return np.concatenate([self._fixed(node) for node in item.nodes])
 
     def _fixed(self, node: str, *, alike: bool = False) -> NDArray[np.bool_]:
@@ -125,8 +168,8 @@ class Response:
 
     @cached_property
     def _idle(self) -> dict[str, NDArray[np.bool_]]:
-        """Where formulas react to nothing, of the tried nodes that no variant tells apart."""
-        nodes = [n for n, made in self._values.items() if not isinstance(made, str)]
+        """Masks of idle formulas, by tried nodes alike for all variants."""
+        nodes = [n for n, values in self._values.items() if not isinstance(values, str)]
         nodes = [node for node in nodes if self._fixed(node, alike=True).all()]
         return self.shaking.idle(nodes) if nodes else {}
 
@@ -139,8 +182,8 @@ class Response:
         item = replace(item, nodes=(node,))
         return any(
             not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
-            and bool(self._close(item, made, right, trial).all())
-            for made, right, trial in zip(
+            and bool(self._close(item, trial_values, right, trial).all())
+            for trial_values, right, trial in zip(
                 values, _right(node, self.trials), self.trials, strict=True
             )
         )
@@ -167,16 +210,16 @@ class Response:
         The first are lists of numbers, whatever they are made of; the second calculate.
         """
         trials = (self.tryout.own, turned(self.student.expected))
-        made = self.tryout.run([node], trials, rounded=False)[node]
-        if isinstance(made, str):
+        turned_values = self.tryout.run([node], trials, rounded=False)[node]
+        if isinstance(turned_values, str):
             nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
             return ~nowhere, nowhere
         right = _right(node, trials)
-        own, between = map(self._close, (item, item), made, right, trials)
+        own, between = map(self._close, (item, item), turned_values, right, trials)
         allowed = tolerance(item, right[1], self.student)
-        change, wanted = made[1] - made[0], right[1] - right[0]
+        change, wanted = turned_values[1] - turned_values[0], right[1] - right[0]
         near = np.abs(change - wanted) <= allowed + _NEARLY * np.abs(wanted)
-        return own & ~between, near & _differ(*made)
+        return own & ~between, near & _differ(*turned_values)
 
     def _of_node(self, item: Item, node: str) -> str:
         count = self.student.assignment.length(node)
@@ -184,13 +227,13 @@ class Response:
             return NOTHING * count
         if node not in self._tried:
             return RIGHT * count
-        found = self._judged(item, node, count)
+        letters = self._judged(item, node, count)
         key = self._keys.get(node)
-        if key is not None and set(found) == {RIGHT}:
+        if key is not None and set(letters) == {RIGHT}:
             self._exact[node] = self._is_exact(node)
             if self._is_proven(item, node):
                 self.proofs.known[key] = self._exact[node]
-        return found
+        return letters
 
     @cached_property
     def _exact(self) -> dict[str, bool]:
@@ -216,11 +259,11 @@ class Response:
             return False
         first, *others = self.trials
         decide = [trial for trial in others if trial.decides]
-        told = not fixed(node, first.expected, decide).all()
+        varies = not fixed(node, first.expected, decide).all()
         reacts = node in self._idle and not self._idle[node].any()
         good = self._good(item, values, _right(node, self.trials))
         listless = not listed(self.student.runs(node)) and not reads_a_list(self.student, node)
-        return (told or reacts) and listless and bool(good[0].all() and good[1].all())
+        return (varies or reacts) and listless and bool(good[0].all() and good[1].all())
 
     def _is_exact(self, node: str) -> bool:
         """Whether a node's formulas have given the very values of every trial."""
@@ -233,69 +276,71 @@ class Response:
         )
 
     def _judged(self, item: Item, node: str, count: int) -> str:
-        values = self._values[node]
-        if isinstance(values, str):
+        if isinstance(self._values[node], str):
             return UNKNOWN * count
-        place = self.student.placement.places[node]
-        index = {row: i for i, row in enumerate(place.rows) if row is not None}
-        letters = [NOTHING] * count
-        lists = listed(self.student.runs(node))
-        reads = reads_a_list(self.student, node)
-        of_angles = bool(lists or reads) and is_of_angles(self.student, node)
-        refers = bool(self.student.refers(node))  # to nothing: numbers, whatever they follow
-        made_up = bool(lists or reads) and refers and not of_angles  # a friend's fit exactly, too
-        right = _right(node, self.trials)
-        good = self._good(item, values, right)
+        return "".join(decide(RESPONSE_RULES, self._evidence(item, node, count), count))
+
+    def _evidence(self, item: Item, node: str, count: int) -> ResponseEvidence:
+        values, right = self._values[node], _right(node, self.trials)
+        assert not isinstance(values, str)
+        good, others = self._good(item, values, right)
         roughly = self._rounded_good(item, node, values, right)
-        others = good[1] if roughly is None else good[1] | roughly[2]
+        exact, fine = (good & False,) * 2 if roughly is None else roughly[:2]
+        others = others if roughly is None else others | roughly[2]
         same = self._fixed(node)
         idle = self._idle.get(node, same & False)
         stands = ~np.any([_differ(values[0], other) for other in values], axis=0)
         # What is alike for the class may be typed in, beside something that is referred to.
         stands &= ~(same | (self._fixed(node, alike=True) & ~idle))
         turn = self._turned(item, node) if stands.any() else None
+        lists = listed(self.student.runs(node))
+        reads = reads_a_list(self.student, node)
+        made_up = bool(lists or reads) and not is_of_angles(self.student, node)
+        names = ("formula", "right", "rounded", "few", "coarse", "moves", "listed")
+        marks: dict[str, Any] = {name: np.zeros(count, dtype=bool) for name in names}
+        for at, listed_run in self._runs_at(node, lists):
+            whole = bool(good[at].all())
+            rounded = not whole and bool(fine[at].all())
+            # One or two wrong rows cost their share; what is nought by itself proves nothing.
+            few = (~good)[at].sum() <= _FEW and (good & ~same)[at].mean() >= _MOST
+            marks["formula"][at] = True
+            marks["right"][at], marks["rounded"][at] = whole, rounded
+            marks["few"][at] = few & good[at]
+            marks["coarse"][at] = exact[at].all()
+            marks["moves"][at] = turn is not None and turn[1][at].mean() >= _MOST
+            marks["listed"][at] = listed_run and made_up
+        stands &= ~marks.pop("moves")
+        # A friend's numbers fit exactly, too; what refers to nothing is numbers anyway.
+        made_up = made_up and bool(self.student.refers(node))
+        evidence = ResponseEvidence(**marks, stands=stands, others=others, same=same,
+                                    number=np.isfinite(values[0]), idle=idle & same, reads=reads,
+                                    made_up=made_up)  # fmt: skip
+        if (evidence.formula & (evidence.unsure | (evidence.follows & made_up))).any():
+            turn = turn or self._turned(item, node)
+            return replace(evidence, own_rows=bool(turn[0].mean() >= _MOST))
+        return evidence
+
+    def _runs_at(self, node: str, lists: set[int]) -> Iterator[tuple[list[int], bool]]:
+        """Indices of the cells of each run, and whether it is one of a list."""
+        rows = self.student.placement.places[node].rows
+        index = {row: i for i, row in enumerate(rows) if row is not None}
         for run in self.student.runs(node):
             at = [index[row] for row in range(run.first, run.last + 1) if row in index]
-            if not at:
-                continue
-            whole = ""
-            if all(good[0][i] for i in at):
-                whole = RIGHT
-            elif roughly is not None and all(roughly[1][i] for i in at):
-                whole = ROUNDED
-            coarse = roughly is not None and all(roughly[0][i] for i in at)
-            moves = turn is not None and turn[1][at].mean() >= _MOST
-            # One or two wrong rows cost their share; what is nought by itself proves nothing.
-            few = (~good[0])[at].sum() <= _FEW and (good[0] & ~same)[at].mean() >= _MOST
-            for i in at:
-                word = whole or (RIGHT if few and good[0][i] else "")
-                still = (bool(stands[i]) and not moves) or (id(run) in lists and not of_angles)
-                # What all variants have in common is a number or a list of numbers only where
-                # nothing follows from anything.
-                still &= not word or not (others[i] or same[i])
-                letter = STILL if still else word or PARTLY
-                letter = letter if word or np.isfinite(values[0][i]) else WRONG
-                letter = COARSE if coarse and letter == PARTLY else letter
-                unsure = letter in (PARTLY, COARSE) or (letter == word and not others[i])
-                if unsure or (made_up and letter == word):
-                    turn = turn or self._turned(item, node)
-                    pasted = turn[0].mean() >= _MOST or (unsure and reads)
-                    letter = PASTED if pasted else letter
-                letters[i] = IDLE if idle[i] and same[i] and letter in (RIGHT, ROUNDED) else letter
-        return "".join(letters)
+            if at:
+                yield at, id(run) in lists
 
     def _good(
         self, item: Item, values: Sequence[Array], right: Sequence[Array]
     ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Where all trials that decide agree, and where the others do."""
+        """Masks of agreement with the trials that decide, and with the others."""
         decided = np.ones(len(right[0]), dtype=bool)
         others = decided.copy()
         for trial, own, wanted in zip(self.trials, values, right, strict=True):
-            found = self._close(item, own, wanted, trial) | (np.isnan(own) & np.isnan(wanted))
+            agrees = self._close(item, own, wanted, trial) | (np.isnan(own) & np.isnan(wanted))
             if trial.decides:
-                decided &= found
+                decided &= agrees
             else:
-                others &= found
+                others &= agrees
         return decided, others
 
     def _rounded_good(
@@ -306,7 +351,7 @@ class Response:
         if not plain or isinstance(plain, str):
             return None
         exact, others = self._good(item, plain, right)
-        found = exact.copy()
+        fine = exact.copy()
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         coarse = rounds_coarsely(self.student, item, node)
         inside = any(map(cuts, self.tryout.formulas(node)))
@@ -314,8 +359,8 @@ class Response:
             if trial.decides and inside:  # digits of π cost what they cost
                 largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
-                found &= close(item, own, wanted, allowed * (1 + 1e-9), trial.expected)
-        return exact, found, others
+                fine &= close(item, own, wanted, allowed * (1 + 1e-9), trial.expected)
+        return exact, fine, others
 
     @cached_property
     def tampered(self) -> list[str]:
@@ -336,13 +381,13 @@ class Response:
                 continue
             wanted = np.ravel(np.asarray(right, dtype=float))
             scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
-            near = apart([node], own, wanted, trial.expected) <= 1e-6 * max(scale, 1e-12)
+            near = distance([node], own, wanted, trial.expected) <= 1e-6 * max(scale, 1e-12)
             if not (near | (np.isnan(own) & np.isnan(wanted))).all():
                 return False
         return True
 
 
-def rounds_coarsely(student: Student, item: Item, node: str) -> bool:
+def rounds_coarsely(student: StudentBook, item: Item, node: str) -> bool:
     """Whether a column is rounded more than the book prints."""
     digits = [rounded_to(run.formula) for run in student.runs(node) if run.formula is not None]
     return any(d is not None and d < item.quantity.digits.decimals for d in digits)
@@ -353,7 +398,7 @@ def _right(node: str, trials: Sequence[Trial]) -> list[Array]:
 
 
 def _differ(first: Array, second: Array) -> NDArray[np.bool_]:
-    """Where two columns of numbers differ."""
+    """Mask of numbers that differ between two columns."""
     size = np.maximum(np.abs(first), np.abs(second))
     other = np.abs(first - second) > 1e-9 * size + 1e-12
     return np.asarray(other | (np.isnan(first) != np.isnan(second)))

@@ -35,20 +35,20 @@ def signals(results: Works) -> list[str]:
 def suspicions(results: Works) -> dict[str, list[str]]:
     """Key of a result → why a person has to decide before it gives points."""
     graded = [result for result in results if result.status == "graded"]
-    found: dict[str, list[str]] = {r.key: list(r.doubts) for r in results if r.doubts}
+    reasons: dict[str, list[str]] = {r.key: list(r.doubts) for r in results if r.doubts}
     for group, shared in _sharing(graded, odd=True):
         for result in group:
             others = ", ".join(_who(other) for other in group if other is not result)
             text = f"те же необычные формулы, что у: {others} — {_named(shared, result)}"
-            found.setdefault(result.key, []).append(text)
+            reasons.setdefault(result.key, []).append(text)
     for result, text in _foreign_values(graded):
-        found.setdefault(result.key, []).append(text)
+        reasons.setdefault(result.key, []).append(text)
     for group in _file_groups(results):
         if len({r.number for r in group}) > 1:
             for result in group:
                 others = ", ".join(_who(other) for other in group if other is not result)
-                found.setdefault(result.key, []).append(f"тот же файл сдан: {others}")
-    return found
+                reasons.setdefault(result.key, []).append(f"тот же файл сдан: {others}")
+    return reasons
 
 
 def _who(result: Work) -> str:
@@ -63,22 +63,22 @@ def _named(items: Sequence[str], result: Work, limit: int = 3) -> str:
 
 
 def _groups(pairs: list[tuple[str, Work]]) -> dict[str, list[Work]]:
-    found: dict[str, list[Work]] = {}
+    groups: dict[str, list[Work]] = {}
     for key, result in pairs:
-        found.setdefault(key, []).append(result)
+        groups.setdefault(key, []).append(result)
     return {
         key: group
-        for key, group in sorted(found.items())
+        for key, group in sorted(groups.items())
         if len({result.number or result.key for result in group}) > 1
     }
 
 
 def _file_groups(results: Works) -> list[list[Work]]:
-    found: dict[str, list[Work]] = {}
+    groups: dict[str, list[Work]] = {}
     for result in results:
         if result.sha256:
-            found.setdefault(result.sha256, []).append(result)
-    return [group for _, group in sorted(found.items()) if len(group) > 1]
+            groups.setdefault(result.sha256, []).append(result)
+    return [group for _, group in sorted(groups.items()) if len(group) > 1]
 
 
 def _same_files(results: Works) -> list[str]:
@@ -122,7 +122,7 @@ def _foreign_values(graded: Works) -> list[tuple[Work, str]]:
         for line, right in result.rights:
             if (line.id, right) in wanted:
                 owners.setdefault((line.id, right), []).append(result)
-    found = []
+    pairs = []
     for result in graded:
         sources: dict[str, list[str]] = {}
         for line, right in result.rights:
@@ -134,8 +134,8 @@ def _foreign_values(graded: Works) -> list[tuple[Work, str]]:
         for name, items in sorted(sources.items()):
             if len(items) >= _SHARED:
                 text = f"значения верны для чужого варианта: {name} — {_named(items, result)}"
-                found.append((result, f"{_who(result)}: {text}"))
-    return found
+                pairs.append((result, f"{_who(result)}: {text}"))
+    return pairs
 
 
 def _sharing(graded: Works, *, odd: bool) -> list[tuple[list[Work], list[str]]]:
@@ -170,14 +170,14 @@ def _same_formulas(graded: Works, *, odd: bool) -> list[str]:
 
 
 def _of_the_program(graded: Works) -> list[str]:
-    """Who has written nearly all formulas as the book does that the program has solved."""
-    found = []
+    """Works with nearly all formulas as the solved book has them."""
+    labels = []
     for result in graded:
         own = [line.formula[2] for line in result.items if line.formula]
         if len(own) >= _MANY and sum(own) >= _NEARLY_ALL * len(own):
             text = "формулы слово в слово как в книге, решённой программой"
-            found.append(f"{_who(result)}: {text} — {sum(own)} из {len(own)}")
-    return found
+            labels.append(f"{_who(result)}: {text} — {sum(own)} из {len(own)}")
+    return labels
 
 
 def _same_people(graded: Works) -> list[str]:
@@ -192,9 +192,9 @@ def _same_people(graded: Works) -> list[str]:
 
 
 def _foreign(results: Works) -> list[str]:
-    found = []
+    labels = []
     for result in results:
         for text in result.manual:
             if "идентификатор" in text:
-                found.append(f"{_who(result)}: {text}")
-    return found
+                labels.append(f"{_who(result)}: {text}")
+    return labels

@@ -1,16 +1,18 @@
-"""The verdict on each item, from what its cells hold and how its formulas respond."""
+"""Verdict on each item, from what its cells hold and how its formulas respond."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
-from reports.grading.judging.errors import shown_errors
+from reports.grading.judging.dependencies import GROUND_RULES, Grounds
 from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
@@ -22,15 +24,17 @@ from reports.grading.judging.judgement import (
     WRONG,
     Array,
     Judgement,
+    Rule,
+    close,
+    decide,
+    tolerance,
 )
-from reports.grading.judging.response import Response
-from reports.grading.judging.resting import backwards, carried, without_ground
-from reports.grading.judging.tolerances import close, tolerance
-from reports.grading.reading.ground import filled_copy
-from reports.grading.reading.student import LOST, Answer, Student, known_values
+from reports.grading.judging.response import FormulaResponse
+from reports.grading.reading.circularity import filled_copy
+from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.formulas import UnknownFormula
 
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
@@ -38,22 +42,22 @@ _OWN = "считает от чисел вне таблиц, одних и тех
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
-def judge_all(student: Student, response: Response) -> list[Judgement]:
+def judge_all(student: StudentBook, response: FormulaResponse) -> list[Judgement]:
     """Verdicts on all items, in the order of the book."""
     items = student.assignment.items
     nodes = [node for item in items for node in item.nodes]
     student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
-    found = {item.id: _judged(item, student, response) for item in items}
-    without_ground(found, student, response)
-    backwards(found, student, response)
-    carried(found, student)
-    return [found[item.id] for item in items]
+    judgements = {item.id: _judged(item, student, response) for item in items}
+    grounds = Grounds.of(judgements, student, response)
+    for rule in GROUND_RULES:
+        rule.apply(judgements, grounds)
+    return [judgements[item.id] for item in items]
 
 
 # --- one item by itself ----------------------------------------------------------------------
 
 
-def _judged(item: Item, student: Student, response: Response) -> Judgement:
+def _judged(item: Item, student: StudentBook, response: FormulaResponse) -> Judgement:
     try:
         return _of_cells(item, student, response)
     except UnknownFormula as problem:
@@ -62,37 +66,266 @@ def _judged(item: Item, student: Student, response: Response) -> Judgement:
         return Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem))
 
 
-def _of_cells(item: Item, student: Student, response: Response) -> Judgement:
-    answers = [student.answers[node] for node in item.nodes]
-    right = [student.expected.value(node) for node in item.nodes]
+def _of_cells(item: Item, student: StudentBook, response: FormulaResponse) -> Judgement:
     if item.quantity.digits.kind == "text":
-        return _judge_text(item, student, answers[0])
-    expected = np.asarray(np.concatenate([np.ravel(value) for value in right]), dtype=float)
-    values = np.concatenate([answer.values for answer in answers])
-    kinds = "".join(answer.kinds for answer in answers)
-    typed = np.concatenate([answer.typed for answer in answers])
-    made = Judgement(item, RIGHT, expected, values, typed=_where(typed))
-    letters = response.letters(item)
-    if say.UNKNOWN in letters:
-        why = next(filter(None, map(response.problem, item.nodes)), "")
-        rows, why = tuple(range(len(values))), f"формулу не удалось пересчитать: {why}"
-        return replace(made, verdict=UNKNOWN, rows=rows, reason=why)
-    if LOST in kinds:
-        rows = _where([kind == LOST for kind in kinds])
-        return replace(made, verdict=UNKNOWN, rows=rows, reason="ячейки не найдены в книге")
-    if set(kinds) == {BLANK}:
-        why = filled_copy(student, item.nodes[0])
-        return replace(made, verdict=UNKNOWN if why else EMPTY, reason=why)
-    odd = _odd(answers)
-    good = close(item, values, expected, tolerance(item, expected, student), student.expected)
-    unread = [i for i, why in odd.items() if why != TEXT_NUMBER and not good[i]]
-    if unread:
-        return replace(made, verdict=UNKNOWN, rows=tuple(unread), typed=(), reason=odd[unread[0]])
-    if not student.assignment.formulas_demanded(item) and typed.all():
-        made = _free(made, student)
-    else:
-        made = _by_rows(made, student, response, kinds, letters)
-    return replace(made, reason=TEXT_NUMBER) if odd and not made.reason else made
+        return _judge_text(item, student, student.answers[item.nodes[0]])
+    evidence = ItemEvidence(item, student, response)
+    judgement = next(filter(None, (rule.judge(evidence) for rule in ITEM_RULES)))
+    return (
+        replace(judgement, reason=TEXT_NUMBER)
+        if evidence.odd and not judgement.reason
+        else judgement
+    )
+
+
+@dataclass
+class ItemEvidence:
+    """Evidence on an item: contents of its cells, response of its formulas."""
+
+    item: Item
+    student: StudentBook
+    response: FormulaResponse
+
+    @cached_property
+    def answers(self) -> list[Answer]:
+        """Contents of the cells of each node."""
+        return [self.student.answers[node] for node in self.item.nodes]
+
+    @cached_property
+    def judgement(self) -> Judgement:
+        """The item with its right and its own values, no verdict found yet."""
+        right = [np.ravel(self.student.expected.value(node)) for node in self.item.nodes]
+        expected = np.asarray(np.concatenate(right), dtype=float)
+        values = np.concatenate([answer.values for answer in self.answers])
+        typed = np.concatenate([answer.typed for answer in self.answers])
+        return Judgement(self.item, RIGHT, expected, values, typed=_where(typed))
+
+    @cached_property
+    def kinds(self) -> str:
+        """Number, text, error or blank, a letter a cell."""
+        return "".join(answer.kinds for answer in self.answers)
+
+    @cached_property
+    def letters(self) -> str:
+        """Response of each cell's formula, a letter a cell."""
+        return self.response.letters(self.item)
+
+    @cached_property
+    def formulas(self) -> list[str]:
+        """The same of those cells that have formulas."""
+        return [letter for letter in self.letters if letter != say.NOTHING]
+
+    @cached_property
+    def odd(self) -> dict[int, str]:
+        """Values that a spreadsheet has taken for something else, and for what."""
+        return _odd(self.answers)
+
+    def close(self, values: Array) -> NDArray[np.bool_]:
+        """Mask of values that print as the right ones."""
+        item, expected, student = self.item, self.judgement.expected, self.student
+        allowed = tolerance(item, expected, student)
+        return close(item, values, expected, allowed, student.expected)
+
+    @cached_property
+    def close_values(self) -> NDArray[np.bool_]:
+        """Mask of cells with right numbers."""
+        return self.close(self.judgement.values)
+
+    @cached_property
+    def good(self) -> NDArray[np.bool_]:
+        """The same, but for two mistakes that make up for each other."""
+        if say.PARTLY not in self.letters:
+            return self.close_values
+        alone = self.response.tryout.alone(self.item)
+        partly = np.array(list(self.letters)) == say.PARTLY
+        return (
+            self.close_values
+            if alone is None
+            else (self.close_values & (self.close(alone) | ~partly))
+        )
+
+    @cached_property
+    def still(self) -> NDArray[np.bool_]:
+        """Mask of right values alike for every engine."""
+        return self.response.fixed(self.item)
+
+    @cached_property
+    def plain(self) -> bool:
+        """Whether the formulas refer to no cell at all."""
+        runs = [run for node in self.item.nodes for run in self.student.runs(node)]
+        return not any(True for run in runs for _ in self.student.grid.located(run))
+
+    @cached_property
+    def unlinked(self) -> bool:
+        """Whether the formulas refer to nothing that they could respond to.
+
+        What has followed other input data refers to them, if only by a copy.
+        """
+        words = decide(CELL_RULES, self.cells(unlinked=False), len(self.letters))
+        pairs = zip(words, self.still, strict=True)
+        follows = not self.plain and any(w == RIGHT and not fixed for w, fixed in pairs)
+        return not follows and not _is_linked(self.item, self.student)
+
+    @cached_property
+    def words(self) -> list[str]:
+        """Word of each cell: right, or the fault."""
+        return decide(CELL_RULES, self.cells(unlinked=self.unlinked), len(self.letters))
+
+    def cells(self, *, unlinked: bool) -> CellEvidence:
+        """The evidence of each cell."""
+        # A nought typed in among formulas is one; a column typed in is numbers throughout.
+        among = len(self.formulas) >= _ENOUGH * len(self.letters)
+        return CellEvidence(np.array(list(self.kinds)), np.array(list(self.letters)), self.good,
+                            self.still & among, unlinked, self.plain)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class CellEvidence:
+    """Evidence on the cells of an item, a value for each."""
+
+    kind: NDArray[np.str_]
+    letter: NDArray[np.str_]
+    good: NDArray[np.bool_]
+    fixed: NDArray[np.bool_]
+    unlinked: bool
+    plain: bool
+
+    @property
+    def typed(self) -> NDArray[np.bool_]:
+        """Mask of cells without a formula."""
+        return np.asarray(self.letter == say.NOTHING)
+
+    @property
+    def follows(self) -> NDArray[np.bool_]:
+        """Mask of formulas that follow their precedents."""
+        return np.isin(self.letter, (say.RIGHT, say.ROUNDED, say.IDLE))
+
+    @property
+    def rounds(self) -> NDArray[np.bool_]:
+        """Mask of formulas that round too much, visibly or not."""
+        return np.asarray(self.letter == say.COARSE)
+
+
+CELL_RULES = (
+    Rule[CellEvidence]("blank", EMPTY, lambda e: e.kind == BLANK),
+    Rule[CellEvidence]("typed error", BROKEN, lambda e: e.typed & (e.kind == ERROR)),
+    Rule[CellEvidence]("wrong number", WRONG, lambda e: e.typed & ~e.good),
+    Rule[CellEvidence]("typed number", TYPED, lambda e: e.typed & ~e.fixed),
+    Rule[CellEvidence]("error", BROKEN, lambda e: ~e.typed & ~e.follows & (e.kind == ERROR)),
+    Rule[CellEvidence]("wrong formula", WRONG, lambda e: ~e.typed & ~e.follows & ~e.good),
+    Rule[CellEvidence]("number in a formula", TYPED, lambda e: ~(
+        e.typed | e.follows | e.rounds | (e.letter == say.STILL))),
+    Rule[CellEvidence]("numbers alone", TYPED, lambda e: (e.letter != "") & e.unlinked & e.plain),
+    Rule[CellEvidence]("not linked", STILL, lambda e: (e.letter != "") & e.unlinked),
+    Rule[CellEvidence]("formula of numbers", STILL, lambda e: e.letter == say.STILL),
+    Rule[CellEvidence]("right", RIGHT, lambda e: e.letter != ""),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class ItemRule:
+    """A verdict on an item by itself, None where the rule does not hold."""
+
+    name: str
+    judge: Callable[[ItemEvidence], Judgement | None]
+
+
+def _not_calculated(e: ItemEvidence) -> Judgement | None:
+    if say.UNKNOWN not in e.letters:
+        return None
+    why = next(filter(None, map(e.response.problem, e.item.nodes)), "")
+    rows, why = tuple(range(len(e.judgement.values))), f"формулу не удалось пересчитать: {why}"
+    return replace(e.judgement, verdict=UNKNOWN, rows=rows, reason=why)
+
+
+def _lost(e: ItemEvidence) -> Judgement | None:
+    if LOST not in e.kinds:
+        return None
+    rows = _where([kind == LOST for kind in e.kinds])
+    return replace(e.judgement, verdict=UNKNOWN, rows=rows, reason="ячейки не найдены в книге")
+
+
+def _filled_copy(e: ItemEvidence) -> Judgement | None:
+    why = filled_copy(e.student, e.item.nodes[0]) if set(e.kinds) == {BLANK} else ""
+    return replace(e.judgement, verdict=UNKNOWN, reason=why) if why else None
+
+
+def _blank(e: ItemEvidence) -> Judgement | None:
+    return replace(e.judgement, verdict=EMPTY) if set(e.kinds) == {BLANK} else None
+
+
+def _unread(e: ItemEvidence) -> Judgement | None:
+    rows = [i for i, why in e.odd.items() if why != TEXT_NUMBER and not e.close_values[i]]
+    if not rows:
+        return None
+    return replace(e.judgement, verdict=UNKNOWN, rows=tuple(rows), typed=(), reason=e.odd[rows[0]])
+
+
+def _free(e: ItemEvidence) -> Judgement | None:
+    """Numbers where no formula is demanded: right, or right for the student's own others."""
+    item, judgement, student, good = e.item, e.judgement, e.student, e.close_values
+    if student.assignment.formulas_demanded(item) or len(judgement.typed) < len(good):
+        return None
+    if good.all():
+        return replace(judgement, typed=(), paid=1.0)
+    own = own_values(item, student, None)
+    allowed = tolerance(item, judgement.expected, student)
+    if close(item, judgement.values, own, allowed, student.expected).all():
+        return replace(judgement, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
+    return replace(judgement, verdict=WRONG, rows=_where(~good))
+
+
+def _idle(e: ItemEvidence) -> Judgement | None:
+    idle = set(e.formulas) == {say.IDLE} and not e.plain
+    if not idle or e.response.shaking.is_idle_by_nature(e.item):
+        return None
+    why = _OWN if e.unlinked else _IDLE
+    return replace(e.judgement, verdict=UNKNOWN, typed=(), reason=why)
+
+
+def _pasted(e: ItemEvidence) -> Judgement | None:
+    cells = zip(e.letters, e.good, e.still, strict=True)
+    if not any(good and not still for letter, good, still in cells if letter == say.PASTED):
+        return None
+    return replace(e.judgement, verdict=UNKNOWN, typed=(), reason=_PASTED)
+
+
+# How a cell that is not right is called, the worst first.
+_WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
+
+
+def _by_cells(e: ItemEvidence) -> Judgement:
+    """The verdict that most cells have, but numbers in disguise before all others."""
+    counts, total = Counter(e.words), len(e.words)
+    if counts.keys() == {RIGHT}:
+        return replace(e.judgement, paid=1.0, typed=(), coarse=say.ROUNDED in e.letters)
+    bad = [word for word in _WORST if word in counts]
+    verdict = max(bad, key=lambda word: (word == STILL, counts[word] if word != TYPED else 0))
+    credit = e.student.assignment.rubric.credit
+    paid = (counts[RIGHT] + credit.typed * counts[TYPED]) / total
+    if verdict != TYPED:
+        by_rows = STILL not in counts and counts[RIGHT] + counts[TYPED] >= _ENOUGH * total
+        paid = paid * credit.rows if by_rows else 0.0
+    reason = _reason(verdict, e.words, e.kinds, e.letters, unlinked=e.unlinked)
+    if verdict == BROKEN:
+        reason = shown_errors(e.item, e.student)
+    coarse = any(say.rounds_coarsely(e.student, e.item, node) for node in e.item.nodes)
+    return replace(e.judgement, verdict=verdict, paid=paid, reason=reason,
+                   rows=_where([word != RIGHT for word in e.words]),
+                   coarse=say.COARSE in e.letters or coarse)  # fmt: skip
+
+
+ITEM_RULES = (
+    ItemRule("not calculated", _not_calculated),
+    ItemRule("lost", _lost),
+    ItemRule("copy of the sheet filled", _filled_copy),
+    ItemRule("blank", _blank),
+    ItemRule("taken for another", _unread),
+    ItemRule("numbers allowed", _free),
+    ItemRule("idle", _idle),
+    ItemRule("pasted", _pasted),
+    ItemRule("by its cells", _by_cells),
+)
 
 
 def _odd(answers: Sequence[Answer]) -> dict[int, str]:
@@ -103,93 +336,6 @@ def _odd(answers: Sequence[Answer]) -> dict[int, str]:
         for end, answer in zip(ends, answers, strict=True)
         for i, why in answer.odd.items()
     }
-
-
-def _free(made: Judgement, student: Student) -> Judgement:
-    """Numbers where no formula is demanded: right, or right for the student's own others."""
-    item = made.item
-    allowed = tolerance(item, made.expected, student)
-    good = close(item, made.values, made.expected, allowed, student.expected)
-    if good.all():
-        return replace(made, typed=(), paid=1.0)
-    own = own_values(item, student, None)
-    if close(item, made.values, own, allowed, student.expected).all():
-        return replace(made, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
-    return replace(made, verdict=WRONG, rows=_where(~good))
-
-
-# How a cell that is not right is called, the worst first.
-_WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
-
-
-def _by_rows(
-    made: Judgement, student: Student, response: Response, kinds: str, letters: str
-) -> Judgement:
-    item = made.item
-    allowed = tolerance(item, made.expected, student)
-    good = close(item, made.values, made.expected, allowed, student.expected)
-    if say.PARTLY in letters and (alone := response.tryout.alone(item)) is not None:
-        # Two mistakes that make up for each other are no number in the place of a reference.
-        fits = close(item, alone, made.expected, allowed, student.expected)
-        good &= fits | (np.array(list(letters)) != say.PARTLY)
-    # A nought typed in among formulas is one; a column typed in is numbers throughout.
-    still = response.fixed(item)
-    formulas = [letter for letter in letters if letter != say.NOTHING]
-    fixed = still & (len(formulas) >= _ENOUGH * len(letters))
-    words = [_word(kinds[i], letters[i], bool(good[i]), bool(fixed[i])) for i in range(len(kinds))]
-    runs = [run for node in item.nodes for run in student.runs(node)]
-    plain = not any(True for run in runs for _ in student.grid.located(run))
-    # What has followed other input data refers to them, if only by a copy.
-    follows = not plain and any(w == RIGHT and not f for w, f in zip(words, still, strict=True))
-    unlinked = not follows and not _is_linked(item, student)
-    idle = set(formulas) == {say.IDLE} and not plain
-    if idle and not response.shaking.is_idle_by_nature(item):
-        return replace(made, verdict=UNKNOWN, typed=(), reason=_OWN if unlinked else _IDLE)
-    if unlinked:  # nothing to respond to: numbers, or references to pasted ones
-        words = [(TYPED if plain else STILL) if w in (RIGHT, STILL) else w for w in words]
-    if any(good[i] and not still[i] for i, let in enumerate(letters) if let == say.PASTED):
-        return replace(made, verdict=UNKNOWN, typed=(), reason=_PASTED)
-    counts = {word: words.count(word) for word in dict.fromkeys(words)}
-    if set(words) == {RIGHT}:
-        return replace(made, paid=1.0, typed=(), coarse=say.ROUNDED in letters)
-    bad = [word for word in _WORST if word in counts]
-    verdict = max(bad, key=lambda word: (word == STILL, counts[word] if word != TYPED else 0))
-    rows = _where([word != RIGHT for word in words])
-    share = (counts.get(RIGHT, 0) + student.assignment.rubric.credit.typed * counts.get(TYPED, 0)
-             ) / len(words)  # fmt: skip
-    rights = counts.get(RIGHT, 0) + counts.get(TYPED, 0)
-    by_rows = STILL not in counts and rights >= _ENOUGH * len(words)
-    if verdict == TYPED:
-        paid = share
-    else:
-        paid = share * student.assignment.rubric.credit.rows if by_rows else 0.0
-    reason = _reason(verdict, words, kinds, letters, unlinked=unlinked)
-    if verdict == BROKEN:
-        reason = shown_errors(item, student)
-    coarse = any(say.rounds_coarsely(student, item, node) for node in item.nodes)
-    return replace(made, verdict=verdict, rows=rows, paid=paid, reason=reason,
-                   coarse=say.COARSE in letters or coarse)  # fmt: skip
-
-
-def _word(kind: str, letter: str, good: bool, fixed: bool) -> str:
-    """What a cell is: its formula right, or what is wrong with it."""
-    if kind == BLANK:
-        return EMPTY
-    if letter == say.NOTHING:  # typed in
-        if kind == TEXT:
-            return WRONG
-        if kind == ERROR:
-            return BROKEN
-        return (RIGHT if fixed else TYPED) if good else WRONG
-    if letter in (say.RIGHT, say.ROUNDED, say.IDLE):
-        return RIGHT
-    if kind == ERROR:
-        return BROKEN
-    if not good:
-        return WRONG
-    if letter == say.COARSE:  # here the rounding does not show
-        return RIGHT
-    return STILL if letter == say.STILL else TYPED
 
 
 def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unlinked: bool) -> str:
@@ -210,31 +356,31 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
     return ""
 
 
-def _judge_text(item: Item, student: Student, answer: Answer) -> Judgement:
+def _judge_text(item: Item, student: StudentBook, answer: Answer) -> Judgement:
     """A result in words is compared as words."""
-    nothing, place, (node,) = np.full(1, np.nan), answer.place, item.nodes
-    made = Judgement(item, WRONG, nothing, nothing, (0,))
-    if place is None or place.rows[0] is None or answer.problem:
+    nothing, location, (node,) = np.full(1, np.nan), answer.location, item.nodes
+    judgement = Judgement(item, WRONG, nothing, nothing, (0,))
+    if location is None or location.rows[0] is None or answer.problem:
         why = answer.problem or "ячейки не найдены в книге"
-        return replace(made, verdict=UNKNOWN, rows=(), reason=why)
-    found = student.engine.shown(place.sheet, place.column, place.rows[0])
-    if found is None:
-        return replace(made, verdict=EMPTY)
+        return replace(judgement, verdict=UNKNOWN, rows=(), reason=why)
+    text = student.engine.shown(location.sheet, location.column, location.rows[0])
+    if text is None:
+        return replace(judgement, verdict=EMPTY)
     read = student.precedents(node)
     own = student.expected.fork(known_values(student.answers, read))
     verdicts = {str(own.value(node)).casefold(): CARRIED}
     verdicts[str(student.expected.value(node)).casefold()] = RIGHT
-    verdict = verdicts.get(str(found).casefold(), WRONG)
+    verdict = verdicts.get(str(text).casefold(), WRONG)
     if verdict == RIGHT and not read and student.assignment.formulas_demanded(item):
-        return replace(made, verdict=TYPED, paid=student.assignment.rubric.credit.typed)
-    return replace(made, verdict=verdict, rows=(), paid=float(verdict != WRONG))
+        return replace(judgement, verdict=TYPED, paid=student.assignment.rubric.credit.typed)
+    return replace(judgement, verdict=verdict, rows=(), paid=float(verdict != WRONG))
 
 
 def _where(flags: Sequence[bool] | NDArray[np.bool_]) -> tuple[int, ...]:
     return tuple(np.flatnonzero(np.asarray(flags)).tolist())
 
 
-def _is_linked(item: Item, student: Student) -> bool:
+def _is_linked(item: Item, student: StudentBook) -> bool:
     """Whether the formulas refer to any cell of the work-book but titles.
 
     Which cells does not matter: there is more than one way to a value.
@@ -245,7 +391,7 @@ def _is_linked(item: Item, student: Student) -> bool:
     return any(not name.startswith("report_") for name in names)
 
 
-def own_values(item: Item, student: Student, precedents: frozenset[str] | None) -> Array:
+def own_values(item: Item, student: StudentBook, precedents: frozenset[str] | None) -> Array:
     """The textbook's formula on the student's own values of the cells that are referred to.
 
     Cells that the formula does not refer to are calculated from those that it does:
@@ -259,3 +405,24 @@ def own_values(item: Item, student: Student, precedents: frozenset[str] | None) 
         run = student.expected.fork(known_values(student.answers, used - {node}))
         parts.append(np.ravel(np.asarray(run.value(node), dtype=float)))
     return np.concatenate(parts)
+
+
+_ERRORS = {
+    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
+    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
+    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
+    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
+}  # fmt: skip
+
+
+def shown_errors(item: Item, student: StudentBook) -> str:
+    """Error values of the cells, in Russian."""
+    errors: dict[str, None] = {}
+    for node in item.nodes:
+        location = student.placement.places.get(node)
+        for row in location.rows if location is not None else ():
+            if location is not None and row is not None:
+                text = student.engine.shown(location.sheet, location.column, row)
+                if isinstance(text, str) and text.startswith("#"):
+                    errors.setdefault(_ERRORS.get(text, text))
+    return ", ".join(errors)

@@ -1,16 +1,107 @@
-"""What the tables of a class need of each work: small enough to hold thousands of them.
+"""Results of works: feedback lines, marks for comparison, and the small form of a class.
 
-The whole result of a work lies in its file; here are its sums, words and marks.  Items that came
-out alike, and most of a class does, are one object for all works.
+The whole result of a work lies in its file; a class keeps sums, words and marks.  Items that
+came out alike, and most of a class does, are one object for all works.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import hashlib
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
-from reports.grading.judging.judgement import STILL, TYPED, WRONG
+import numpy as np
+
+from reports.grading.issuing.assignment import Assignment, Item
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.judgement import (
+    BROKEN,
+    CARRIED,
+    RIGHT,
+    STILL,
+    TYPED,
+    WRONG,
+    Judgement,
+)
+from reports.grading.reading.placement import Location, address, range_text, stretches
+from reports.grading.reading.restoring import own_formulas
+from reports.grading.reading.student import StudentBook
+from reports.workbook.layout import Layout
+
+_TELLING = 6  # tokens of a formula that may tell who wrote it
+
+
+def formula_marks(student: StudentBook, own: Mapping[str, str]) -> dict[str, list[Any]]:
+    """Item → a mark of its formula, whether it has a step that does nothing, whether it is ``own``.
+
+    Args:
+        student: the work.
+        own: item → the mark of the formula that the program writes there.
+    """
+    marks: dict[str, list[Any]] = {}
+    for item in student.assignment.items:
+        runs = [run for node in item.nodes for run in student.runs(node)]
+        if not runs or len(runs) > 2 * len(item.nodes) or any(r.formula is None for r in runs):
+            continue
+        patterns = [run.formula.pattern for run in runs if run.formula is not None]
+        if max(map(len, patterns)) >= _TELLING:
+            mark = _mark(patterns)
+            marks[item.id] = [mark, any(map(is_odd, patterns)), own.get(item.id) == mark]
+    return marks
+
+
+def own_marks(assignment: Assignment, layout: Layout) -> dict[str, str]:
+    """Item → the mark of the formulas that the program writes there."""
+    formulas = own_formulas(assignment, layout, assignment.fill_nodes)
+    return {
+        item.id: _mark(
+            [tokens for node in item.nodes
+             for tokens, _ in groupby(formula.pattern for formula in formulas[node])]
+        )
+        for item in assignment.items
+        if all(node in formulas for node in item.nodes)
+    }  # fmt: skip
+
+
+def _mark(patterns: Sequence[Sequence[tuple[str, str]]]) -> str:
+    text = "\n".join("".join(value for _, value in tokens) for tokens in patterns)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
+    """The same for values that print alike, whatever the book: for the signals of similarity."""
+    finite = values[np.isfinite(values)]
+    if not finite.size or (item.is_column and np.unique(finite).size < 4):
+        return ""  # zeros and constants are alike by themselves
+    printed = np.round(values, item.quantity.digits.decimals) + 0.0
+    return hashlib.sha256(printed.tobytes()).hexdigest()[:16]
+
+
+def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
+    """Whether a formula has a step that does nothing: ``+0``, ``*1``, ``A6-A6``."""
+    text = ["" if kind == "space" else value for kind, value in tokens]
+    around = [("op", "("), *tokens, ("op", ")")]
+    for before, sign, (kind, value), after in zip(
+        around, around[1:], around[2:], around[3:], strict=False
+    ):
+        if kind == "number" and sign[0] == "op":
+            nothing = sign[1] in ("+", "-") and float(value) == 0 and before[1] not in "(,"
+            same = sign[1] in ("*", "/", "^") and float(value) == 1
+            if (nothing or same) and after[1] not in ("^", "*", "/", ":"):
+                return True
+            if same and after[1] in ("*", "/"):
+                return True
+    return any(
+        text[i + 1] == "-" and text[i] == text[i + 2] and tokens[i][0] in ("ref", "name")
+        for i in range(len(text) - 2)
+    )
+
+
+# --- the small form ------------------------------------------------------------------------------
 
 _MARK = 16  # signs of a mark of right values
 _NONE = " " * _MARK
@@ -71,7 +162,7 @@ Shared = dict[Entry, Entry]
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
     """The small form of a result; ``shared`` holds the items of all works of a class."""
     formulas = result.get("formulas", {})
-    made = (_entry(line, formulas.get(line["id"])) for line in result["items"])
+    entries = (_entry(line, formulas.get(line["id"])) for line in result["items"])
     return Work(
         key=result["key"],
         file=result["file"],
@@ -92,7 +183,7 @@ def work_of(result: dict[str, Any], shared: Shared) -> Work:
         saved_by=result.get("properties", {}).get("lastModifiedBy", "").strip(),
         decision=result.get("decision"),
         decisions=tuple(result.get("decisions", ())),
-        items=tuple(shared.setdefault(entry, entry) for entry in made),
+        items=tuple(shared.setdefault(entry, entry) for entry in entries),
         _rights="".join((line.get("right_mark") or _NONE) for line in result["items"]),
     )
 
@@ -111,3 +202,115 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         mark=line.get("mark", "") if verdict in (WRONG, TYPED, STILL) else "",
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
     )
+
+
+# --- lines of the feedback -----------------------------------------------------------------------
+
+SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
+
+
+def feedback_line(
+    student: StudentBook, judgement: Judgement, causes: Causes, assignment: Assignment
+) -> dict[str, Any]:
+    """One item of the feedback."""
+    item = judgement.item
+    worth = assignment.points[item.id]
+    share = judgement.paid
+    if judgement.verdict == CARRIED:
+        share *= assignment.rubric.credit.carried
+    heading, short = _headings(item, assignment)
+    cause = causes.find(judgement) if judgement.verdict == WRONG else ""
+    line: dict[str, Any] = {
+        "id": item.id,
+        "block": item.block,
+        "table": short if item.block in assignment.model.tables else "",
+        "heading": heading,
+        "label": f"{short} {item.symbol}",
+        "title": item.title,
+        "symbol": item.symbol,
+        "unit": item.quantity.unit_label,
+        "source": item.source,
+        "digits": asdict(item.quantity.digits),
+        "verdict": judgement.verdict,
+        "points": round(worth * share, 6),
+        "of": round(worth, 6),
+        "reason": judgement.reason,
+        "cause": cause,
+        "origins": list(judgement.origins),
+        "right_mark": fingerprint(item, judgement.expected),
+        "rows": [item.labels[i] for i in judgement.rows],
+        "where": _where(student, judgement),
+        "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
+    }
+    if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
+        line["cells"] = _cells(student, judgement)
+        line["mark"] = fingerprint(item, judgement.values)
+        if item.is_column:
+            line["chart"] = {
+                "x": [float(label) for label in item.labels],
+                "own": _plain(judgement.values),
+                "right": _plain(judgement.expected),
+            }
+    return line
+
+
+def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
+    """The table or list of an item as a person calls it, in full and in short."""
+    table = assignment.model.tables.get(item.block)
+    if table is not None:
+        return f"Таблица {table.number}", table.number
+    block = next(block for block in assignment.fill if block.id == item.block)
+    return f"{block.title} ({block.sheet})", block.sheet
+
+
+def _cells(student: StudentBook, judgement: Judgement) -> list[dict[str, Any]]:
+    item = judgement.item
+    places = _cells_of(student, item)
+    cells = []
+    for row in judgement.rows[:SHOWN_ROWS]:
+        location, index = places[row]
+        at = location.rows[index] if location is not None else None
+        cells.append(
+            {
+                "row": item.labels[row],
+                "cell": f"{location.sheet}!{address(at, location.column)}"
+                if location and at
+                else "",
+                "own": _number(judgement.values[row]),
+                "right": _number(judgement.expected[row]),
+            }
+        )
+    return cells
+
+
+def _where(student: StudentBook, judgement: Judgement) -> list[str]:
+    """The cells that a verdict is about, those below each other as ranges."""
+    item = judgement.item
+    rows = set(judgement.rows)
+    located: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
+    for number, (location, index) in enumerate(_cells_of(student, item)):
+        row = location.rows[index] if location is not None else None
+        if number in rows and location is not None and row is not None:
+            located.append(((location.sheet, location.column), row))
+    return [
+        f"{sheet}!{range_text(first, last, column)}"
+        for (sheet, column), cells in groupby(located, key=itemgetter(0))
+        for first, last in stretches(row for _, row in cells)
+    ]
+
+
+def _cells_of(student: StudentBook, item: Item) -> list[tuple[Location | None, int]]:
+    """The place of each value of an item and the value's index there."""
+    return [
+        (student.placement.places.get(node), i)
+        for node in item.nodes
+        for i in range(student.assignment.length(node))
+    ]
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]

@@ -1,4 +1,4 @@
-"""How one verdict came about: formula, precedents and numbers, in words."""
+"""Explanation of a verdict: formula, precedents and numbers."""
 
 from __future__ import annotations
 
@@ -12,16 +12,14 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.issuing.register import FILE, checked_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.causes import Causes
-from reports.grading.judging.judgement import CARRIED, WORDS, WRONG, Judgement
+from reports.grading.judging.judgement import CARRIED, WORDS, WRONG, Judgement, tolerance
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.tolerances import tolerance
 from reports.grading.judging.verdicts import judge_all, own_values
 from reports.grading.pages.pages import number, rows
-from reports.grading.reading.matching import find_owner
-from reports.grading.reading.student import Student
-from reports.grading.reading.submissions import collect
+from reports.grading.reading.student import StudentBook
+from reports.grading.reading.submissions import collect, find_owner
+from reports.recalculation.formulas import column_number, render
 from reports.recalculation.grid import BadBook
-from reports.recalculation.language import column_number, render
 from reports.recalculation.read import read_grid
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import short
@@ -73,14 +71,14 @@ def explain(
 def _find_issued(file: Path) -> Path:
     """The nearest folder with a register: here, beside the file or above it."""
     for folder in (Path(), *file.resolve().parents):
-        for place in (folder, folder / "issued"):
-            if (place / FILE).is_file():
-                return place
+        for candidate in (folder, folder / "issued"):
+            if (candidate / FILE).is_file():
+                return candidate
     what = "не найден реестр выдачи"
     raise InputError(Problem(str(file), what, "укажите папку выдачи первым аргументом"))
 
 
-def _find_item(student: Student, target: str) -> Item:
+def _find_item(student: StudentBook, target: str) -> Item:
     """The item under ``SHEET!COLUMN``: a letter, a header's symbol, a cell or an item's id."""
     sheet, _, column = target.rpartition("!")
     wanted = column.strip().replace("$", "")
@@ -94,10 +92,10 @@ def _find_item(student: Student, target: str) -> Item:
     hits = []
     for item in items:
         for node in item.nodes:
-            place = student.placement.places.get(node)
-            if place is None or place.sheet.casefold() != sheet.strip("'").casefold():
+            location = student.placement.places.get(node)
+            if location is None or location.sheet.casefold() != sheet.strip("'").casefold():
                 continue
-            by_cell = place.column == at and (not digits or int(digits) in place.rows)
+            by_cell = location.column == at and (not digits or int(digits) in location.rows)
             if by_cell or wanted in (item.symbol, item.quantity.header):
                 hits.append(item)
                 break
@@ -107,15 +105,15 @@ def _find_item(student: Student, target: str) -> Item:
     return hits[0]
 
 
-def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -> Iterator[str]:
+def _about(student: StudentBook, item: Item, judgement: Judgement, causes: Causes) -> Iterator[str]:
     assignment = student.assignment
     unit = f", {item.quantity.unit_label}" if item.quantity.unit_label else ""
     yield f"Столбец: {item.id} — {item.symbol}{unit}, {item.title}"
     for node in item.nodes[:1]:
-        place = student.placement.places.get(node)
-        if place is not None:
-            how = "по определённому имени" if place.by == "name" else "по заголовку"
-            yield f"Где: лист «{place.sheet}», найдено {how}"
+        location = student.placement.places.get(node)
+        if location is not None:
+            how = "по определённому имени" if location.by == "name" else "по заголовку"
+            yield f"Где: лист «{location.sheet}», найдено {how}"
         yield f"Формула учебника ({item.source or 'без номера'}): {_textbook(student, node)}"
         for run in student.runs(node)[:_SHOWN]:
             text = (
@@ -124,10 +122,10 @@ def _about(student: Student, item: Item, judgement: Judgement, causes: Causes) -
                 else "=" + run.text
             )
             yield f"Формула студента, строки {run.first}–{run.last}: {text[:300]}"
-    found = frozenset().union(*(student.precedents(node) for node in item.nodes))
-    names = ", ".join(sorted(found)) or "ни на одну величину книги"
+    precedents = frozenset().union(*(student.precedents(node) for node in item.nodes))
+    names = ", ".join(sorted(precedents)) or "ни на одну величину книги"
     yield f"Ссылается на: {names}"
-    for name in sorted(found):
+    for name in sorted(precedents):
         answer = student.answers.get(name)
         if answer is not None:
             right = np.ravel(np.asarray(student.expected.value(name), dtype=object))
@@ -168,7 +166,7 @@ def _value(value: object) -> str:
     return number(float(value)) if isinstance(value, (int, float)) else str(value)
 
 
-def _textbook(student: Student, node: str) -> str:
+def _textbook(student: StudentBook, node: str) -> str:
     text = student.assignment.graph.expression(node)
     if text is None:
         return "—"

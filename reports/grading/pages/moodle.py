@@ -23,7 +23,7 @@ from typing import Any, TypeVar
 from reports.exports.numbers import neutralised
 from reports.grading.pages.summary import HELD
 from reports.shared.errors import InputError, Problem
-from reports.shared.reading import read_bytes
+from reports.shared.file_types import read_bytes
 
 MAX_BYTES = 20_000_000
 FEEDBACK = "feedback.html"
@@ -45,7 +45,7 @@ _Thing = TypeVar("_Thing")
 
 
 @dataclass(frozen=True, slots=True)
-class Filled:
+class FilledWorksheet:
     """A worksheet with grades, and what could not be written."""
 
     text: str
@@ -95,7 +95,9 @@ def _parsed(text: str, source: str) -> tuple[list[list[str]], dict[str, int], st
     return lines, at, delimiter
 
 
-def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: str) -> Filled:
+def filled(
+    text: str, rows: Sequence[dict[str, Any]], maximum: float, source: str
+) -> FilledWorksheet:
     """Moodle's worksheet with the grades and remarks of a gradebook.
 
     Raises:
@@ -125,17 +127,17 @@ def filled(text: str, rows: Sequence[dict[str, Any]], maximum: float, source: st
         graded += 1
     stream = io.StringIO()
     csv.writer(stream, delimiter=delimiter, lineterminator="\n").writerows(lines)
-    return Filled("\ufeff" + stream.getvalue(), graded, tuple(left))
+    return FilledWorksheet("\ufeff" + stream.getvalue(), graded, tuple(left))
 
 
 def _columns(head: Sequence[str]) -> dict[str, int]:
-    found: dict[str, int] = {}
+    columns: dict[str, int] = {}
     for index, cell in enumerate(head):
         word = " ".join(cell.casefold().split())
         for key, words in _HEADS.items():
             if word in words:
-                found.setdefault(key, index)
-    return found
+                columns.setdefault(key, index)
+    return columns
 
 
 def _pairs(
@@ -149,25 +151,25 @@ def _pairs(
     free = [row for row in rows if row["number"] is not None]
     numbers = {_of_line(line, at)["id"] for line in lines}
     numbered = any(row["moodle_id"] in numbers for row in free if row["moodle_id"])
-    found: dict[int, dict[str, Any]] = {}
+    matched: dict[int, dict[str, Any]] = {}
     for kind in ("id", "mail", "name"):
         if kind != "id" and numbered:
             free = [row for row in free if not row["moodle_id"]]
         by_row = _unique((_of_row(row)[kind], row) for row in free)
-        left = [line for line in lines if id(line) not in found]
+        left = [line for line in lines if id(line) not in matched]
         for word, line in _unique((_of_line(line, at)[kind], line) for line in left).items():
             if word in by_row:
-                found[id(line)] = by_row[word]
+                matched[id(line)] = by_row[word]
                 free = [row for row in free if row is not by_row[word]]
-    return ((line, found[id(line)]) for line in lines if id(line) in found)
+    return ((line, matched[id(line)]) for line in lines if id(line) in matched)
 
 
 def _unique(things: Iterable[tuple[str, _Thing]]) -> dict[str, _Thing]:
     """Things by a word that no other has."""
-    found: dict[str, list[_Thing]] = {}
+    by_name: dict[str, list[_Thing]] = {}
     for word, thing in things:
-        found.setdefault(word, []).append(thing)
-    return {word: same[0] for word, same in found.items() if word and len(same) == 1}
+        by_name.setdefault(word, []).append(thing)
+    return {word: same[0] for word, same in by_name.items() if word and len(same) == 1}
 
 
 def _of_row(row: Mapping[str, Any]) -> dict[str, str]:

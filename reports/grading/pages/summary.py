@@ -78,7 +78,7 @@ def _asked(result: Work, doubts: Sequence[str], chosen: dict[int, Work]) -> list
 
 
 def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> list[str]:
-    """What was handed in after the work that counts and cannot be read."""
+    """Unreadable files handed in after the work that counts."""
     return [
         f"оценён не последний файл: {other.file} — {text}"
         for other in results
@@ -151,25 +151,25 @@ def _status(result: Work | None, unread: Sequence[str] = ()) -> str:
         return "не сдано"
     words = {"graded": "проверено", "refused": "не принято", "unmatched": "не опознано"}
     word = words[result.status]
-    asked = result.status == "graded" and (result.manual or unread)
-    return "нужна ручная проверка" if asked else word
+    by_hand = result.status == "graded" and (result.manual or unread)
+    return "нужна ручная проверка" if by_hand else word
 
 
 def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]:
     """Remarks on the work that counts; ``times`` are those of all files of its student."""
     if result is None:
         return ["работа не сдана"]
-    found = [*result.manual, *result.notes]
+    remarks = [*result.manual, *result.notes]
     labels = {line.id: line.label for line in result.items}
     for entry in result.decisions:
         what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
-        found.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
+        remarks.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
     if len(times) > 1:
         which = "последний" if count == "last" else "лучший"
         if count == "last" and times.count(result.time) > 1:
             which = "лучший из сданных в то же время"
-        found.append(f"сдано файлов: {len(times)}, оценён {which} ({result.file})")
-    return found
+        remarks.append(f"сдано файлов: {len(times)}, оценён {which} ({result.file})")
+    return remarks
 
 
 def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
@@ -179,7 +179,7 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
     graded = [r for _, r in sorted(chosen.items()) if r.status == "graded"]
     marks = [float(row["points"]) for row in rows if row["points"] is not None]
     held = suspicions(results)
-    asked = [(r, _asked(r, held.get(r.key, ()), chosen)) for r in results]
+    questions = [(r, _asked(r, held.get(r.key, ()), chosen)) for r in results]
     times = sorted(r.time for r in chosen.values() if r.time)
     return {
         "files": len(results),
@@ -197,7 +197,7 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
         "signals": signals(results),
         "manual": [
             {"who": _name(r), "why": list(dict.fromkeys(why)), "page": r.page}
-            for r, why in asked
+            for r, why in questions
             if why
         ],
         "rows": rows,
@@ -240,8 +240,8 @@ def _hardest(graded: list[Work], limit: int = 15) -> list[dict[str, Any]]:
             if line.cause:
                 causes.setdefault(line.id, Counter())[line.cause] += 1
     for key, entry in lines.items():
-        found = causes.get(key)
-        entry["cause"] = min(found, key=lambda c: (-found[c], c)) if found else ""
+        counts = causes.get(key)
+        entry["cause"] = min(counts, key=lambda c: (-counts[c], c)) if counts else ""
     hard = [entry for entry in lines.values() if entry["wrong"] + entry["empty"] + entry["typed"]]
     hard.sort(key=lambda e: (-(e["wrong"] + e["empty"]), -e["typed"], e["title"]))
     return hard[:limit]

@@ -1,4 +1,4 @@
-"""Where the cells of a work-book went: by defined names first, then by headers.
+"""Cells of an issued book found again: by defined names first, then by headers.
 
 A person may rename and move sheets and insert rows and columns.  Rows of a
 table are told by the angles in its first column.
@@ -6,22 +6,52 @@ table are told by the angles in its first column.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from reports.grading.issuing.handout import anchor_name, cell_name
 from reports.model.blocks import Model, TableSpec
-from reports.recalculation.evaluate import NUMBER, Engine
-from reports.recalculation.grid import Grid
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.evaluate import NUMBER, Evaluator
+from reports.recalculation.formulas import UnknownFormula
+from reports.recalculation.grid import CellGrid
 from reports.shared.russian import capital
-from reports.workbook.layout import KEY_COLUMN, SYMBOL_COLUMN, TITLE_COLUMN, VALUE_COLUMN, Layout
+from reports.workbook.layout import (
+    KEY_COLUMN,
+    SYMBOL_COLUMN,
+    TITLE_COLUMN,
+    VALUE_COLUMN,
+    Cell,
+    Layout,
+)
+
+
+def stretches(rows: Iterable[int]) -> list[tuple[int, int]]:
+    """First and last of the rows that follow each other without a gap."""
+    ranges: list[tuple[int, int]] = []
+    for row in rows:
+        if ranges and ranges[-1][1] == row - 1:
+            ranges[-1] = (ranges[-1][0], row)
+        else:
+            ranges.append((row, row))
+    return ranges
+
+
+def range_text(first: int, last: int, column: int) -> str:
+    """Cells of a column below each other, for messages."""
+    return address(first, column) + (f":{address(last, column)}" if last > first else "")
+
+
+def address(row: int, column: int) -> str:
+    """Cell address for messages."""
+    return Cell("", row, column).coordinate
+
 
 _SEARCH_ROWS = 2000
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class Location:
     """Cells of a node: one column, a row for each value; None where a row is lost."""
 
     sheet: str
@@ -41,32 +71,32 @@ class Span:
 
 
 def span_of(rows: tuple[int | None, ...]) -> Span | None:
-    """Where some rows begin and end; None where all are lost."""
-    found = [row for row in rows if row is not None]
-    if not found:
+    """First and last of some rows; None where all are lost."""
+    known = [row for row in rows if row is not None]
+    if not known:
         return None
-    first, last = min(found), max(found)
-    return Span(first, last, len(found) == len(rows) == last - first + 1)
+    first, last = min(known), max(known)
+    return Span(first, last, len(known) == len(rows) == last - first + 1)
 
 
-def _one_cell(at: tuple[str, int, int], by: str) -> Place:
-    return Place(at[0], at[2], (at[1],), by, Span(at[1], at[1], True))
+def _one_cell(at: tuple[str, int, int], by: str) -> Location:
+    return Location(at[0], at[2], (at[1],), by, Span(at[1], at[1], True))
 
 
 @dataclass
 class Placement:
     """Places of nodes, angles and inputs; what was found out on the way."""
 
-    places: dict[str, Place] = field(default_factory=dict)
+    places: dict[str, Location] = field(default_factory=dict)
     moved: list[str] = field(default_factory=list)
 
 
-def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
+def find_places(model: Model, layout: Layout, grid: CellGrid) -> Placement:
     """Find the tables and cells of a model in a workbook."""
     search = _Search(grid)
-    found = Placement()
+    placement = Placement()
     for table in model.tables.values():
-        _find_table(table, layout, search, found)
+        _find_table(table, layout, search, placement)
     for key in model.scalars:
         cell = layout.cells[key]
         at = grid.names.get((key if key in layout.named else cell_name(key)).casefold())
@@ -76,9 +106,9 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
         if at is None and search.same_headers(model, layout, key):
             at = (cell.sheet, cell.row, cell.column)
         if at is not None:
-            found.places[key] = _one_cell(at, by)
+            placement.places[key] = _one_cell(at, by)
             if by == "header":
-                found.moved.append(f"{key}: найдено по подписи, {at[0]}")
+                placement.moved.append(f"{key}: найдено по подписи, {at[0]}")
     for name, item in model.fields.items():
         at = grid.names.get(name.casefold())
         by = "name"
@@ -86,12 +116,12 @@ def find_places(model: Model, layout: Layout, grid: Grid) -> Placement:
             key = ".".join(str(p + 1 if isinstance(p, int) else p) for p in item.path)
             at, by = search.beside(key, VALUE_COLUMN - KEY_COLUMN), "header"
         if at is not None:
-            found.places[name] = _one_cell(at, by)
-    _report_sheets(model, layout, found)
-    return found
+            placement.places[name] = _one_cell(at, by)
+    _report_sheets(model, layout, placement)
+    return placement
 
 
-def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placement) -> None:
+def _find_table(table: TableSpec, layout: Layout, search: _Search, placement: Placement) -> None:
     heads: dict[int, tuple[str, int, int]] = {}
     by = "name"
     for index in range(len(table.columns)):
@@ -102,7 +132,7 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placem
         by = "header"
         missing = {i: c for i, c in search.table(table).items() if i not in heads}
         if missing:
-            found.moved.append(f"таблица {table.number}: столбцы найдены по заголовкам")
+            placement.moved.append(f"таблица {table.number}: столбцы найдены по заголовкам")
         heads.update(missing)
     index_column = next((i for i, c in enumerate(table.columns) if c.expr is None), None)
     if index_column is None or index_column not in heads:
@@ -111,12 +141,12 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, found: Placem
     rows = _rows(search, sheet, row, column, table.rows)
     first = layout.rows_of(table)[0]
     if any(r is not None and r != first + i for i, r in enumerate(rows)):
-        found.moved.append(f"таблица {table.number}: строки сдвинуты")
+        placement.moved.append(f"таблица {table.number}: строки сдвинуты")
     span = span_of(rows)
     for index, (title, _, at_column) in heads.items():
         if title == sheet:
             key = f"{table.id}.{table.columns[index].key}"
-            found.places[key] = Place(title, at_column, rows, by, span)
+            placement.places[key] = Location(title, at_column, rows, by, span)
 
 
 def _rows(
@@ -131,7 +161,7 @@ def _rows(
     if tuple(map(constants.get, expected)) == wanted:
         return expected
     rows = sorted(r for r in constants if header + 1 < r <= header + _SEARCH_ROWS)
-    found: list[int | None] = []
+    indices: list[int | None] = []
     at = 0
     for value in wanted:
         hit = None
@@ -141,14 +171,14 @@ def _rows(
                 hit = i
                 break
         if hit is None:
-            found.append(None)
+            indices.append(None)
         else:
-            found.append(rows[hit])
+            indices.append(rows[hit])
             at = hit + 1
-    return tuple(found)
+    return tuple(indices)
 
 
-def _calculated(engine: Engine, sheet: str, header: int, column: int) -> dict[int, float]:
+def _calculated(engine: Evaluator, sheet: str, header: int, column: int) -> dict[int, float]:
     first, last = header + 2, header + _SEARCH_ROWS
     try:
         values, kinds = engine.values(sheet, column, first, last)
@@ -158,41 +188,41 @@ def _calculated(engine: Engine, sheet: str, header: int, column: int) -> dict[in
     return {first + i: value for i, (value, kind) in enumerate(numbers) if kind == NUMBER}
 
 
-def _report_sheets(model: Model, layout: Layout, found: Placement) -> None:
+def _report_sheets(model: Model, layout: Layout, placement: Placement) -> None:
     renamed: dict[str, str] = {}
     for table in model.tables.values():
-        place = found.places.get(f"{table.id}.{table.columns[0].key}")
-        if place is not None and place.sheet != table.sheet:
-            renamed[table.sheet] = place.sheet
+        location = placement.places.get(f"{table.id}.{table.columns[0].key}")
+        if location is not None and location.sheet != table.sheet:
+            renamed[table.sheet] = location.sheet
     for key in model.scalars:
-        place = found.places.get(key)
-        if place is not None and place.sheet != layout.cells[key].sheet:
-            renamed.setdefault(layout.cells[key].sheet, place.sheet)
+        location = placement.places.get(key)
+        if location is not None and location.sheet != layout.cells[key].sheet:
+            renamed.setdefault(layout.cells[key].sheet, location.sheet)
     for old, new in renamed.items():
-        found.moved.append(f"лист «{old}» теперь «{new}»")
+        placement.moved.append(f"лист «{old}» теперь «{new}»")
 
 
 class _Search:
     """Texts of a workbook by what they say, and what its formulas give."""
 
-    def __init__(self, grid: Grid) -> None:
+    def __init__(self, grid: CellGrid) -> None:
         self.grid = grid
 
     @cached_property
-    def engine(self) -> Engine:
+    def engine(self) -> Evaluator:
         """The whole book calculated, for all tables whose angles are."""
-        return Engine(self.grid)
+        return Evaluator(self.grid)
 
     @cached_property
     def texts(self) -> dict[str, list[tuple[str, int, int]]]:
         """Text → cells; built when first needed."""
-        found: dict[str, list[tuple[str, int, int]]] = {}
+        texts: dict[str, list[tuple[str, int, int]]] = {}
         for sheet, columns in self.grid.sheets.items():
             for number, column in columns.items():
                 for row, value in column.constants.items():
                     if isinstance(value, str):
-                        found.setdefault(_plain(value), []).append((sheet, row, number))
-        return found
+                        texts.setdefault(_plain(value), []).append((sheet, row, number))
+        return texts
 
     def beside(self, text: str, distance: int) -> tuple[str, int, int] | None:
         """The cell so many columns beside the only cell with a text."""
@@ -226,9 +256,9 @@ class _Search:
     def table(self, table: TableSpec) -> dict[int, tuple[str, int, int]]:
         """Header cells of a table by the number of the column, from its caption."""
         captions = self.texts.get(_plain(f"Таблица {table.number} — {table.title}"), [])
-        found: dict[int, tuple[str, int, int]] = {}
+        heads: dict[int, tuple[str, int, int]] = {}
         if len(captions) != 1:
-            return found
+            return heads
         sheet, row, column = captions[0]
         for index, item in enumerate(table.columns):
             hits = [
@@ -236,11 +266,11 @@ class _Search:
                 for at in self.texts.get(_plain(item.quantity.header), [])
                 if at[0] == sheet and row < at[1] <= row + 3 and at[2] >= column
             ]
-            taken = set(found.values())
+            taken = set(heads.values())
             free = [at for at in sorted(hits, key=lambda at: at[2]) if at not in taken]
             if free:
-                found[index] = free[0]
-        return found
+                heads[index] = free[0]
+        return heads
 
 
 def _plain(text: str) -> str:

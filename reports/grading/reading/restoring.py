@@ -1,4 +1,4 @@
-"""What was issued put back: input data, given numbers and given formulas, and what was changed."""
+"""Restoration of issued input data, given numbers and formulas; list of changes."""
 
 from __future__ import annotations
 
@@ -11,48 +11,46 @@ from numpy.typing import NDArray
 from reports.formula.excel import compile_formula
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
-from reports.grading.reading.addresses import address
-from reports.grading.reading.placement import Place
-from reports.grading.reading.student import Changed, Student
+from reports.grading.reading.placement import Location, address
+from reports.grading.reading.student import Changed, StudentBook
 from reports.model.blocks import TableSpec
-from reports.recalculation.formulas import Formula, formula_at
-from reports.recalculation.grid import Column, Run
-from reports.recalculation.language import unquoted
+from reports.recalculation.formulas import Formula, formula_at, unquoted
+from reports.recalculation.grid import CellColumn, Run
 from reports.workbook.inputs import shown
 from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 
 Array = NDArray[np.float64]
 
 
-def restore(student: Student) -> None:
+def restore(student: StudentBook) -> None:
     """Input data and given numbers as issued; what was changed is remembered."""
     model = student.assignment.kept_model
     for name, item in model.fields.items():
-        place = student.placement.places.get(name)
-        if place is not None:
-            _put(student, place, 0, name, shown(item))
+        location = student.placement.places.get(name)
+        if location is not None:
+            _put(student, location, 0, name, shown(item))
     for node in sorted(student.assignment.given_nodes):
-        place = student.placement.places.get(node)
-        if place is None:
+        location = student.placement.places.get(node)
+        if location is None:
             continue
         value = student.expected.value(node)
         if isinstance(value, str):
-            _put(student, place, 0, node, value)
+            _put(student, location, 0, node, value)
             continue
         values = np.ravel(value)
-        if _as_issued(student, place, values):
+        if _as_issued(student, location, values):
             continue
         for index, given in enumerate(values.tolist()):
-            if place.rows[index] is not None:
-                _put(student, place, index, node, given)
+            if location.rows[index] is not None:
+                _put(student, location, index, node, given)
 
     for node, formulas in issued_formulas(student.assignment, student.layout).items():
-        place = student.placement.places.get(node)
-        if place is not None:
-            _put_formulas(student, node, place, formulas)
+        location = student.placement.places.get(node)
+        if location is not None:
+            _put_formulas(student, node, location, formulas)
 
 
-def leave_out_unused(student: Student) -> None:
+def leave_out_unused(student: StudentBook) -> None:
     """Take out given formulas that nothing of the student's refers to: nobody asks for them."""
     live = student.assignment.live_nodes
     used: set[str] = set()
@@ -66,30 +64,32 @@ def leave_out_unused(student: Student) -> None:
                 seen.add(name)
                 stack.append(name)
     for node in live - used - student.rewritten:
-        place = student.placement.places.get(node)
-        if place is not None:
-            rows = {row for row in place.rows if row is not None}
-            student.grid.column(place.sheet, place.column).cut(rows)
+        location = student.placement.places.get(node)
+        if location is not None:
+            rows = {row for row in location.rows if row is not None}
+            student.grid.column(location.sheet, location.column).cut(rows)
 
 
-def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[Formula]) -> None:
+def _put_formulas(
+    student: StudentBook, node: str, location: Location, formulas: Sequence[Formula]
+) -> None:
     """Formulas that were given, where something else stands in their place.
 
     A formula that reads otherwise is left, for its cells may have been moved: its response
     tells whether it is the one that was given.
     """
-    column = student.grid.sheets[place.sheet].setdefault(place.column, Column())
+    column = student.grid.sheets[location.sheet].setdefault(location.column, CellColumn())
     if (
-        place.span is not None
-        and place.span.whole
-        and not column.constants.keys() & set(place.rows)
+        location.span is not None
+        and location.span.whole
+        and not column.constants.keys() & set(location.rows)
     ):
-        runs = column.runs_in(place.span.first, place.span.last)
+        runs = column.runs_in(location.span.first, location.span.last)
         same = {run.formula for run in runs} <= set(formulas) and not column.errors
-        if same and sum(run.count for run in runs) >= len(place.rows):
+        if same and sum(run.count for run in runs) >= len(location.rows):
             return
     moved = not student.as_laid_out
-    for row, formula in zip(place.rows, formulas, strict=True):
+    for row, formula in zip(location.rows, formulas, strict=True):
         run = next(iter(column.runs_in(row, row)), None) if row is not None else None
         if run is not None:
             if run.formula is None or not _alike(run.formula, formula):
@@ -98,15 +98,15 @@ def _put_formulas(student: Student, node: str, place: Place, formulas: Sequence[
         if row is None:
             continue
         text = column.constants.get(row, "пусто")
-        where = f"{place.sheet}!{address(row, place.column)}"
+        where = f"{location.sheet}!{address(row, location.column)}"
         student.changed.append(Changed(where, node, "формула", str(text)))
         column.errors.pop(row, None)
         column.constants.pop(row, None)
         if not moved:
-            column.runs.append(Run(place.sheet, place.column, row, 1, formula, ""))
+            column.runs.append(Run(location.sheet, location.column, row, 1, formula, ""))
         else:
             right = np.ravel(np.asarray(student.expected.value(node), dtype=object))
-            value = right[place.rows.index(row)]
+            value = right[location.rows.index(row)]
             column.constants[row] = value if isinstance(value, str) else float(value)
 
 
@@ -127,28 +127,30 @@ def _plain(formula: Formula) -> tuple[object, ...]:
     )
 
 
-def _as_issued(student: Student, place: Place, values: Array) -> bool:
+def _as_issued(student: StudentBook, location: Location, values: Array) -> bool:
     """Whether these very numbers stand in the cells of a place."""
-    column = student.grid.column(place.sheet, place.column)
-    found = [column.constants.get(row, "") for row in place.rows if row is not None]
-    if len(found) < len(values) or any(type(number) is not float for number in found):
+    column = student.grid.column(location.sheet, location.column)
+    standing = [column.constants.get(row, "") for row in location.rows if row is not None]
+    if len(standing) < len(values) or any(type(number) is not float for number in standing):
         return False
-    far = np.abs(np.array(found) - values) > 1e-9 * np.maximum(1, np.abs(values))
+    far = np.abs(np.array(standing) - values) > 1e-9 * np.maximum(1, np.abs(values))
     return not far.any()
 
 
-def _put(student: Student, place: Place, index: int, name: str, value: float | str) -> None:
-    row = place.rows[index]
-    column = student.grid.sheets[place.sheet].setdefault(place.column, Column())
+def _put(
+    student: StudentBook, location: Location, index: int, name: str, value: float | str
+) -> None:
+    row = location.rows[index]
+    column = student.grid.sheets[location.sheet].setdefault(location.column, CellColumn())
     run = next(iter(column.runs_in(row, row)), None) if row is not None else None
-    found = column.constants.get(row) if row is not None else None
-    if run is None and row not in column.errors and _same(found, value):
+    value_there = column.constants.get(row) if row is not None else None
+    if run is None and row not in column.errors and _same(value_there, value):
         return
-    if run is None and found is None and value == "":
+    if run is None and value_there is None and value == "":
         return
     assert row is not None
-    text = "формула" if run is not None else "пусто" if found is None else str(found)
-    where = f"{place.sheet}!{address(row, place.column)}"
+    text = "формула" if run is not None else "пусто" if value_there is None else str(value_there)
+    where = f"{location.sheet}!{address(row, location.column)}"
     student.changed.append(Changed(where, name, value, text))
     column.cut({row})
     column.errors.pop(row, None)
@@ -168,7 +170,7 @@ def own_formulas(
     assignment: Assignment, layout: Layout, nodes: Collection[str]
 ) -> dict[str, tuple[Formula, ...]]:
     """Node → the formulas that the program writes into its cells."""
-    made: dict[str, tuple[Formula, ...]] = {}
+    formulas: dict[str, tuple[Formula, ...]] = {}
     for block in assignment.blocks:
         table = block if isinstance(block, TableSpec) else None
         for node, cells in fill_cells(block, layout).items():
@@ -176,8 +178,8 @@ def own_formulas(
             if node not in nodes or expr is None:
                 continue
             text = compile_formula(expr, RowReferences(layout, table, block.sheet))
-            made[node] = _filled_down(text, cells)
-    return made
+            formulas[node] = _filled_down(text, cells)
+    return formulas
 
 
 def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
@@ -197,9 +199,9 @@ def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
     return (*first, *rest, read(end, last=True))
 
 
-def _same(found: float | str | bool | None, wanted: float | str) -> bool:
+def _same(value: float | str | bool | None, wanted: float | str) -> bool:
     if isinstance(wanted, str):
-        return isinstance(found, str) and found.strip() == wanted.strip()
-    if found is None or isinstance(found, str):
+        return isinstance(value, str) and value.strip() == wanted.strip()
+    if value is None or isinstance(value, str):
         return False
-    return abs(float(found) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))
+    return abs(float(value) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))

@@ -1,4 +1,4 @@
-"""What a student may be told of a work-book before it is handed in: nothing about right or wrong.
+"""Self-check of a work-book before it is handed in; tells nothing about right or wrong.
 
 It needs no register and no secret: which cells are to be filled in is seen from the book,
 what must not be changed follows from its input data and from marks put there at issue.
@@ -13,30 +13,29 @@ from pathlib import Path
 from reports.exports.build import load_input
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import INPUT_MARKS, TICKET_NAME, fill_cells, input_mark
-from reports.grading.issuing.rubric import Rubric, Work
-from reports.grading.reading.addresses import address, range_text, stretches
-from reports.grading.reading.ground import through
-from reports.grading.reading.matching import own_properties
+from reports.grading.issuing.rubric import Rubric, WorkTables
+from reports.grading.reading.circularity import through
+from reports.grading.reading.placement import address, range_text, stretches
 from reports.grading.reading.restoring import restore
-from reports.grading.reading.student import LOST, Student
+from reports.grading.reading.student import LOST, StudentBook
+from reports.grading.reading.submissions import own_properties
 from reports.model.blocks import Model
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
+from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.grid import BadBook
-from reports.recalculation.language import UnknownFormula
 from reports.recalculation.read import read_grid, worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
 from reports.shared.errors import InputError, Problem
 from reports.tables.registry import build_model
 from reports.workbook.inputs import shown
-from reports.workbook.intake import check_package
+from reports.workbook.intake import Package, check_package
 from reports.workbook.layout import Layout
-from reports.workbook.package import Package
 
 _TOLD = 20  # remarks at once
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class BookFinding:
     """Cells and what is odd about them."""
 
     where: str
@@ -54,7 +53,7 @@ def is_work_book(path: Path) -> bool:
         return False
 
 
-def findings(path: Path) -> list[Finding]:
+def findings(path: Path) -> list[BookFinding]:
     """What is empty, typed in, an error, not understood, or locked and changed.
 
     Raises:
@@ -67,17 +66,17 @@ def findings(path: Path) -> list[Finding]:
         raise InputError(Problem(path.name, str(error), "откройте и сохраните её заново")) from None
     model = build_model(load_input(path).model)
     assignment = _assignment(model, package)
-    student = Student.of(assignment, Layout.of(assignment.model), grid)
+    student = StudentBook.of(assignment, Layout.of(assignment.model), grid)
     student.package = package
-    found = list(_changed_inputs(student, package))
+    results = list(_changed_inputs(student, package))
     restore(student)
-    found += [
-        Finding(change.where, f"ячейка заперта, а изменена: теперь {change.now}")
+    results += [
+        BookFinding(change.where, f"ячейка заперта, а изменена: теперь {change.now}")
         for change in student.changed
         if change.name not in model.fields
     ]
-    found += [
-        Finding(_of(assignment, node), "выданная формула изменена")
+    results += [
+        BookFinding(_of(assignment, node), "выданная формула изменена")
         for node in sorted(student.rewritten)
         if student.as_laid_out
     ]
@@ -85,12 +84,12 @@ def findings(path: Path) -> list[Finding]:
     followers = {node for node in broken if (through(student, node) - {node}) & broken}
     for item in assignment.items:
         for node in item.nodes:
-            found += _of_node(student, node, errors=node not in followers)
+            results += _of_node(student, node, errors=node not in followers)
     if followers:
         names = ", ".join(_of(assignment, node) for node in sorted(followers)[:6])
         more = "" if len(followers) <= 6 else f" и ещё {len(followers) - 6}"
-        found.append(Finding("Ошибки, пришедшие из названных выше", names + more))
-    return found
+        results.append(BookFinding("Ошибки, пришедшие из названных выше", names + more))
+    return results
 
 
 def remarks(path: str, issued: str) -> dict[str, list[str]]:
@@ -106,7 +105,7 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
     if not is_work_book(book):
         return {"remarks": ["в книге нет идентификатора: это не выданная рабочая книга"]}
     try:
-        lines = [f"{found.where}: {found.what}" for found in findings(book)]
+        lines = [f"{finding.where}: {finding.what}" for finding in findings(book)]
     except InputError as error:
         lines = error.lines()
     more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
@@ -134,7 +133,7 @@ def _ticket(book: Path) -> str:
 
 
 def _assignment(model: Model, package: Package) -> Assignment:
-    """What is to be filled in: the tables with open cells."""
+    """Tables with open cells."""
     layout = Layout.of(model)
     open_ = _open_cells(package)
     fill = [
@@ -152,7 +151,7 @@ def _assignment(model: Model, package: Package) -> Assignment:
         for table in model.tables.values()
         if table.id not in fill and f"col_{table.id}_1".casefold() in sheets
     ]
-    return assignment_of(model, Rubric(work=Work(fill=tuple(fill), given=tuple(given))))
+    return assignment_of(model, Rubric(work=WorkTables(fill=tuple(fill), given=tuple(given))))
 
 
 def _names(package: Package) -> Iterator[str]:
@@ -171,71 +170,79 @@ def _open_cells(package: Package) -> set[tuple[str, str]]:
             for part in style
         )
     }
-    found = set()
+    cells = set()
     for title, part in worksheets(package):
         for cell in parse_xml(package.read(part)).iter(f"{MAIN}c"):
             if cell.get("s") in unlocked:
-                found.add((title, str(cell.get("r"))))
-    return found
+                cells.add((title, str(cell.get("r"))))
+    return cells
 
 
-def _changed_inputs(student: Student, package: Package) -> Iterator[Finding]:
+def _changed_inputs(student: StudentBook, package: Package) -> Iterator[BookFinding]:
     """Input data that are not those issued, as far as the marks in the file tell."""
     marks = _marks(package)
     model = student.assignment.model
     for name, item in model.fields.items():
-        place = student.placement.places.get(name)
+        location = student.placement.places.get(name)
         if name in marks and marks[name] != input_mark(shown(item)):
-            where = f"{place.sheet}!{address(place.rows[0] or 0, place.column)}" if place else name
-            yield Finding(where, f"исходное данное «{item.title}» изменено")
+            where = (
+                f"{location.sheet}!{address(location.rows[0] or 0, location.column)}"
+                if location
+                else name
+            )
+            yield BookFinding(where, f"исходное данное «{item.title}» изменено")
 
 
 def _marks(package: Package) -> dict[str, str]:
     texts = own_properties(package)
-    found: dict[str, str] = {}
+    marks: dict[str, str] = {}
     for text in (texts[name] for name in sorted(texts) if name.startswith(INPUT_MARKS)):
         for entry in text.split(" "):
             name, _, mark = entry.partition("=")
             if mark:
-                found[name] = mark
-    return found
+                marks[name] = mark
+    return marks
 
 
-def _of_node(student: Student, node: str, *, errors: bool) -> list[Finding]:
+def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFinding]:
     answer = student.answers[node]
-    place = answer.place
+    location = answer.location
     what = _of(student.assignment, node)
-    if place is None:
-        return [Finding(what, "ячейки не найдены: верните таблице её заголовки")]
-    found = []
+    if location is None:
+        return [BookFinding(what, "ячейки не найдены: верните таблице её заголовки")]
+    results = []
     if answer.problem:
-        found.append(Finding(what, f"формулу программа не пересчитает: {answer.problem}"))
+        results.append(BookFinding(what, f"формулу программа не пересчитает: {answer.problem}"))
     for kind, words in ((LOST, "строка не найдена: верните угол в первый столбец"),
                         (BLANK, "пусто"), (TEXT, "текст вместо числа")):  # fmt: skip
-        rows = [r for i, r in enumerate(place.rows)
+        rows = [r for i, r in enumerate(location.rows)
                 if answer.kinds[i] == kind and i not in answer.odd]  # fmt: skip
         if rows:
-            found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
+            results.append(
+                BookFinding(what, f"{words}: {_ranges(location.sheet, location.column, rows)}")
+            )
     for words in dict.fromkeys(answer.odd.values()):
-        rows = [place.rows[i] for i, why in answer.odd.items() if why == words]
-        found.append(Finding(what, f"{words}: {_ranges(place.sheet, place.column, rows)}"))
+        rows = [location.rows[i] for i, why in answer.odd.items() if why == words]
+        results.append(
+            BookFinding(what, f"{words}: {_ranges(location.sheet, location.column, rows)}")
+        )
     wrong: dict[str, list[int | None]] = {}
-    for row, kind in zip(place.rows, answer.kinds, strict=True):
+    for row, kind in zip(location.rows, answer.kinds, strict=True):
         if errors and kind == ERROR and row is not None:
             try:
-                text = student.engine.shown(place.sheet, place.column, row)
+                text = student.engine.shown(location.sheet, location.column, row)
             except UnknownFormula:
                 continue
             wrong.setdefault(str(text), []).append(row)
     for text, rows in wrong.items():
-        where = _ranges(place.sheet, place.column, rows)
-        found.append(Finding(what, f"ошибка {text}: {where}"))
-    typed = [r for i, r in enumerate(place.rows)
+        where = _ranges(location.sheet, location.column, rows)
+        results.append(BookFinding(what, f"ошибка {text}: {where}"))
+    typed = [r for i, r in enumerate(location.rows)
              if answer.typed[i] and answer.kinds[i] == NUMBER and i not in answer.odd]  # fmt: skip
     if typed:
-        where = _ranges(place.sheet, place.column, typed)
-        found.append(Finding(what, f"число вместо формулы: {where}"))
-    return found
+        where = _ranges(location.sheet, location.column, typed)
+        results.append(BookFinding(what, f"число вместо формулы: {where}"))
+    return results
 
 
 def _of(assignment: Assignment, node: str) -> str:
@@ -250,6 +257,6 @@ def _of(assignment: Assignment, node: str) -> str:
 
 
 def _ranges(sheet: str, column: int, rows: list[int | None]) -> str:
-    found = stretches(sorted(row for row in rows if row is not None))
-    texts = [range_text(first, last, column) for first, last in found]
+    pairs = stretches(sorted(row for row in rows if row is not None))
+    texts = [range_text(first, last, column) for first, last in pairs]
     return f"{sheet}!" + ", ".join(texts[:8]) + ("…" if len(texts) > 8 else "")

@@ -11,16 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment
-from reports.grading.reading.placement import Place, Placement, find_places
+from reports.grading.reading.placement import Location, Placement, find_places
 from reports.grading.reading.typed import DATE, as_meant, carried, dates, number_of
 from reports.model.evaluation import Evaluation
-from reports.recalculation.bench import Cells, needed, pinned
-from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Engine
-from reports.recalculation.formulas import is_doubtful
-from reports.recalculation.grid import Area, Grid, Run
-from reports.recalculation.language import UnknownFormula
+from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Evaluator
+from reports.recalculation.formulas import UnknownFormula, is_doubtful
+from reports.recalculation.grid import Area, CellGrid, Run
+from reports.recalculation.trial_sheet import Cells, needed, pinned
+from reports.workbook.intake import Package
 from reports.workbook.layout import Cell, Layout
-from reports.workbook.package import Package
 
 Array = NDArray[np.float64]
 _MANY_AREAS = 100  # rectangles of one column that are looked at one by one
@@ -29,13 +28,13 @@ LOST = "x"  # beside the kinds of ``recalculation.evaluate``
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What stands in the cells of one node.
+    """Contents of the cells of one node.
 
     ``kinds`` has a letter for each row: number, blank, text, error value, lost row.
     A number that was typed as a text is a number here.
     """
 
-    place: Place | None
+    location: Location | None
     values: Array
     kinds: str
     typed: NDArray[np.bool_]
@@ -59,12 +58,12 @@ class Changed:
 
 
 @dataclass
-class Student:
+class StudentBook:
     """A submitted workbook under its assignment."""
 
     assignment: Assignment
     layout: Layout
-    grid: Grid
+    grid: CellGrid
     placement: Placement
     expected: Evaluation
     changed: list[Changed] = field(default_factory=list)
@@ -73,30 +72,30 @@ class Student:
     _settled: frozenset[str] = frozenset()
 
     @classmethod
-    def of(cls, assignment: Assignment, layout: Layout, grid: Grid) -> Student:
+    def of(cls, assignment: Assignment, layout: Layout, grid: CellGrid) -> StudentBook:
         """Find the tables of a workbook; ``restoring.restore`` puts back what was issued."""
         placement = find_places(assignment.kept_model, layout, grid)
         return cls(assignment, layout, grid, placement, Evaluation(assignment.model))
 
     @cached_property
-    def engine(self) -> Engine:
+    def engine(self) -> Evaluator:
         """The formulas, calculated with the issued input data."""
-        return Engine(self.known)
+        return Evaluator(self.known)
 
     @cached_property
-    def known(self) -> Grid:
+    def known(self) -> CellGrid:
         """The grid that is calculated: what ``settle`` has settled stands in it as numbers."""
         return self.grid
 
     def settle(self, nodes: frozenset[str]) -> None:
         """Leave out of the calculation what is known to hold the right numbers."""
         self._settled = nodes
-        asked = self.assignment.fill_nodes
-        if asked <= nodes:
-            self.known = Grid({title: {} for title in self.grid.sheets})
+        to_fill = self.assignment.fill_nodes
+        if to_fill <= nodes:
+            self.known = CellGrid({title: {} for title in self.grid.sheets})
         elif nodes:
             right = [self.cells_of(node, self.expected.value(node)) for node in sorted(nodes)]
-            spans = ((p, p.span) for p in map(self.placement.places.get, asked) if p is not None)
+            spans = ((p, p.span) for p in map(self.placement.places.get, to_fill) if p is not None)
             areas = [Area(p.sheet, s.first, s.last, p.column, p.column) for p, s in spans if s]
             self.known = needed(pinned(self.grid, chain.from_iterable(right)), areas)
 
@@ -105,38 +104,38 @@ class Student:
     @cached_property
     def answers(self) -> dict[str, Answer]:
         """Answer of every node to fill in."""
-        found = {}
+        answers = {}
         for item in self.assignment.items:
             for node in item.nodes:
-                found[node] = self._answer(node)
-        return found
+                answers[node] = self._answer(node)
+        return answers
 
     def _answer(self, node: str) -> Answer:
-        place = self.placement.places.get(node)
+        location = self.placement.places.get(node)
         count = self.assignment.length(node)
         nothing, none = np.full(count, np.nan), np.zeros(count, dtype=bool)
-        if place is None or place.span is None:
-            return Answer(place, nothing, LOST * count, none)
+        if location is None or location.span is None:
+            return Answer(location, nothing, LOST * count, none)
         if node in self._settled:
             numbers = np.ravel(np.asarray(self.expected.value(node), dtype=float))
-            return Answer(place, numbers, NUMBER * count, none)
+            return Answer(location, numbers, NUMBER * count, none)
         try:
-            numbers, kinds = shown_in(self.engine, place)
+            numbers, kinds = shown_in(self.engine, location)
         except UnknownFormula as problem:
-            return Answer(place, nothing, ERROR * count, none, str(problem) or "?")
-        typed = self.grid.column(place.sheet, place.column).constants
+            return Answer(location, nothing, ERROR * count, none, str(problem) or "?")
+        typed = self.grid.column(location.sheet, location.column).constants
         if not typed:
-            return Answer(place, numbers, kinds, none)
-        marks = np.array([row in typed for row in place.rows])
-        return self._as_meant(Answer(place, numbers, kinds, marks), typed)
+            return Answer(location, numbers, kinds, none)
+        marks = np.array([row in typed for row in location.rows])
+        return self._as_meant(Answer(location, numbers, kinds, marks), typed)
 
     def _as_meant(self, answer: Answer, typed: Mapping[int, object]) -> Answer:
         """An answer with the numbers that were typed as texts, and what else is odd about it."""
-        place = answer.place
-        assert place is not None
-        numbers, odd = as_meant([typed.get(row or 0) for row in place.rows])
-        for i, row in enumerate(place.rows):
-            if Cell(place.sheet, row or 0, place.column) in self._dates:
+        location = answer.location
+        assert location is not None
+        numbers, odd = as_meant([typed.get(row or 0) for row in location.rows])
+        for i, row in enumerate(location.rows):
+            if Cell(location.sheet, row or 0, location.column) in self._dates:
                 odd[i] = DATE
         if not odd:
             return answer
@@ -152,28 +151,28 @@ class Student:
 
     def runs(self, node: str) -> list[Run]:
         """Runs of formulas in a node's cells."""
-        place = self.placement.places.get(node)
-        if place is None or place.span is None:
+        location = self.placement.places.get(node)
+        if location is None or location.span is None:
             return []
-        span = place.span
-        near = self.grid.column(place.sheet, place.column).runs_in(span.first, span.last)
+        span = location.span
+        near = self.grid.column(location.sheet, location.column).runs_in(span.first, span.last)
         if span.whole:
             return near
-        rows = {row for row in place.rows if row is not None}
+        rows = {row for row in location.rows if row is not None}
         return [run for run in near if not rows.isdisjoint(range(run.first, run.last + 1))]
 
     # --- what formulas refer to -------------------------------------------------------
 
     @cached_property
-    def _columns_at(self) -> dict[str, dict[int, list[tuple[str, int, int, Place]]]]:
+    def _columns_at(self) -> dict[str, dict[int, list[tuple[str, int, int, Location]]]]:
         """Nodes of each column of a sheet with their first and last row."""
-        found: dict[str, dict[int, list[tuple[str, int, int, Place]]]] = {}
-        for node, place in self.placement.places.items():
-            if place.span is not None:
-                entry = (node, place.span.first, place.span.last, place)
-                of_sheet = found.setdefault(place.sheet, {})
-                of_sheet.setdefault(place.column, []).append(entry)
-        return found
+        columns: dict[str, dict[int, list[tuple[str, int, int, Location]]]] = {}
+        for node, location in self.placement.places.items():
+            if location.span is not None:
+                entry = (node, location.span.first, location.span.last, location)
+                of_sheet = columns.setdefault(location.sheet, {})
+                of_sheet.setdefault(location.column, []).append(entry)
+        return columns
 
     def precedents(self, node: str) -> frozenset[str]:
         """Nodes and inputs that a node's formulas refer to, through own helper cells too."""
@@ -193,7 +192,7 @@ class Student:
         return {}
 
     def _walk(self, node: str) -> tuple[frozenset[str], frozenset[Run]]:
-        found: set[str] = set()
+        names: set[str] = set()
         seen: set[Run] = set()
         stack = self.runs(node)
         while stack:
@@ -203,21 +202,21 @@ class Student:
             seen.add(run)
             for area in self.grid.precedents(run):
                 hit, rest = self._nodes_in(area)
-                found |= hit
+                names |= hit
                 stack += rest
-        return frozenset(found), frozenset(seen)
+        return frozenset(names), frozenset(seen)
 
     def _nodes_in(self, area: Area) -> tuple[set[str], list[Run]]:
         nodes: set[str] = set()
         helpers: list[Run] = []
-        taken: dict[int, list[tuple[int, int, Place]]] = {}
+        taken: dict[int, list[tuple[int, int, Location]]] = {}
         columns = self._columns_at.get(area.sheet, {})
         inside = range(area.first_column, area.last_column + 1)
         for number in (n for n in columns if n in inside):
-            for node, first, last, place in columns.get(number, ()):
+            for node, first, last, location in columns.get(number, ()):
                 if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
-                    taken.setdefault(number, []).append((first, last, place))
+                    taken.setdefault(number, []).append((first, last, location))
         for number in self.grid.columns_of(area):
             known = taken.get(number, [])
             if covered(area.first_row, area.last_row, known):
@@ -238,24 +237,24 @@ class Student:
             return
         cells = []
         for node, answer in self.answers.items():
-            place, right = answer.place, self.expected.value(node)
-            if place is None or isinstance(right, str):
+            location, right = answer.location, self.expected.value(node)
+            if location is None or isinstance(right, str):
                 continue
-            column = self.grid.column(place.sheet, place.column)
+            column = self.grid.column(location.sheet, location.column)
             saved = dict(zip(column.saved_rows, column.saved, strict=True))
-            found = {}
-            for row, number in zip(place.rows, np.ravel(right).tolist(), strict=True):
+            wanted = {}
+            for row, number in zip(location.rows, np.ravel(right).tolist(), strict=True):
                 text = column.constants.get(row) if row is not None else None
                 if row is not None and node in unknown:
                     claim = saved.get(row, np.nan)
-                    found[row] = number if np.isnan(claim) else claim
+                    wanted[row] = number if np.isnan(claim) else claim
                 elif row is not None and isinstance(text, str) and is_doubtful(text):
-                    found[row] = number if (own := number_of(text)) is None else own
-            if found:
-                rows = tuple(found)
-                values = tuple(found.values())
-                cells.append(Cells(place.sheet, place.column, rows, values))
-        self.engine = Engine(pinned(self.known, cells))
+                    wanted[row] = number if (own := number_of(text)) is None else own
+            if wanted:
+                rows = tuple(wanted)
+                values = tuple(wanted.values())
+                cells.append(Cells(location.sheet, location.column, rows, values))
+        self.engine = Evaluator(pinned(self.known, cells))
         for node in waiting:
             self.answers[node] = self._answer(node)
 
@@ -263,22 +262,22 @@ class Student:
 
     def cells_of(self, node: str, values: object) -> list[Cells]:
         """The cells of a node with values."""
-        place = self.placement.places.get(node)
-        if place is None:
+        location = self.placement.places.get(node)
+        if location is None:
             return []
         given = [values] if isinstance(values, str) else np.ravel(np.asarray(values)).tolist()
-        kept = [(r, v) for r, v in zip(place.rows, given, strict=True) if r is not None]
+        kept = [(r, v) for r, v in zip(location.rows, given, strict=True) if r is not None]
         if not kept:
             return []
         rows, numbers = zip(*kept, strict=True)
-        return [Cells(place.sheet, place.column, rows, numbers)]
+        return [Cells(location.sheet, location.column, rows, numbers)]
 
     @cached_property
     def own_constants(self) -> list[tuple[str, int, int, float]]:
         """Numbers typed into cells that are none of the work-book's, as texts too."""
         taken: dict[tuple[str, int], set[int | None]] = {}
-        for place in self.placement.places.values():
-            taken.setdefault((place.sheet, place.column), set()).update(place.rows)
+        for location in self.placement.places.values():
+            taken.setdefault((location.sheet, location.column), set()).update(location.rows)
         return [
             (sheet, number, row, value)
             for sheet, columns in self.grid.sheets.items()
@@ -313,10 +312,10 @@ class Student:
     def as_laid_out(self) -> bool:
         """Whether every cell of the tables stands where it was issued."""
         layout = self.layout
-        for name, place in self.placement.places.items():
+        for name, location in self.placement.places.items():
             if name in layout.cells:
                 cell = layout.cells[name]
-                if (place.sheet, place.column, place.rows) != (
+                if (location.sheet, location.column, location.rows) != (
                     cell.sheet,
                     cell.column,
                     (cell.row,),
@@ -324,34 +323,34 @@ class Student:
                     return False
             elif name in layout.columns:
                 table, column = layout.columns[name]
-                if (place.sheet, place.column) != (table.sheet, column):
+                if (location.sheet, location.column) != (table.sheet, column):
                     return False
-                if place.rows != tuple(layout.rows_of(table)):
+                if location.rows != tuple(layout.rows_of(table)):
                     return False
         return True
 
 
-def covered(low: int, high: int, taken: list[tuple[int, int, Place]]) -> bool:
+def covered(low: int, high: int, taken: list[tuple[int, int, Location]]) -> bool:
     """Whether all rows belong to nodes."""
-    for first, last, place in taken:
-        if first <= low and high <= last and place.span is not None and place.span.whole:
+    for first, last, location in taken:
+        if first <= low and high <= last and location.span is not None and location.span.whole:
             return True
-    rows = {row for _, _, place in taken for row in place.rows}
+    rows = {row for _, _, location in taken for row in location.rows}
     return all(row in rows for row in range(low, high + 1))
 
 
-def shown_in(engine: Engine, place: Place) -> tuple[Array, str]:
+def shown_in(engine: Evaluator, location: Location) -> tuple[Array, str]:
     """Numbers and kinds of a place's rows; lost ones have a letter of their own.
 
     Raises:
         UnknownFormula: one of its formulas cannot be calculated for certain.
     """
-    assert place.span is not None
-    first = place.span.first
-    numbers, kinds = engine.values(place.sheet, place.column, first, place.span.last)
-    if place.span.whole:
+    assert location.span is not None
+    first = location.span.first
+    numbers, kinds = engine.values(location.sheet, location.column, first, location.span.last)
+    if location.span.whole:
         return numbers, kinds
-    at = [None if row is None else row - first for row in place.rows]
+    at = [None if row is None else row - first for row in location.rows]
     values = np.array([np.nan if i is None else numbers[i] for i in at])
     return values, "".join(LOST if i is None else kinds[i] for i in at)
 

@@ -1,4 +1,4 @@
-"""What was handed in: files of a folder or of a zip as Moodle makes it, and of students' zips."""
+"""Files handed in, as Moodle or a folder holds them, and their owners with the evidence."""
 
 from __future__ import annotations
 
@@ -6,14 +6,20 @@ import io
 import re
 import zipfile
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
 
+from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
+from reports.grading.issuing.issue import latin
+from reports.grading.issuing.register import PATTERN, Issued, Register
+from reports.recalculation.grid import BadBook, CellGrid
+from reports.recalculation.sheets import parse_xml
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import reason
-from reports.workbook.intake import MAX_FILE
+from reports.workbook.intake import MAX_FILE, Package
 
 MAX_SUBMISSIONS = 5000
 _MANY = 200  # files of a student's zip: it must not use up the batch
@@ -69,29 +75,29 @@ def collect(path: Path) -> list[Submission]:
         InputError: there is nothing there.
     """
     if path.is_dir():
-        found = _folder(path)
+        files = _folder(path)
     elif path.is_file():
-        found = _opened(_single(path, path.name), prefix="")
+        files = _opened(_single(path, path.name), prefix="")
     else:
         raise InputError(Problem(str(path), "нет такого файла или папки", "проверьте путь"))
-    if not found:
+    if not files:
         hint = "положите в папку файлы студентов"
         raise InputError(Problem(str(path), "нет ни одной сданной работы", hint))
-    if len(found) > MAX_SUBMISSIONS:
+    if len(files) > MAX_SUBMISSIONS:
         what = f"больше {MAX_SUBMISSIONS} файлов"
         raise InputError(Problem(str(path), what, "проверьте, та ли это папка"))
-    return sorted(found, key=lambda item: item.key)
+    return sorted(files, key=lambda item: item.key)
 
 
 def _folder(path: Path) -> list[Submission]:
-    found = []
+    files = []
     for file in sorted(path.rglob("*")):
         key = file.relative_to(path).as_posix()
         if file.is_symlink() or not file.is_file() or _is_hidden(key):
             continue
-        made = _single(file, key)
-        found += _opened(made, prefix=f"{key}/") if _is_zip(key) else [made]
-    return found
+        submission = _single(file, key)
+        files += _opened(submission, prefix=f"{key}/") if _is_zip(key) else [submission]
+    return files
 
 
 def _single(file: Path, key: str) -> Submission:
@@ -114,16 +120,16 @@ def _opened(file: Submission, prefix: str) -> list[Submission]:
     """The files of a zip, and of the zips in it; anything else as it is."""
     try:
         with file.path.open("rb") as stream:
-            found = _zip(file, stream, prefix)
+            files = _zip(file, stream, prefix)
     except (OSError, *_DAMAGED):
-        found = []
-    return found or [file]
+        files = []
+    return files or [file]
 
 
 def _zip(file: Submission, stream: BinaryIO, prefix: str, *, nested: bool = False
          ) -> list[Submission]:  # fmt: skip
     """Files of a zip that is no workbook.  The time in a student's own zip is his to choose."""
-    found: list[Submission] = []
+    files: list[Submission] = []
     keys: set[str] = set()
     with zipfile.ZipFile(stream) as archive:
         infos = archive.infolist()
@@ -142,16 +148,16 @@ def _zip(file: Submission, stream: BinaryIO, prefix: str, *, nested: bool = Fals
             keys.add(key)
             members = (*(file.members or ()), index)
             time = file.time if theirs else _time(info)
-            made = Submission(key, file.path, members, time, **_moodle(key))
+            submission = Submission(key, file.path, members, time, **_moodle(key))
             inner: list[Submission] = []
             if not nested and _is_zip(key):
                 try:
                     data = io.BytesIO(_member(stream, index))
-                    inner = _zip(made, data, f"{key}/", nested=True)
+                    inner = _zip(submission, data, f"{key}/", nested=True)
                 except _DAMAGED:
                     inner = []
-            found += inner or [made]
-    return found
+            files += inner or [submission]
+    return files
 
 
 def _is_zip(key: str) -> bool:
@@ -187,3 +193,178 @@ def _moodle(key: str) -> dict[str, str]:
     if match is None:
         return {}
     return {"moodle_id": match["id"], "moodle_name": match["name"]}
+
+
+# --- owners --------------------------------------------------------------------------------------
+
+_NOBODYS = "нет идентификатора, имя файла не указывает на студента"
+# What Moodle calls those whose names it hides from the grader.
+_NAMELESS = re.compile(r"(участник|participant)[ _]?\d*", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """The issued work-book a file belongs to, why, and what speaks against it.
+
+    ``submitter`` is the number of the other student under whose name the file came, 0 where
+    several have that name.  While there are doubts, a person decides before any points are given.
+    """
+
+    book: Issued | None
+    evidence: tuple[str, ...]
+    doubts: tuple[str, ...]
+    submitter: int | None = None
+
+
+def find_owner(
+    register: Register, submission: Submission, grid: CellGrid, package: Package
+) -> Match:
+    """Match a readable workbook with the register."""
+    tickets = _tickets(grid, package)
+    by_ticket = {book.ticket: book for book in register.books}
+    known = {text: where for text, where in tickets.items() if text in by_ticket}
+    named, where = _by_name(register, submission)
+    one = named[0] if len(named) == 1 else None
+    submitter = one.number if one else None
+    evidence = [f"идентификатор {text} ({where})" for text, where in known.items()]
+    doubts = [
+        f"идентификатор {text} ({where}) не выдавался в этой группе"
+        for text, where in tickets.items()
+        if text not in by_ticket
+    ]
+    if len(known) > 1:
+        names = ", ".join(by_ticket[text].student.full for text in known)
+        text = f"в файле идентификаторы разных работ: {names}"
+        return Match(None, tuple(evidence), (*doubts, text), submitter)
+    if len(known) == 1:
+        book = by_ticket[next(iter(known))]
+        if named and book not in named:
+            who = " или ".join(dict.fromkeys(other.student.full for other in named))
+            issued = book.student.full
+            doubts.append(f"файл сдал(а) {who} ({where}), а идентификатор выдан: {issued}")
+            return Match(book, tuple(evidence), tuple(doubts), submitter or 0)
+        if _is_stranger(register, submission):
+            doubts.append(f"{where} — его нет в списке, а идентификатор выдан: {book.student.full}")
+            return Match(book, tuple(evidence), tuple(doubts), 0)
+        if one is not None:
+            evidence.append(where)
+        return Match(book, tuple(evidence), tuple(doubts))
+    if one is None:
+        text = (
+            f"нет идентификатора; {where} — его нет в списке" if where and not named else _NOBODYS
+        )
+        return Match(None, (), (*doubts, text))
+    if tickets:
+        return Match(None, (where,), tuple(doubts), submitter)
+    doubts.append("в файле нет идентификатора: это не выданная книга или он удалён")
+    return Match(one, (f"идентификатора нет; {where}",), tuple(doubts))
+
+
+def find_by_name(register: Register, submission: Submission) -> Match:
+    """Match a file that cannot be read."""
+    named, where = _by_name(register, submission)
+    return Match(named[0], (where,), ()) if len(named) == 1 else Match(None, (), ())
+
+
+def _tickets(grid: CellGrid, package: Package) -> dict[str, str]:
+    """Identifiers in a workbook → where they stand."""
+    tickets: dict[str, str] = {}
+    at = grid.names.get(TICKET_NAME.casefold())
+    if at is not None:
+        _take(tickets, grid.constant(*at), f"ячейка с именем {TICKET_NAME}")
+    _take(tickets, own_properties(package).get(TICKET_NAME), "свойство файла")
+    if not tickets:
+        for columns in grid.sheets.values():
+            for number, column in columns.items():
+                for row, value in column.constants.items():
+                    if isinstance(value, str) and value.strip() == TICKET_TITLE:
+                        beside = columns.get(number + 1)
+                        text = beside.constants.get(row) if beside is not None else None
+                        _take(tickets, text, f"ячейка «{TICKET_TITLE}»")
+    return tickets
+
+
+def _take(tickets: dict[str, str], text: object, where: str) -> None:
+    if isinstance(text, str) and PATTERN.fullmatch(text.strip()):
+        tickets.setdefault(text.strip(), where)
+
+
+def own_properties(package: Package) -> dict[str, str]:
+    """Custom properties of a workbook, written at issue, by name."""
+    try:
+        root = parse_xml(package.read("docProps/custom.xml"))
+    except (KeyError, BadBook):
+        return {}
+    properties: dict[str, str] = {}
+    for item in root.iter("{*}property"):
+        properties.setdefault(str(item.get("name")), "".join(item.itertext()))
+    return properties
+
+
+def file_properties(package: Package) -> dict[str, str]:
+    """Authors and times of a workbook, as the file claims."""
+    wanted = {"creator", "lastModifiedBy", "created", "modified"}
+    try:
+        root = parse_xml(package.read("docProps/core.xml"))
+    except (KeyError, BadBook):
+        return {}
+    properties = {}
+    for item in root:
+        name = str(item.tag).rpartition("}")[2]
+        if name in wanted and item.text:
+            properties[name] = item.text.strip()[:100]
+    return properties
+
+
+def _by_name(register: Register, submission: Submission) -> tuple[list[Issued], str]:
+    """Whose name stands in Moodle's folder, or else in the name of the file, and where.
+
+    More than one are those that the name does not tell apart.
+    """
+    of_file = [book for book in register.books if book.folder in submission.key.split("/")]
+    of_file = of_file or [
+        book for book in register.books if book.file.removesuffix(".xlsx") in submission.key
+    ]
+    hits = _named(register, submission.moodle_name)
+    if hits:  # a participant may hand in a file of another's; of namesakes its name tells which
+        of_name = [book for book in hits if book in of_file]
+        return of_name or hits, f"имя участника Moodle: «{submission.moodle_name[:120]}»"
+    if _is_stranger(register, submission):  # whatever the name of his file says
+        return [], f"имя участника Moodle: «{submission.moodle_name[:120]}»"
+    hits = of_file or _named(register, submission.key)
+    return hits, f"имя файла: «{submission.key[:120]}»" if hits else ""
+
+
+def _is_stranger(register: Register, submission: Submission) -> bool:
+    """Whether Moodle names a participant who is not on the roster."""
+    name = submission.moodle_name
+    return bool(name) and not _NAMELESS.fullmatch(name) and not _named(register, name)
+
+
+def _named(register: Register, text: str) -> list[Issued]:
+    """Those whose names stand in a text, or else their surnames."""
+    words = _words(text)
+    hits = _standing_in(words, [(book, _names(book)) for book in register.books])
+    return hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
+
+
+def _names(book: Issued) -> set[str]:
+    first, surname = _words(book.student.name.split(" ")[0]), _words(book.student.surname)
+    return first | surname if first - surname else set()
+
+
+def _surname(book: Issued) -> set[str]:
+    """The words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
+    words = _words(book.student.surname)
+    return words if any(len(word) > 2 for word in words) else set()
+
+
+def _standing_in(words: set[str], names: Iterable[tuple[Issued, set[str]]]) -> list[Issued]:
+    """Whose name stands among some words, and is no part of another that does."""
+    hits = [(book, name) for book, name in names if name and name <= words]
+    return [book for book, name in hits if not any(name < other for _, other in hits)]
+
+
+def _words(text: str) -> set[str]:
+    """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
+    return set(filter(None, re.split(r"[\W\d_]+", latin(text))))

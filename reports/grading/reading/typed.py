@@ -1,17 +1,17 @@
-"""What was typed into a cell, and what a spreadsheet has made of it: a text, or a date."""
+"""Typed cells that a spreadsheet has taken for texts or dates."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
 
-from reports.grading.reading.placement import Place
+from reports.grading.reading.placement import Location
 from reports.recalculation.formulas import is_doubtful
-from reports.recalculation.grid import Grid
+from reports.recalculation.grid import CellGrid
 from reports.recalculation.read import worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
+from reports.workbook.intake import Package
 from reports.workbook.layout import Cell
-from reports.workbook.package import Package
 
 TEXT_NUMBER = "число записано текстом: таблица с ним не считает"
 TEXT_FORMULA = "формула записана текстом: таблица её не считает"
@@ -71,13 +71,14 @@ def as_meant(typed: Sequence[object]) -> tuple[dict[int, float], dict[int, str]]
     return numbers, odd
 
 
-def dates(package: Package, grid: Grid, places: Iterable[Place]) -> frozenset[Cell]:
-    """Which cells of some places are shown as dates."""
+def dates(package: Package, grid: CellGrid, places: Iterable[Location]) -> frozenset[Cell]:
+    """Cells of some locations that are shown as dates."""
     wanted = {
-        Cell(place.sheet, row, place.column)
-        for place in places
-        for row in place.rows
-        if row is not None and _may_be(grid.column(place.sheet, place.column).constants.get(row))
+        Cell(location.sheet, row, location.column)
+        for location in places
+        for row in location.rows
+        if row is not None
+        and _may_be(grid.column(location.sheet, location.column).constants.get(row))
     }
     of_dates = _looks_of_dates(package) if wanted else ()
     sheets = {cell.sheet for cell in wanted} if of_dates else ()

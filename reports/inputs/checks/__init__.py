@@ -1,1 +1,1 @@
-"""Checks of the fields against each other."""
+"""Cross-checks of the input's fields."""

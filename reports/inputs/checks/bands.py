@@ -1,4 +1,4 @@
-"""Usual ranges of an engine's data, wide enough for real engines of every kind.
+"""Usual ranges of engine data, by the kind of engine that a file states.
 
 No range spans a factor of ten: a value in it, ten times larger or smaller, is outside.
 What is known by heart and was not checked against a book says so in its source.
@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kshm.engine import usual
+from kshm.engine import engine
+from reports.inputs.sections.input_file import InputFile
 
 MEMORY = "по памяти"
 TABLE_4 = "таблица 4 учебника с запасом"
@@ -203,9 +204,11 @@ BANDS: tuple[Band, ...] = (
 
 # Values that follow from more than one key; `plausibility` says from which.
 SIZES = Band("geometry", "", "S/D", 0.6, 1.55)
-LARGE_SIZES = Band("geometry", "", "S/D", *usual.STROKE_TO_BORE)  # crosshead engines
+LARGE_SIZES = Band("geometry", "", "S/D", *engine.STROKE_TO_BORE)  # crosshead engines
 LARGE_BORE_MM = 250.0
-SPEED = Band("regime.speed_rpm", "", "средняя скорость поршня Sn/30", *usual.MEAN_SPEED, unit="м/с")
+SPEED = Band(
+    "regime.speed_rpm", "", "средняя скорость поршня Sn/30", *engine.MEAN_SPEED, unit="м/с"
+)
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
 PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш под шатуном", 0.25, 1.2)
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
@@ -217,7 +220,7 @@ RISE = Band("gas.max_pressure_mpa", "", "p_z/p_c", 0.6, 5.5)
 POWER = Band("regime.indicated_power_kw", "", "N_i к работе диаграммы", 0.4, 2.5)
 MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 3.5, unit="МПа")
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
-POINTS = Band("gas.points", "", "наибольшее давление", *usual.PEAK_PRESSURE, unit="МПа")
+POINTS = Band("gas.points", "", "наибольшее давление", *engine.PEAK_PRESSURE, unit="МПа")
 LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
 TRACE_COMPRESSION = Band("gas.points", "", "показатель сжатия по точкам", 1.2, 1.45)
 TRACE_EXPANSION = Band("gas.points", "", "показатель расширения по точкам", 1.0, 1.6)
@@ -230,5 +233,31 @@ LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0
 
 
 def band_of(key: str) -> Band:
-    """The first band of a key."""
+    """First band of a key."""
     return next(band for band in BANDS if band.key == key)
+
+
+# Combustion at a constant pressure; what is usual of spark ignition stays below.
+_DIESEL_RHO = 1.2
+_WORDS = {
+    "diesel": ("дизел", "diesel"),
+    "petrol": ("бензин", "искров", "карбюратор", "petrol", "gasoline"),
+}
+
+
+def stated_kind(model: InputFile) -> str:
+    """Kind of engine that the file states, else an empty text."""
+    if model.cycle is not None:
+        return model.cycle.kind
+    stated = getattr(model.gas, "kind", None) or model.masses.estimate_fuel
+    if stated:
+        return str(stated)
+    name = model.engine.name.lower()
+    named = [kind for kind, words in _WORDS.items() if any(word in name for word in words)]
+    return named[0] if len(named) == 1 else ""
+
+
+def diesel_rho(model: InputFile) -> float:
+    """ρ of the diagram where it alone implies a diesel, else 0."""
+    rho = float(getattr(model.gas, "preexpansion_ratio", None) or 0)
+    return rho if rho >= _DIESEL_RHO and not stated_kind(model) else 0.0

@@ -8,25 +8,116 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from reports.inputs.checks.accepted import check_accepted
-from reports.inputs.checks.bearings import check_bearings
-from reports.inputs.checks.cycle import check_cycle
+from reports.inputs.checks.bearings import check_bearings, check_pairs
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
 from reports.inputs.checks.masses import check_masses
-from reports.inputs.checks.pairs import check_pairs
-from reports.inputs.checks.reference import check_reference
 from reports.inputs.checks.torsion import check_torsion
-from reports.inputs.findings import Finding, Path, Values, radius_and_rod
+from reports.inputs.fields import Path
+from reports.inputs.findings import Finding, ValidValues, check_accepted, radius_and_rod
+from reports.inputs.sections.gas import BOOST, BOOST_EXTRA, OWN_FUEL
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
+from reports.inputs.sections.report import MOST_LAMBDAS
 from reports.inputs.units import is_within, number_text, span_text
+
+_DESIGN = ("stroke_bore", "size_step_mm", "rounding")
+
+
+def check_cycle(values: ValidValues) -> Iterator[Finding]:
+    """Yield missing and superfluous keys of [cycle], [gas], [geometry], [regime]."""
+    source, given = values.get("gas", "source"), "cycle" in values.sections
+    if source == "cycle" and not given and "cycle" not in values.unsure:
+        hint = "добавьте раздел [cycle] или выберите другой gas.source"
+        yield Finding(("cycle",), "нет раздела, а gas.source = cycle", hint)
+    if not given:
+        return
+    if source is not None and source != "cycle":
+        what = f"задан расчёт цикла, а gas.source = {source}"
+        yield Finding(("gas", "source"), what, "запишите source = cycle или уберите [cycle]")
+    if values.get("regime", "indicated_power_kw") is not None:
+        what = "индикаторная мощность следует из расчёта цикла"
+        yield Finding(("regime", "indicated_power_kw"), what, "уберите ключ")
+    if values.get("regime", "fullness") not in (None, 1.0):
+        what = "полнота диаграммы при расчёте цикла задаётся в cycle.fullness"
+        yield Finding(("regime", "fullness"), what, "уберите ключ")
+    for key in ("crank_offset_mm", "pin_offset_mm"):
+        if values.get("geometry", key):
+            what = "расчёт цикла ведётся для центрального механизма"
+            yield Finding(("geometry", key), what, "уберите ключ или задайте давления газов сами")
+    yield from _engine(values)
+    yield from _groups(values)
+
+
+def _has(values: ValidValues, key: str) -> bool:
+    return values.get("cycle", key) is not None or ("cycle", key) in values.broken
+
+
+def _together(
+    values: ValidValues,
+    why: str,
+    wanted: bool,
+    needed: tuple[str, ...],
+    extra: tuple[str, ...] = (),
+) -> Iterator[Finding]:
+    """All of ``needed`` when wanted; none of them, nor of ``extra``, when not."""
+    for key in (*needed, *extra):
+        if wanted and key in needed and not _has(values, key):
+            yield Finding(("cycle", key), f"обязательный ключ не задан ({why})", "добавьте его")
+        elif not wanted and _has(values, key):
+            yield Finding(("cycle", key), f"лишний ключ: {why}", "уберите его")
+
+
+def _engine(values: ValidValues) -> Iterator[Finding]:
+    kind = values.get("cycle", "kind")
+    if kind == "diesel":
+        yield from _together(values, "для дизеля p_z задаётся", True, ("max_pressure_mpa",))
+        yield from _together(
+            values, "нужен только двигателю с искровым зажиганием", False, (), ("h2_co_ratio",)
+        )
+    elif kind == "petrol":
+        why = "у двигателя с искровым зажиганием p_z получается из расчёта"
+        yield from _together(values, why, False, (), ("max_pressure_mpa",))
+    fuel = values.get("cycle", "fuel")
+    if fuel == "own":
+        needed = OWN_FUEL if kind == "diesel" else (*OWN_FUEL, "fuel_molar_mass_kg_kmol")
+        yield from _together(values, "fuel = own", True, needed)
+    elif fuel is not None:
+        why = "состав задаётся только при fuel = own"
+        yield from _together(values, why, False, (), (*OWN_FUEL, "fuel_molar_mass_kg_kmol"))
+
+
+def _groups(values: ValidValues) -> Iterator[Finding]:
+    design, boost = _has(values, "power_kw"), _has(values, "boost_ratio")
+    why = "задана мощность power_kw" if design else "нужен только вместе с power_kw"
+    yield from _together(values, why, design, ("stroke_bore",), _DESIGN[1:])
+    why = "задан наддув boost_ratio" if boost else "нужен только вместе с boost_ratio"
+    yield from _together(values, why, boost, BOOST, BOOST_EXTRA)
+    law = _has(values, "friction_a_mpa") or _has(values, "friction_b_mpa_s_m")
+    if law:
+        keys = ("friction_a_mpa", "friction_b_mpa_s_m")
+        yield from _together(values, "потери A + B·c_m", True, keys)
+        if values.get("regime", "mechanical_efficiency") not in (None, 1.0):
+            what = "заданы и механический КПД, и потери A + B·c_m"
+            yield Finding(("regime", "mechanical_efficiency"), what, "оставьте одно из двух")
+    if _has(values, "adaptability") and not _has(values, "torque_speed_rpm"):
+        what = "обязательный ключ не задан (задан K = adaptability)"
+        yield Finding(("cycle", "torque_speed_rpm"), what, "добавьте частоту n_M")
+
+
+def check_reference(values: ValidValues) -> Iterator[Finding]:
+    """Yield errors in the list of λ."""
+    count = values.counts.get(("reference", "lambdas"))
+    if count is not None and not 1 <= count <= MOST_LAMBDAS:
+        what = f"значений {count}, а нужно от 1 до {MOST_LAMBDAS}"
+        yield Finding(("reference", "lambdas"), what, "исправьте список")
+
 
 LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
 
 
-def check(values: Values) -> Iterator[Finding]:
-    """Yield everything that does not fit together, errors and warnings."""
+def check(values: ValidValues) -> Iterator[Finding]:
+    """Yield all contradictions between fields, errors and warnings."""
     yield from _geometry(values)
     yield from check_pairs(values)
     yield from check_layout(values)
@@ -40,7 +131,7 @@ def check(values: Values) -> Iterator[Finding]:
     yield from check_accepted(values)
 
 
-def _geometry(values: Values) -> Iterator[Finding]:
+def _geometry(values: ValidValues) -> Iterator[Finding]:
     keys = ("crank_radius_mm", "stroke_mm", "rod_length_mm", "lambda")
     if not values.sure("geometry", *keys):
         return
@@ -81,7 +172,7 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
         yield Finding(path, what, hint, warning=True)
 
 
-def _arms(values: Values) -> Iterator[Finding]:
+def _arms(values: ValidValues) -> Iterator[Finding]:
     for index, arms in enumerate(values.get("crankshaft", "arms") or ()):
         lengths = (arms.l1_mm, arms.l2_mm, arms.l3_mm, arms.l4_mm, arms.l5_mm, arms.l6_mm)
         left = arms.l1_mm + arms.l2_mm + arms.left_web_mm

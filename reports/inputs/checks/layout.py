@@ -1,21 +1,25 @@
-"""Checks of the layout: banks, throws, phases, offset, articulated rods."""
+"""Checks of layout, phases and lists of the crankshaft, and clearances between its parts."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import accumulate, combinations
 
-from kshm.engine.arrangement import Arrangement, side_reach, throw_angle
-from reports.inputs.findings import Finding, Values, radius_and_rod
-from reports.inputs.firing import OPPOSED_BANK_DEG, arrangement, fitting_angle
+from kshm.engine.arrangement import Arrangement, pin_counts, rods_beside, side_reach, throw_angle
+from kshm.engine.crankshaft import places
+from reports.inputs.fields import Path
+from reports.inputs.findings import Finding, Keys, ValidValues, in_lines, radius_and_rod
+from reports.inputs.firing import OPPOSED_BANK_DEG, arrangement, arrangement_of, fitting_angle
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.units import number_text, span_text
 
 ANGLE_TOLERANCE_DEG = 0.01
 USUAL_OFFSET = 0.25  # k = e/r; the book names 0.05…0.20
 
 
-def check_layout(values: Values) -> Iterator[Finding]:
-    """Yield what contradicts itself in the arrangement of the engine."""
+def check_layout(values: ValidValues) -> Iterator[Finding]:
+    """Yield contradictions in the arrangement of the engine."""
     yield from _banks(values)
     yield from _counts(values)
     yield from _sizes(values)
@@ -24,8 +28,8 @@ def check_layout(values: Values) -> Iterator[Finding]:
     yield from _articulated(values)
 
 
-def arrangement_given(values: Values) -> Arrangement | None:
-    """Return the places of the cylinders as far as the file gives them."""
+def arrangement_given(values: ValidValues) -> Arrangement | None:
+    """Arrangement of the cylinders as far as the file gives it."""
     cylinders, layout = values.get("engine", "cylinders"), values.get("engine", "layout")
     if cylinders is None or layout is None:
         return None
@@ -38,7 +42,7 @@ def arrangement_given(values: Values) -> Arrangement | None:
     )
 
 
-def _banks(values: Values) -> Iterator[Finding]:
+def _banks(values: ValidValues) -> Iterator[Finding]:
     cylinders, layout = values.get("engine", "cylinders"), values.get("engine", "layout")
     bank = values.get("crankshaft", "bank_angle_deg")
     split = values.get("crankshaft", "split_pin_deg")
@@ -67,7 +71,7 @@ def _banks(values: Values) -> Iterator[Finding]:
             )
 
 
-def _counts(values: Values) -> Iterator[Finding]:
+def _counts(values: ValidValues) -> Iterator[Finding]:
     cylinders, layout = values.get("engine", "cylinders"), values.get("engine", "layout")
     if cylinders is None or (layout != "inline" and cylinders % 2):
         return
@@ -84,16 +88,16 @@ def _counts(values: Values) -> Iterator[Finding]:
         "arms": (throws, "по одной записи на колено"),
     }
     for key, (count, rule) in wanted.items():
-        found = values.counts.get(("crankshaft", key))
-        if found is not None and found != count:
-            what = f"записей {found}, а нужно {count}"
+        written = values.counts.get(("crankshaft", key))
+        if written is not None and written != count:
+            what = f"записей {written}, а нужно {count}"
             knees = f", колен {throws}" if throws != cylinders else ""
             hint = f"{rule}, цилиндров {cylinders}{knees}"
             yield Finding(("crankshaft", key), what, hint)
 
 
-def _sizes(values: Values) -> Iterator[Finding]:
-    """Sizes of journals: one for all or a list, not both and not neither."""
+def _sizes(values: ValidValues) -> Iterator[Finding]:
+    """Journal sizes: one for all or a list, exactly one of both."""
     for each in ("pin_diameters_mm", "pin_lengths_mm", "main_diameters_mm"):
         one = each.replace("s_mm", "_mm")
         if not values.sure("crankshaft", one, each):
@@ -108,7 +112,7 @@ def _sizes(values: Values) -> Iterator[Finding]:
             yield Finding(("crankshaft", one), what, hint)
 
 
-def _phases(values: Values) -> Iterator[Finding]:
+def _phases(values: ValidValues) -> Iterator[Finding]:
     offsets = values.get("crankshaft", "firing_offsets_deg")
     angles = values.get("crankshaft", "throw_angles_deg")
     for key, listed in (("firing_offsets_deg", offsets), ("throw_angles_deg", angles)):
@@ -130,18 +134,18 @@ def _phases(values: Values) -> Iterator[Finding]:
     places = arrangement_given(values)
     if not offsets or not angles or places is None or len(offsets) != len(places):
         return
-    if len(angles) != 1 + max(place.throw for place in places):
+    if len(angles) != 1 + max(cylinder.throw for cylinder in places):
         return
-    for index, (place, offset) in enumerate(zip(places, offsets, strict=True)):
-        found = _phase(places, index, float(offset), float(angles[place.throw]))
-        if found is not None:
-            yield found
-            if place.axis or place.pin_angle:
+    for index, (cylinder, offset) in enumerate(zip(places, offsets, strict=True)):
+        finding = _phase(places, index, float(offset), float(angles[cylinder.throw]))
+        if finding is not None:
+            yield finding
+            if cylinder.axis or cylinder.pin_angle:
                 return  # a wrong bank angle is one mistake for the whole bank
 
 
 def _phase(places: Arrangement, index: int, offset: float, angle: float) -> Finding | None:
-    """What is wrong with the throw under a cylinder, with both numbers."""
+    """Finding where a throw contradicts its cylinder's firing offset."""
     fitting = math.degrees(throw_angle(places[index], math.radians(offset)))
     if index == 0 or abs(math.remainder(angle - fitting, 360.0)) <= ANGLE_TOLERANCE_DEG:
         return None
@@ -158,7 +162,7 @@ def _phase(places: Arrangement, index: int, offset: float, angle: float) -> Find
     return Finding(("crankshaft", "throw_angles_deg", places[index].throw), what, hint)
 
 
-def _forced(values: Values) -> Iterator[Finding]:
+def _forced(values: ValidValues) -> Iterator[Finding]:
     path = ("crankshaft", "force_offsets_deg")
     if values.get("engine", "layout") not in ("inline", None):
         what = "особые фазы сил возможны только у рядного двигателя"
@@ -169,7 +173,7 @@ def _forced(values: Values) -> Iterator[Finding]:
     yield Finding(path, what, hint, warning=True)
 
 
-def offset_of(values: Values) -> tuple[str, float] | None:
+def offset_of(values: ValidValues) -> tuple[str, float] | None:
     """Return the key to name and the whole offset e [mm], if one is given."""
     given = {
         key: values.get("geometry", key)
@@ -181,11 +185,11 @@ def offset_of(values: Values) -> tuple[str, float] | None:
     return next(iter(given)), float(sum(given.values()))
 
 
-def _offset(values: Values) -> Iterator[Finding]:
-    found, pair = offset_of(values), radius_and_rod(values)
-    if found is None or pair is None:
+def _offset(values: ValidValues) -> Iterator[Finding]:
+    keyed, pair = offset_of(values), radius_and_rod(values)
+    if keyed is None or pair is None:
         return
-    key, offset = found
+    key, offset = keyed
     radius, rod = pair
     path = ("geometry", key)
     if radius < rod <= radius + abs(offset):
@@ -210,7 +214,7 @@ def _offset(values: Values) -> Iterator[Finding]:
         yield Finding(path, what, f"обычно {span_text(0.05, 0.2)}", warning=True)
 
 
-def _articulated(values: Values) -> Iterator[Finding]:
+def _articulated(values: ValidValues) -> Iterator[Finding]:
     if "articulated" not in values.sections:
         return
     if values.get("engine", "layout") not in ("v", None):
@@ -227,8 +231,8 @@ def _articulated(values: Values) -> Iterator[Finding]:
     if pair is None or bank is None or None in own or pair[0] >= pair[1]:
         return
     length, radius, angle = (float(value) for value in own)
-    found = offset_of(values)
-    offset = found[1] if found else 0.0
+    keyed = offset_of(values)
+    offset = keyed[1] if keyed else 0.0
     if pair[1] <= pair[0] + abs(offset):
         return
     if radius >= pair[1]:
@@ -241,3 +245,120 @@ def _articulated(values: Values) -> Iterator[Finding]:
         )
         hint = "удлините шатун или поставьте палец ближе к углу развала"
         yield Finding(("articulated", "rod_length_mm"), what, hint)
+
+
+# Fillets and rounded sizes of real shafts make main journals up to 13 % longer than the arms
+# leave; a crankpin stands between two webs.
+_MOST_OVER, _MOST_OVER_PIN = 1.25, 1.02
+# A pin's length that is told of one rod: the arms leave the rest of the rods their room, and
+# what a rod would have of it over the diameter is less than a shaft has.
+_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, 0.35
+_SAME_AXIS = 1e-6  # [rad]
+Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
+
+
+def check_room(model: InputFile, accepted: Keys) -> Iterator[Finding]:
+    """Yield journals and pins longer than the arms of their throws allow."""
+    parts = max(pin_counts(arrangement_of(model)))
+    yield from _tight(_mains(model), "l1, l6", _MOST_OVER, accepted=accepted)
+    pins = ((path, length, room / parts) for path, length, room, _ in _pins(model))
+    yield from _tight(pins, "l2…l5", _MOST_OVER_PIN, "половина шейки" if parts > 1 else "шейка")
+
+
+def _tight(
+    entries: Iterator[Fitted],
+    arms: str,
+    most: float,
+    noun: str = "шейка",
+    *,
+    accepted: Keys | None = None,
+) -> Iterator[Finding]:
+    """Error for an excessive length, a warning where it may be accepted."""
+    tight = [entry for entry in entries if entry[1] > most * entry[2]]
+    for (path, length, room), *others in in_lines(tight, accepted or frozenset()):
+        what = (
+            f"{noun} длиной {number_text(round(length, 2))} мм не помещается в колено: "
+            f"по плечам {arms} для неё {number_text(round(room, 2))} мм"
+        )
+        alike = f"; в списке таких ещё {len(others)}" if others else ""
+        hint = "проверьте длину шейки и плечи колена"
+        yield Finding(path, what + alike, hint, warning=accepted is not None)
+
+
+def check_one_rod(model: InputFile, accepted: Keys) -> Iterator[Finding]:
+    """Yield a warning where a shared pin's length looks like that under one rod."""
+    rods = rods_beside(arrangement_of(model), 0)
+    short = [
+        entry
+        for entry in _pins(model)
+        if rods > 1
+        and entry[2] >= _ROOM_OF_OTHERS * rods * entry[1]
+        and entry[1] / rods < _LEAST_SHARE * entry[3]
+    ]
+    for (path, length, room, diameter), *_ in in_lines(short, accepted):
+        share = length / rods
+        what = (
+            f"шатунов на шейке рядом {rods}, и каждому достаётся {number_text(round(share, 2))} мм "
+            f"её длины ({number_text(round(share / diameter, 2))} d), а плечи l2…l5 оставляют "
+            f"шейке {number_text(round(room, 2))} мм"
+        )
+        hint = "нужна длина всей шейки: если задана под одним шатуном, впишите "
+        yield Finding(path, what, hint + number_text(round(rods * length, 6)), warning=True)
+
+
+def check_neighbours(model: InputFile, bore_mm: float) -> Iterator[Finding]:
+    """Yield a warning where cylinders of one row stand nearer than their bore."""
+    shaft = model.crankshaft
+    throws = [
+        places(
+            (arm.l1_mm, arm.l2_mm, arm.l3_mm, arm.l4_mm, arm.l5_mm, arm.l6_mm),
+            arm.left_web_mm,
+            arm.right_web_mm,
+        )
+        for arm in shaft.arms
+    ]
+    starts = [0.0, *accumulate(throw.length for throw in throws)]
+    cylinders = [
+        (number, one.axis, starts[one.throw] + throws[one.throw].rod_at(one.rod_place))
+        for number, one in enumerate(arrangement_of(model), start=1)
+    ]
+    beside = [
+        (abs(along - other_place), number, other)
+        for (number, axis, along), (other, other_axis, other_place) in combinations(cylinders, 2)
+        if abs(math.remainder(axis - other_axis, math.tau)) < _SAME_AXIS
+    ]
+    between, number, other = min(beside, default=(math.inf, 0, 0))
+    if between < bore_mm:
+        what = (
+            f"цилиндры {number} и {other} перекрываются: между их осями по плечам колен "
+            f"{number_text(round(between, 2))} мм, а диаметр цилиндра "
+            f"{number_text(round(bore_mm, 2))} мм"
+        )
+        hint = "проверьте плечи колен и диаметр цилиндра"
+        yield Finding(("crankshaft", "arms"), what, hint, warning=True)
+
+
+def _mains(model: InputFile) -> Iterator[Fitted]:
+    shaft = model.crankshaft
+    lefts = [arm.l6_mm for arm in shaft.arms]
+    rights = [arm.l1_mm for arm in shaft.arms]
+    # Of an end journal only the half within the shaft is in the arms.
+    halves = zip([rights[0], *lefts], [*rights, lefts[-1]], strict=True)
+    for index, (length, (left, right)) in enumerate(
+        zip(shaft.main_lengths_mm, halves, strict=True)
+    ):
+        yield ("crankshaft", "main_lengths_mm", index), length, left + right
+
+
+def _pins(model: InputFile) -> Iterator[tuple[Path, float, float, float]]:
+    """Place in the file, length, room between the webs and diameter of every pin [mm]."""
+    shaft = model.crankshaft
+    for index, arm in enumerate(shaft.arms):
+        room = arm.l2_mm + arm.l3_mm + arm.l4_mm + arm.l5_mm
+        own = shaft.pin_diameters_mm
+        diameter = own[index] if own else shaft.pin_diameter_mm or 0.0
+        if shaft.pin_lengths_mm:
+            path: Path = ("crankshaft", "pin_lengths_mm", index)
+            yield path, shaft.pin_lengths_mm[index], room, diameter
+        elif shaft.pin_length_mm is not None:
+            yield ("crankshaft", "pin_length_mm"), shaft.pin_length_mm, room, diameter

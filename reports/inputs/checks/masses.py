@@ -1,13 +1,13 @@
-"""Checks of the [masses] section: one way at a time, and what the book calls usual."""
+"""Checks of the [masses] section: one way at a time, usual values."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from kshm.engine.usual import SMALL_END_SHARE
-from reports.inputs.findings import Finding, Values, radius_and_rod
-from reports.inputs.sections.masses import ESTIMATE_EXTRA, SWUNG, WEIGHED
+from kshm.engine.engine import SMALL_END_SHARE
+from reports.inputs.findings import Finding, ValidValues, radius_and_rod
+from reports.inputs.sections.mechanism import ESTIMATE_EXTRA, SWUNG, WEIGHED
 from reports.inputs.units import is_within, number_text, span_text
 
 DIRECT = ("reciprocating_kg", "rod_big_end_kg")
@@ -22,8 +22,8 @@ _MORE = "; ещё способы: взвешивание, качания, оце
 _GRAVITY_MM = 9810.0
 
 
-def check_masses(values: Values) -> Iterator[Finding]:
-    """Yield what is wrong or odd about the masses."""
+def check_masses(values: ValidValues) -> Iterator[Finding]:
+    """Yield errors and oddities of the masses."""
     yield from _webs(values)
     keys = (*DIRECT, *PARTS, *CENTRE, *_REST)
     if not values.sure("masses", *keys):
@@ -76,7 +76,7 @@ def _ways(given: set[str]) -> Iterator[Finding]:
         yield Finding(path, "масс недостаточно", _ADVICE + _MORE)
 
 
-def _webs(values: Values) -> Iterator[Finding]:
+def _webs(values: ValidValues) -> Iterator[Finding]:
     """Each web by its reduced mass or by mass and radius, all webs alike."""
     if not values.sure("crankshaft", "webs"):
         return
@@ -93,8 +93,8 @@ def _webs(values: Values) -> Iterator[Finding]:
         yield Finding(("crankshaft", "webs"), what, "задайте все щёки одинаково")
 
 
-def _shaft_masses(values: Values, *, estimated: bool) -> Iterator[Finding]:
-    """Without an estimate pin and webs need their masses."""
+def _shaft_masses(values: ValidValues, *, estimated: bool) -> Iterator[Finding]:
+    """Yield missing masses of pin and webs, required without an estimate."""
     webs = values.get("crankshaft", "webs") or ()
     bare = [i for i, web in enumerate(webs) if web.mass_kg is None and web.actual_mass_kg is None]
     lacks_pin = values.get("crankshaft", "pin_mass_kg") is None
@@ -108,7 +108,7 @@ def _shaft_masses(values: Values, *, estimated: bool) -> Iterator[Finding]:
         yield Finding(("crankshaft", "webs", bare[0], "mass_kg"), what, hint)
 
 
-def _estimated(values: Values, given: set[str]) -> Iterator[Finding]:
+def _estimated(values: ValidValues, given: set[str]) -> Iterator[Finding]:
     webs = values.get("crankshaft", "webs") or ()
     lacking = [] if given & set(DIRECT) else [
         name
@@ -127,32 +127,32 @@ def _estimated(values: Values, given: set[str]) -> Iterator[Finding]:
     yield Finding(path, what, "замените их массами вашего двигателя", warning=True)
 
 
-def _centre(values: Values) -> Iterator[Finding]:
+def _centre(values: ValidValues) -> Iterator[Finding]:
     pair = radius_and_rod(values)
-    place = values.get("masses", "rod_centre_mm")
+    centre = values.get("masses", "rod_centre_mm")
     share = values.get("masses", "rod_small_end_share")
     weighed, rod = values.get("masses", "rod_weighed_small_end_kg"), values.get("masses", "rod_kg")
     key = "rod_small_end_share"
     if weighed is not None and rod is not None:
         key = "rod_weighed_small_end_kg"
         share = weighed / rod
-    if place is not None:
+    if centre is not None:
         key = "rod_centre_mm"
         if pair is None:
             return
-        share = 1 - place / pair[1]
+        share = 1 - centre / pair[1]
     if share is not None and not is_within(share, SMALL_END_SHARE):
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
         hint = f"обычно {span_text(SMALL_END_SHARE[0], SMALL_END_SHARE[1])}"
         yield Finding(("masses", key), what, hint, warning=True)
 
 
-def _swung(values: Values) -> Iterator[Finding]:
-    """Places and inertia that the swings give, Gots (25)-(27)."""
-    found = [values.get("masses", key) for key in SWUNG]
-    if None in found:
+def _swung(values: ValidValues) -> Iterator[Finding]:
+    """Check centre and inertia by the swings, Gots (25)-(27)."""
+    swings = [values.get("masses", key) for key in SWUNG]
+    if None in swings:
         return
-    n_a, n_c, radius, edges = found
+    n_a, n_c, radius, edges = swings
     k_a, k_c = (_GRAVITY_MM / (2 * math.pi * n / 60) ** 2 for n in (n_a, n_c))
     below = k_a + k_c - 2 * edges
     path = ("masses", "swing_edges_mm")
@@ -182,7 +182,7 @@ def _swung(values: Values) -> Iterator[Finding]:
         )
 
 
-def _inertia(values: Values) -> Iterator[Finding]:
+def _inertia(values: ValidValues) -> Iterator[Finding]:
     """A moment of inertia that two masses on the ends cannot exceed by much."""
     given, rod = values.get("masses", "rod_inertia_kg_m2"), values.get("masses", "rod_kg")
     pair = radius_and_rod(values)

@@ -1,4 +1,4 @@
-"""What an engine cannot well be: values far from those of real ones, a warning each.
+"""Warnings for values far from those of real engines.
 
 Works on a checked file, so it never judges what is wrong anyway.  Only slips are meant: of
 a unit, of a decimal point, of a key.
@@ -14,18 +14,16 @@ from pydantic import BaseModel
 
 from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
-from reports.inputs.checks.accepted import Keys, apart
-from reports.inputs.checks.bands import BANDS, Band
-from reports.inputs.checks.indicated import check_indicated, indicated_of
-from reports.inputs.checks.kind import diesel_rho, stated_kind
-from reports.inputs.checks.room import check_neighbours, check_one_rod, check_room
-from reports.inputs.checks.train import train_values
-from reports.inputs.fields import key_text
-from reports.inputs.findings import Finding, Path
+from reports.inputs.checks.bands import BANDS, Band, diesel_rho, stated_kind
+from reports.inputs.checks.gas import check_indicated, indicated_of
+from reports.inputs.checks.layout import check_neighbours, check_one_rod, check_room
+from reports.inputs.checks.torsion import train_values
+from reports.inputs.fields import Path, key_text
+from reports.inputs.findings import Finding, Keys, in_lines
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.gas import CycleGasSection, GasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile, Regime
-from reports.inputs.to_si.geometry import Sizes
+from reports.inputs.to_si.masses import Sizes
 from reports.inputs.units import is_within, number_text
 
 _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
@@ -34,7 +32,7 @@ _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore 
 def check_plausibility(
     model: InputFile, sizes: Sizes, accepted: Keys = frozenset()
 ) -> Iterator[Finding]:
-    """Yield a warning for every value that hardly belongs to an engine.
+    """Yield a warning for every implausible value.
 
     What stands for others in one line does so only as far as it is not ``accepted``.
     """
@@ -78,13 +76,13 @@ def _of_the_bore(entries: list[Tested]) -> list[Tested]:
 
 
 def _told(outside: list[Tested], accepted: Keys) -> Iterator[Finding]:
-    """A finding for each value; equal ones of a list, of copied webs say, are told once."""
+    """Findings of the values; equal ones of a list once."""
     alike: dict[tuple[Path, float], list[Tested]] = {}
     for path, band, value in outside:
         key = tuple(part for part in path if isinstance(part, str))
         alike.setdefault((key, value), []).append((path, band, value))
     for entries in alike.values():
-        for (path, band, value), *others in apart(entries, accepted):
+        for (path, band, value), *others in in_lines(entries, accepted):
             yield _finding(path, band, value, len(others))
 
 
@@ -116,11 +114,11 @@ def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, floa
             yield from _values(item, keys, (*path, index))
     elif isinstance(part, BaseModel) and keys:
         field = {"lambda": "lambda_"}.get(keys[0], keys[0])
-        found = getattr(part, field, None)
+        value = getattr(part, field, None)
         about = type(part).model_fields.get(field)
         # What the house has chosen itself is no slip of a person.
-        if found is not None and about is not None and found != about.default:
-            yield from _values(found, keys[1:], (*path, keys[0]))
+        if value is not None and about is not None and value != about.default:
+            yield from _values(value, keys[1:], (*path, keys[0]))
     elif isinstance(part, int | float) and not isinstance(part, bool) and not keys:
         yield path, float(part)
 
@@ -297,9 +295,9 @@ def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:
     here = (*path, "points")
     highest = _judged((*here, pressures.index(max(pressures))), bands.POINTS, max(pressures))
     lowest = _judged((*here, pressures.index(min(pressures))), bands.LEAST_POINT, min(pressures))
-    found = [*highest, *lowest]
-    yield from found
-    named = {finding.path for finding in found}
+    findings = [*highest, *lowest]
+    yield from findings
+    named = {finding.path for finding in findings}
     for index in range(1, len(pressures) - 1):
         near = (pressures[index - 1], pressures[index + 1])
         factor = bands.LONE_POINT

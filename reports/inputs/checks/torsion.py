@@ -1,14 +1,20 @@
-"""Checks of the [torsion] section against itself and the shaft."""
+"""Checks of the [torsion] section: its lists, and the train against the shaft."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from kshm.engine.torsion import MOST_MASSES
-from reports.inputs.findings import Finding, Values
-from reports.inputs.sections.torsion import MassSection
-from reports.inputs.units import number_text
+from reports.inputs.checks import bands
+from reports.inputs.checks.bands import Band
+from reports.inputs.fields import Path
+from reports.inputs.findings import Finding, ValidValues
+from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.torsion import MassSection, TorsionSection
+from reports.inputs.to_si.masses import Sizes
+from reports.inputs.units import MPA, number_text
 
 # What describes the equivalent train of the engine: a train given directly has none of it.
 _EQUIVALENT = (
@@ -18,8 +24,8 @@ _EQUIVALENT = (
 _RISING = "по возрастанию"
 
 
-def check_torsion(values: Values) -> Iterator[Finding]:
-    """Yield what contradicts itself about the train and the peaks."""
+def check_torsion(values: ValidValues) -> Iterator[Finding]:
+    """Yield contradictions in the train and the peaks."""
     if "torsion" not in values.sections:
         return
     angles = values.get("crankshaft", "throw_angles_deg")
@@ -60,12 +66,12 @@ def _train(masses: Sequence[MassSection], throws: int | None) -> Iterator[Findin
         seen.add(number)
 
 
-def _counts(values: Values, throws: int) -> Iterator[Finding]:
+def _counts(values: ValidValues, throws: int) -> Iterator[Finding]:
     wanted = {"throws_kg_m2": throws, "throws_nm_rad": throws - 1}
     for key, count in wanted.items():
-        found = values.counts.get(("torsion", key))
-        if found is not None and found != count:
-            what = f"значений {found}, а нужно {count}"
+        written = values.counts.get(("torsion", key))
+        if written is not None and written != count:
+            what = f"значений {written}, а нужно {count}"
             yield Finding(("torsion", key), what, f"колен {throws}")
     if values.get("torsion", "driven_nm_rad") is not None and (
         values.get("torsion", "driven_kg_m2") is None
@@ -74,9 +80,62 @@ def _counts(values: Values, throws: int) -> Iterator[Finding]:
         yield Finding(("torsion", "driven_nm_rad"), what, "задайте driven_kg_m2 или удалите ключ")
 
 
-def _peaks(values: Values) -> Iterator[Finding]:
+def _peaks(values: ValidValues) -> Iterator[Finding]:
     peaks = values.get("torsion", "peaks") or ()
     for index, (before, after) in enumerate(pairwise(peaks), 1):
         if after.speed_rpm <= before.speed_rpm:
             what = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
             yield Finding(("torsion", "peaks", index, "speed_rpm"), what, f"запишите {_RISING}")
+
+
+_SPACING = 1.25  # of cylinders, in bores, from memory: the length that twists
+_PATH = ("torsion",)
+Entry = tuple[Path, float]
+
+
+def train_values(model: InputFile, sizes: Sizes) -> Iterator[tuple[Path, Band, float]]:
+    """Values of the train over those of a shaft of this size, with their bands."""
+    section = model.torsion
+    if section is None:
+        return
+    rods = model.engine.cylinders / len(model.crankshaft.throw_angles_deg)
+    area_r2 = sizes.piston_area * (sizes.radius / 1000) ** 2
+    usual = bands.THROW_INERTIA.scaled(sizes.heavier)
+    for path, inertia in _inertias(section):
+        yield path, usual, inertia / (rods * area_r2)
+    twisted = _shaft_stiffness(model, section, sizes)
+    for path, stiffness in _stiffnesses(section):
+        yield path, bands.THROW_STIFFNESS, stiffness / twisted
+    if section.damping_nms_rad:
+        path = (*_PATH, "damping_nms_rad")
+        usual = bands.DAMPING.scaled(sizes.heavier)
+        yield path, usual, section.damping_nms_rad / (1000 * area_r2)
+
+
+def _inertias(section: TorsionSection) -> Iterator[Entry]:
+    for index, given in enumerate(section.throws_kg_m2 or ()):
+        yield (*_PATH, "throws_kg_m2", index), given
+    for index, mass in enumerate(section.masses):
+        if mass.throw:
+            yield (*_PATH, "masses", index, "inertia_kg_m2"), mass.inertia_kg_m2
+
+
+def _stiffnesses(section: TorsionSection) -> Iterator[Entry]:
+    """Stiffnesses of the shaft from throw to throw, and of its own ends [N·m/rad]."""
+    for index, given in enumerate(section.throws_nm_rad or ()):
+        yield (*_PATH, "throws_nm_rad", index), given
+    for key in ("nose_nm_rad", "rear_nm_rad"):
+        if (end := getattr(section, key)) is not None:
+            yield (*_PATH, key), end
+    for index, mass in enumerate(section.masses[:-1]):
+        if mass.throw and section.masses[index + 1].throw:
+            yield (*_PATH, "masses", index, "stiffness_nm_rad"), mass.stiffness_nm_rad
+
+
+def _shaft_stiffness(model: InputFile, section: TorsionSection, sizes: Sizes) -> float:
+    """GI_p/l of a plain shaft of the main journals between two cylinders [N·m/rad]."""
+    shaft = model.crankshaft
+    given = shaft.main_diameters_mm or (shaft.main_diameter_mm or 0.0,)
+    mean = sum(given) / len(given) / 1000
+    modulus = MPA.to_si(section.shear_modulus_mpa)
+    return modulus * math.pi * mean**4 / 32 / (_SPACING * sizes.bore / 1000)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from reports.inputs.meta import Strictly, choice, number, title_of
+from kshm.engine.bearings import Bearings, Oil, Strength
+from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
 
 MEMORY = "по памяти, без источника"
@@ -57,7 +58,7 @@ OIL_NAMES = {key: oil.label for key, oil in OILS.items()}
 MATERIAL_NAMES = {key: material.label for key, material in MATERIALS.items()}
 
 
-class BearingsSection(Strictly):
+class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
     """[bearings]: a key that is not given follows from a rule, which the workbook names."""
 
     pin_clearance_min_mm: float | None = number(
@@ -79,26 +80,33 @@ class BearingsSection(Strictly):
         "Коренные подшипники: рабочая ширина", "B_к", MM, 1, 2000, None
     )
     pin_groove_mm: float = number(
-        "Шатунный подшипник: ширина кольцевой канавки, 0 — нет", "g_ш", MM, 0, 500, 0.0
+        "Шатунный подшипник: ширина кольцевой канавки, 0 — нет", "g_ш", MM, 0, 500, USUAL
     )
     main_groove_mm: float = number(
-        "Коренные подшипники: ширина кольцевой канавки, 0 — нет", "g_к", MM, 0, 500, 0.0
+        "Коренные подшипники: ширина кольцевой канавки, 0 — нет", "g_к", MM, 0, 500, USUAL
     )
-    hole_mm: float = number("Диаметр масляного отверстия", "d_м", MM, 0.5, 100, 5.0)
+    hole_mm: float = number("Диаметр масляного отверстия", "d_м", MM, 0.5, 100, USUAL)
     oil: Literal["sae20", "sae30", "sae40", "sae50", "m8", "m10"] = choice(
         "Масло", OIL_NAMES, "sae30"
     )
-    viscosity_40_mpa_s: float | None = number(title_of("oil_eta40"), "η_40", MPA_S, 0.5, 5000, None)
+    viscosity_40_mpa_s: float | None = number(
+        title_of("oil_eta40"), "η_40", MPA_S, 0.5, 5000, None, solver="at_40"
+    )
     viscosity_100_mpa_s: float | None = number(
-        title_of("oil_eta100"), "η_100", MPA_S, 0.5, 1000, None
+        title_of("oil_eta100"), "η_100", MPA_S, 0.5, 1000, None, solver="at_100"
     )
     oil_temperature_c: float | None = number(
-        "Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200, None
+        "Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200, None,
+        solver="temperature",
+    )  # fmt: skip
+    supply_c: float = number(
+        "Температура масла перед подшипниками", "t_0", CELSIUS, -20, 150, USUAL
     )
-    supply_c: float = number("Температура масла перед подшипниками", "t_0", CELSIUS, -20, 150, 80.0)
-    supply_mpa: float = number("Давление масла перед подшипниками", "p_м", MPA, 0.01, 5, 0.35)
-    density_kg_m3: float = number("Плотность масла", "ρ_м", KG_M3, 700, 1000, 850.0)
-    heat_j_kg_k: float = number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000, 2100.0)
+    supply_mpa: float = number(
+        "Давление масла перед подшипниками", "p_м", MPA, 0.01, 5, USUAL, solver="pressure"
+    )
+    density_kg_m3: float = number("Плотность масла", "ρ_м", KG_M3, 700, 1000, USUAL)
+    heat_j_kg_k: float = number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000, USUAL)
     journal_roughness_um: float = number("Высота неровностей шейки", "h_1", UM, 0, 50, 0.8)
     shell_roughness_um: float = number("Высота неровностей вкладыша", "h_2", UM, 0, 50, 1.2)
     form_um: float = number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100, 1.0)
@@ -108,25 +116,33 @@ class BearingsSection(Strictly):
     )
     tensile_mpa: float | None = number(title_of("mat_tensile_MPa"), "σ_в", MPA, 50, 3000, None)
     bending_limit_mpa: float | None = number(
-        title_of("mat_bending_MPa"), "σ_−1", MPA, 20, 2000, None
+        title_of("mat_bending_MPa"), "σ_−1", MPA, 20, 2000, None, solver="bending"
     )
     torsion_limit_mpa: float | None = number(
-        title_of("mat_torsion_MPa"), "τ_−1", MPA, 20, 2000, None
+        title_of("mat_torsion_MPa"), "τ_−1", MPA, 20, 2000, None, solver="torsion"
     )
     mean_bending: float = number(
-        "Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1, 0.15
+        "Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1, USUAL
     )
     mean_torsion: float = number(
-        "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, 0.08
+        "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, USUAL
     )
     fillet_mm: float | None = number(title_of("safe_fillet1_mm"), "ρ_г", MM, 0.2, 200, None)
-    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000, 0.0)
-    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, 0.0)
-    fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, 2.0)
-    fillet_torsion: float = number("Концентрация у галтели при кручении", "α_τг", NONE, 1, 10, 1.5)
-    hole_bending: float = number("Концентрация у отверстия при изгибе", "α_σо", NONE, 1, 10, 2.2)
-    hole_torsion: float = number("Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10, 1.8)
-    sensitivity: float = number("Чувствительность к концентрации", "q", NONE, 0, 1, 0.7)
-    size_factor: float = number("Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2, 0.75)
-    surface_factor: float = number("Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5, 1.0)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000, USUAL)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, USUAL)
+    fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, USUAL)
+    fillet_torsion: float = number(
+        "Концентрация у галтели при кручении", "α_τг", NONE, 1, 10, USUAL
+    )
+    hole_bending: float = number("Концентрация у отверстия при изгибе", "α_σо", NONE, 1, 10, USUAL)
+    hole_torsion: float = number(
+        "Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10, USUAL
+    )
+    sensitivity: float = number("Чувствительность к концентрации", "q", NONE, 0, 1, USUAL)
+    size_factor: float = number(
+        "Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2, USUAL, solver="size"
+    )
+    surface_factor: float = number(
+        "Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5, USUAL, solver="surface"
+    )
     safety_allowed: float = number("Допускаемый запас прочности", "[n]", NONE, 1, 20, 2.0)

@@ -12,17 +12,20 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from reports.inputs.meta import Strictly, choice, number, text, title_of
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.balance import BalanceSection
 from reports.inputs.sections.bearings import BearingsSection
-from reports.inputs.sections.checks import ChecksSection
-from reports.inputs.sections.crankshaft import CrankshaftSection
-from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.gas import GasSection
-from reports.inputs.sections.masses import MassesSection
-from reports.inputs.sections.reference import ReferenceSection
-from reports.inputs.sections.report import ReportSection
-from reports.inputs.sections.sheet import SheetSection
+from reports.inputs.sections.gas import CycleSection, GasSection
+from reports.inputs.sections.mechanism import (
+    ArticulatedSection,
+    BalanceSection,
+    CrankshaftSection,
+    MassesSection,
+)
+from reports.inputs.sections.report import (
+    ChecksSection,
+    ReferenceSection,
+    ReportSection,
+    SheetSection,
+)
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.units import KW, MM, NONE, RPM
 
@@ -59,14 +62,11 @@ class Calculation(Strictly):
 
     method: Literal["textbook", "exact"] = choice("Метод расчёта", METHODS, "textbook")
     step_deg: Literal[1, 2, 3, 5, 10, 15, 30] = choice(
-        "Шаг таблиц по углу поворота",
-        {str(step): f"{step}°" for step in STEPS},
-        10,
-        structural=True,
-        symbol="Δφ",
-    )
+        "Шаг таблиц по углу поворота", {str(step): f"{step}°" for step in STEPS}, 10,
+        structural=True, symbol="Δφ",
+    )  # fmt: skip
     wear_rays: Literal[12, 18] = choice(
-        "Число лучей диаграммы износа", {"12": "12", "18": "18"}, 12, structural=True
+        "Число лучей диаграммы износа", {"12": "12", "18": "18"}, 12, structural=True, solver="rays"
     )
 
 
@@ -81,7 +81,7 @@ class GeometrySection(Strictly):
     stroke_mm: float | None = number(title_of("S_stroke"), "S", MM, 10, 4000, None)
     rod_length_mm: float | None = number(title_of("L_rod"), "L", MM, 10, 6000, None)
     lambda_: float | None = number(
-        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, None, alias="lambda"
+        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, None, alias="lambda", solver="lam"
     )
     compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
     crank_offset_mm: float | None = number(
@@ -100,7 +100,9 @@ class GeometrySection(Strictly):
 class DesignGeometrySection(Strictly):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
-    lambda_: float = number("Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, alias="lambda")
+    lambda_: float = number(
+        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, alias="lambda", solver="lam"
+    )
     compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
 
 
@@ -108,7 +110,7 @@ class Regime(Strictly):
     """[regime]."""
 
     name: str | None = text("Название режима", None)
-    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 30000)
+    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 30000, solver="omega")
     mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0.1, 1, 1.0)
     indicated_power_kw: float | None = number(
         "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None

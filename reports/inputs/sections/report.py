@@ -1,14 +1,14 @@
-"""The [report] section of the input file: who, for whom, and how the report is set."""
+"""Sections that change no number of the engine: [report], [sheet], [reference], [checks]."""
 
 from __future__ import annotations
 
 from datetime import UTC, datetime
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, Strict
 
-from reports.inputs.meta import Meta, Strictly, choice, text
-from reports.inputs.units import NONE
+from reports.inputs.meta import Meta, Strictly, choice, number, text
+from reports.inputs.units import DEG, NONE
 
 DETAILS = {
     "course": "главы курсового проекта, таблицы через 30°",
@@ -83,3 +83,77 @@ class ReportSection(Strictly):
     formats: tuple[Format, ...] | None = choice("Документ {n}", FORMATS, None)
     style: str = text("Файл оформления кафедры", "")
     templates: str = text("Папка со своими шаблонами отчёта", "")
+
+
+DIAGRAMS = {
+    "pv": "индикаторная диаграмма свёрнутая",
+    "p_phi": "индикаторная диаграмма развёрнутая",
+    "forces": "удельные силы газов, инерции, суммарная",
+    "side": "силы N и S",
+    "crank": "силы K и T",
+    "torque": "суммарный крутящий момент со средним",
+    "pin_polar": "полярная диаграмма шатунной шейки",
+    "pin_load": "развёрнутая нагрузка на шатунную шейку",
+    "pin_wear": "диаграмма износа шатунной шейки",
+    "main_polar": "полярная диаграмма коренной шейки",
+    "main_load": "развёрнутая нагрузка на коренную шейку",
+    "main_wear": "диаграмма износа коренной шейки",
+    "shaft": "схема вала, звезда колен, порядок работы",
+    "balance": "схема уравновешивания",
+    "running": "таблица набегающих моментов",
+    "results": "основные результаты",
+    "throw": "колено вала с размерами",
+    "mechanism": "механизм с размерами",
+}
+Diagram = Literal[
+    "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
+    "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
+    "throw", "mechanism",
+]  # fmt: skip
+USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
+         "main_wear", "shaft", "balance", "running", "results", "throw")  # fmt: skip
+SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
+WAYS = {"landscape": "альбомная", "portrait": "книжная"}
+
+
+class SheetSection(Strictly):
+    """[sheet]: size of the sheet and what stands on it."""
+
+    size: Literal["A1", "A2"] = choice("Формат листа", SHEETS, "A1")
+    orientation: Literal["landscape", "portrait"] = choice("Ориентация листа", WAYS, "landscape")
+    diagrams: tuple[Diagram, ...] | None = choice("Лист: место {n}", DIAGRAMS, None)
+
+
+MOST_LAMBDAS = 12
+BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
+
+
+class ReferenceSection(Strictly):
+    """[reference]: with it come the sheets of tables 1-3 and 5-8 and figures 3-10."""
+
+    lambdas: tuple[float, ...] = number(
+        "Значение λ № {n}", "λ_{n}", NONE, 0.01, 0.7, BOOK_LAMBDAS, solver="reference_lambdas"
+    )
+    angle_deg: float = number(
+        "Угол кривошипа на схемах рисунков 5 и 9", "φ", DEG, 5, 175, 50.0, solver="reference_angle"
+    )
+
+
+# Checks of the calculation, besides the keys of the file that `check` warns of.
+CHECKS = (
+    "closure", "work", "grid", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
+    "power", "share",
+)  # fmt: skip
+
+
+class AcceptedEntry(Strictly):
+    """[[checks.accepted]]: a check or a key, and why its failure or oddity is right."""
+
+    what: str = text("Принято {n}: проверка или ключ")
+    reason: str = text("Принято {n}: причина")
+
+
+class ChecksSection(Strictly):
+    """[checks]."""
+
+    accepted: Annotated[tuple[AcceptedEntry, ...], Strict(False)]

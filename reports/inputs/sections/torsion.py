@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Strict
 
-from reports.inputs.meta import Strictly, choice, number, text, title_of
+from kshm.engine.torsion import Torsion
+from reports.inputs.meta import USUAL, Strictly, choice, number, text, title_of
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -26,12 +27,8 @@ class MassSection(Strictly):
     inertia_kg_m2: float = number("Масса {n}: момент инерции", "J_{n}", KG_M2, LEAST, MOST)
     stiffness_nm_rad: float = number(
         "Масса {n}: жёсткость участка за ней (за последней — до заделки, 0 — конец свободен)",
-        "c_{n}",
-        NM_RAD,
-        0,
-        HARD,
-        0.0,
-    )
+        "c_{n}", NM_RAD, 0, HARD, 0.0,
+    )  # fmt: skip
     diameter_mm: float | None = number("Масса {n}: диаметр вала за ней", "D_{n}", MM, 1, 5000, None)
     throw: float = number(
         "Масса {n}: номер колена, 0 — без шатунов", "k_{n}", NONE, 0, 24, 0.0, structural=True
@@ -45,7 +42,7 @@ class PeakSection(Strictly):
     pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_{n}", MPA, 0.2, 100)
 
 
-class TorsionSection(Strictly):
+class TorsionSection(Strictly, usual=(Torsion,)):
     """[torsion]: a key that is not given is estimated from the rest of the file."""
 
     pulley_kg_m2: float | None = number("Момент инерции шкива", "J_шк", KG_M2, LEAST, MOST, None)
@@ -57,30 +54,34 @@ class TorsionSection(Strictly):
         "Момент инерции за маховиком", "J_пр", KG_M2, LEAST, MOST, None
     )
     nose_nm_rad: float | None = number(
-        "Жёсткость от шкива до первого колена", "c_н", NM_RAD, SOFT, HARD, None
-    )
+        "Жёсткость от шкива до первого колена", "c_н", NM_RAD, SOFT, HARD, None,
+        solver="nose_stiffness",
+    )  # fmt: skip
     throws_nm_rad: tuple[float, ...] | None = number(
-        "Жёсткость за коленом {n}", "c_к{n}", NM_RAD, SOFT, HARD, None
+        "Жёсткость за коленом {n}", "c_к{n}", NM_RAD, SOFT, HARD, None, solver="throw_stiffness"
     )
     rear_nm_rad: float | None = number(
-        "Жёсткость от последнего колена до маховика", "c_м", NM_RAD, SOFT, HARD, None
+        "Жёсткость от последнего колена до маховика", "c_м", NM_RAD, SOFT, HARD, None,
+        solver="rear_stiffness",
+    )  # fmt: skip
+    driven_nm_rad: float | None = number(
+        "Жёсткость за маховиком", "c_пр", NM_RAD, SOFT, HARD, None, solver="driven_stiffness"
     )
-    driven_nm_rad: float | None = number("Жёсткость за маховиком", "c_пр", NM_RAD, SOFT, HARD, None)
     ground_nm_rad: float = number(
-        "Жёсткость от первой массы до заделки, 0 — конец свободен", "c_0", NM_RAD, 0, HARD, 0.0
+        "Жёсткость от первой массы до заделки, 0 — конец свободен", "c_0", NM_RAD, 0, HARD, USUAL
     )
     formula: Literal["wilson", "carter", "zimanenko"] = choice(
         "Формула приведённой длины (по памяти)", FORMULAS, "wilson"
     )
-    shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, 80000.0)
-    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, 0.0)
-    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000, 0.0)
+    shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, USUAL)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, USUAL)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000, USUAL)
     web_width_mm: float | None = number(title_of("tor_bw"), "b", MM, 2, 5000, None)
     web_thickness_mm: float | None = number(title_of("tor_hw"), "h", MM, 1, 2000, None)
     damping_nms_rad: float | None = number(
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )
-    loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, 0.035)
+    loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, USUAL)
     speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 30000, None)
     speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 30000, None)
     stress_allowed_mpa: float = number(
@@ -90,10 +91,15 @@ class TorsionSection(Strictly):
         "Другой маховик для сравнения", "J_м2", KG_M2, LEAST, MOST, None
     )
     damper: Literal["viscous", "tuned"] = choice("Гаситель на первой массе", DAMPERS, "viscous")
-    damper_kg_m2: float | None = number(title_of("tor_ring"), "J_г", KG_M2, LEAST, MOST, None)
-    damper_nm_rad: float | None = number(
-        "Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD, None
+    damper_kg_m2: float | None = number(
+        title_of("tor_ring"), "J_г", KG_M2, LEAST, MOST, None, solver="damper_inertia"
     )
-    damper_nms_rad: float | None = number(title_of("tor_damper_b"), "b_г", NMS_RAD, 0, 1e8, None)
+    damper_nm_rad: float | None = number(
+        "Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD, None,
+        solver="damper_stiffness",
+    )  # fmt: skip
+    damper_nms_rad: float | None = number(
+        title_of("tor_damper_b"), "b_г", NMS_RAD, 0, 1e8, None, solver="damper_damping"
+    )
     masses: Annotated[tuple[MassSection, ...], Strict(False)] = ()
     peaks: Annotated[tuple[PeakSection, ...], Strict(False)] = ()

@@ -1,1 +1,1 @@
-"""From the input file in user units to the engine in SI."""
+"""Conversion of the input file to the engine in SI."""

@@ -1,25 +1,158 @@
-"""From the [cycle] section to the solver's cycle, and its errors back to keys of the file."""
+"""From the [cycle] section to the solver's cycle; its remarks in Russian by keys of the file."""
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
+from typing import Any
 
-from kshm.cycle.errors import CycleError, Remark
-from kshm.cycle.fuel import FUELS, Fuel
+from kshm.cycle.cycle import CycleRun, Wanted, run_cycle
+from kshm.cycle.fuel import FUELS, CycleError, Fuel, Remark
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
-from kshm.cycle.run import CycleRun, Wanted, run_cycle
 from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptability
-from reports.inputs.cycle_texts import path_of, text_of
+from kshm.nomenclature.quantity import quantity
+from reports.inputs import units
+from reports.inputs.fields import Path
 from reports.inputs.findings import Finding
-from reports.inputs.sections.cycle import CycleSection
-from reports.inputs.sections.gas import CycleGasSection
-from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
-from reports.inputs.units import KELVIN, KJ_KG_K, KW, MJ_KG, MM, MPA, RPM
+from reports.inputs.meta import Meta, Strictly, hints, solver_name, solver_values
+from reports.inputs.sections.gas import BOOST, CycleGasSection, CycleSection
+from reports.inputs.sections.input_file import (
+    EngineSection,
+    GeometrySection,
+    InputFile,
+    RegimeSection,
+)
+from reports.inputs.to_si.masses import crank_radius_mm, rod_length_mm
+from reports.inputs.units import MM, RPM
+from reports.shared.russian import short
+
+# "{name:unit}" is a number in that unit of `reports.inputs.units`, "{name}" one in SI.
+TEXTS = {
+    "too_hot": "T_z = {t_z} К неправдоподобно; уменьшите ξ_z или H_u",
+    "friction_eats_all_sizes": "механические потери больше индикаторной работы при "
+    "c_m = {speed} м/с; уменьшите частоту вращения, S/D или потери",
+    "stroke_not_found": "S: подбор хода не сходится; уменьшите мощность на цилиндр или "
+    "частоту вращения",
+    "bore_too_small": "N_e = {power:KW} кВт требует D = {bore:MM} мм, допускается от {low:MM} до "
+    "{high:MM} мм; увеличьте мощность или уменьшите число цилиндров",
+    "bore_too_large": "N_e = {power:KW} кВт требует D = {bore:MM} мм, допускается от {low:MM} до "
+    "{high:MM} мм; увеличьте число цилиндров, частоту вращения или наддув",
+    "diagram_needs_stroke": "S: для индикаторной диаграммы задайте ход поршня",
+    "step_must_divide": "шаг диаграммы {step}°: задайте делитель числа 180",
+    "listing_is_for_turbo_diesels": "режим распечатки воспроизводит только дизель с "
+    "турбонаддувом; отключите его",
+    "fuel_shares": "состав топлива: доли C, H, O должны лежать от 0 до 1; исправьте доли",
+    "fuel_total": "состав топлива: C + H + O = {total}, а должно быть 1; исправьте доли",
+    "fuel_oxygen": "состав топлива: кислорода хватает без воздуха; уменьшите долю O",
+    "fuel_heat": "H_u = {value:MJ_KG} МДж/кг: допускается от 5 до 130; проверьте единицы",
+    "fuel_molar_mass": "m_т = {value} кг/кмоль: допускается от 2 до 1000",
+    "air_too_little": "α = {value}: воздуха не хватает даже на неполное сгорание; увеличьте α",
+    "cooled_too_far": "ΔT_х: за охладителем T_к = {t_k} К; уменьшите ΔT_х",
+    "cooler_loss_too_large": "Δp_х: за охладителем p_к = {p_k:MPA} МПа; уменьшите Δp_х",
+    "hardly_filled": "η_v = {eta_v}: цилиндр почти не наполняется; увеличьте C_1 или уменьшите C_2",
+    "n1_not_found": "n_1: расчёт показателя сжатия не сходится; уменьшите ε или ΔT",
+    "p_max_below_compression": "p_z = {p_max:MPA} МПа не выше давления конца сжатия "
+    "p_c = {p_c:MPA} МПа; увеличьте p_z или уменьшите ε",
+    "p_max_too_high": "p_z = {p_max:MPA} МПа слишком велико (ρ < 1); уменьшите p_z, наибольшее "
+    "возможное {largest:MPA} МПа, или уменьшите α",
+    "burning_too_long": "ρ = {rho}: сгорание занимает треть хода и больше; увеличьте p_z или α",
+    "n2_not_found_heat_lost": "n_2: показатель расширения не сходится к числу от {low} до {high}; "
+    "увеличьте ξ_b или уменьшите ξ_z",
+    "n2_not_found_heat_added": "n_2: показатель расширения не сходится к числу от {low} до "
+    "{high}; уменьшите ξ_b",
+    "no_work": "p_i = {p_i:MPA} МПа: цикл не даёт работы; увеличьте ξ_z или уменьшите α",
+    "sizes_missing": "D и S: задайте диаметр и ход или мощность для подбора размеров",
+    "friction_eats_all": "p_м = {p_m:MPA} МПа не меньше p_i = {p_i:MPA} МПа: двигатель не даёт "
+    "мощности; уменьшите механические потери или частоту вращения",
+    "adaptability_off": "K = {k}: допускается больше 1 и до 2; исправьте K",
+    "speed_ratio_off": "K_c = {k_c}: допускается от 0,3 до 0,95; исправьте частоту n_M",
+    "torque_vanishes": "K = {k} и K_c = {k_c}: момент на малых частотах вращения исчезает; "
+    "уменьшите K или K_c",
+    "speeds_do_not_rise": "частоты вращения: холостой ход {idle:RPM}, наибольший момент "
+    "{torque:RPM}, номинал {rated:RPM} мин⁻¹ должны возрастать; исправьте их",
+    "kind_unknown": "вид двигателя неизвестен; выберите diesel или petrol",
+    "four_strokes_only": "τ = {strokes}: рассчитывается только четырёхтактный цикл; задайте τ = 4",
+    "central_only": "дезаксаж: цикл рассчитывается для центрального механизма; задайте 0",
+    "cylinders_not_whole": "i = {cylinders}: число цилиндров целое; исправьте i",
+    "diesel_needs_p_max": f"p_z: для дизеля задайте {quantity('cyc_p_z').title}",
+    "petrol_has_no_p_max": "p_z: у двигателя с искровым зажиганием оно получается из расчёта; "
+    "уберите его",
+    "residual_temperature_off": "T_r = {given} К расходится с проверкой T_b/(p_b/p_r)^(1/3) = "
+    "{check} К на {gap:PERCENT} %; задайте T_r ближе к {check} К",
+    "heat_capacity_extended": "T_z = {t_z} К выше 2800 °C: формулы теплоёмкостей продолжены за "
+    "свой предел",
+    "turbine_too_weak": "мощность турбины {turbine:KW} кВт меньше мощности компрессора "
+    "{compressor:KW} кВт; увеличьте C_2 примерно до {balance} или КПД агрегата",
+}
+_REASONS = {
+    "out_of_range": "",
+    "diesel_smokes": " (дизель при α < 1 дымит и этим методом не считается)",
+    "petrol_knocks": " (двигатель с искровым зажиганием при такой ε детонирует)",
+}
+
+
+_SECTIONS: dict[str, type[Strictly]] = {  # of two that have a name the first
+    "cycle": CycleSection,
+    "engine": EngineSection,
+    "geometry": GeometrySection,
+    "regime": RegimeSection,
+    "gas": CycleGasSection,
+}
+
+
+@functools.cache
+def _paths() -> dict[str, Path]:
+    """Key of the file by the solver's name of the input."""
+    paths: dict[str, Path] = {
+        "mechanical": ("regime", "mechanical_efficiency"),
+        "speed_ratio": ("cycle", "torque_speed_rpm"),
+    }
+    for name, model in _SECTIONS.items():
+        for key, about in hints(model).items():
+            for meta in about.metas[:1]:
+                paths.setdefault(solver_name(key, meta), (name, key))
+    return paths
+
+
+class _Shown(float):
+    """A number whose format specification names its unit."""
+
+    def __format__(self, unit: str) -> str:
+        return short(getattr(units, unit).from_si(float(self)) if unit else float(self), 4)
+
+
+def path_of(field: str) -> Path:
+    """Key of the file behind an input of the cycle; other names are keys of [cycle]."""
+    return _paths().get(field, ("cycle", field))
+
+
+def text_of(remark: Remark) -> str:
+    """One Russian line: what is wrong and, after a semicolon, what to change."""
+    if remark.key in _REASONS:
+        return _out_of_range(remark)
+    numbers = {name: _Shown(value) for name, value in remark.numbers.items()}
+    return TEXTS[remark.key].format_map(numbers)
+
+
+def _out_of_range(remark: Remark) -> str:
+    meta = _meta(path_of(remark.field))
+    low, value, high = (remark.numbers[name] for name in ("low", "value", "high"))
+    verb = "увеличьте" if value < low else "уменьшите" if value > high else "задайте число:"
+    shown = [short(meta.unit.from_si(number), 4) for number in (value, low, high)]
+    label = f" {meta.unit.label}" if meta.unit.label else ""
+    return (
+        f"{meta.symbol} = {shown[0]}{label}: допускается от {shown[1]} до {shown[2]}; "
+        f"{verb} {meta.symbol}{_REASONS[remark.key]}"
+    )
+
+
+def _meta(path: Path) -> Meta:
+    """Metadata of a key."""
+    return hints(_SECTIONS[str(path[0])])[str(path[1])].metas[0]
 
 
 def cycle_run(model: InputFile) -> CycleRun | None:
-    """The calculated cycle of an input whose gas forces come from it, else None.
+    """Cycle calculation behind an input's gas forces, None without one.
 
     Raises:
         CycleError: no cycle follows from the input.
@@ -29,12 +162,7 @@ def cycle_run(model: InputFile) -> CycleRun | None:
         return None
     wanted = None
     if section.power_kw is not None and section.stroke_bore is not None:
-        wanted = Wanted(
-            power=KW.to_si(section.power_kw),
-            stroke_bore=float(section.stroke_bore),
-            step=MM.to_si(size_step_mm(section)),
-            rounding=section.rounding or "nearest",
-        )
+        wanted = Wanted(**solver_values(section, Wanted))
     return run_cycle(
         cycle_inputs(model, section, model.gas),
         wanted,
@@ -52,72 +180,39 @@ def size_step_mm(section: CycleSection) -> float:
 def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) -> CycleInputs:
     """The solver's inputs in SI; bore and stroke stay open when a power is wanted."""
     geometry = model.geometry
-    bore = stroke = None
+    values: dict[str, Any] = {}
+    for part in (model.engine, geometry, model.regime, gas, section):
+        values |= solver_values(part, CycleInputs)
     if isinstance(geometry, GeometrySection):
-        bore = MM.to_si(geometry.bore_mm)
-        stroke = 2 * MM.to_si(crank_radius_mm(geometry))
-        lam = crank_radius_mm(geometry) / rod_length_mm(geometry)
-    else:
-        lam = float(geometry.lambda_)
-    a, b = section.friction_a_mpa, section.friction_b_mpa_s_m
-    friction = FrictionLaw(MPA.to_si(a or 0.0), MPA.to_si(b or 0.0))
-    return CycleInputs(
-        kind=section.kind,
-        fuel=fuel_of(section),
-        omega=RPM.to_si(model.regime.speed_rpm),
-        cylinders=model.engine.cylinders,
-        compression_ratio=float(geometry.compression_ratio),
-        excess_air=float(section.excess_air),
-        charge_heating=KELVIN.to_si(section.charge_heating_k),
-        t_residual=KELVIN.to_si(section.residual_temperature_k),
-        intake_factor=float(section.intake_factor),
-        exhaust_factor=float(section.exhaust_factor),
-        xi_z=float(section.xi_z),
-        xi_b=float(section.xi_b),
-        fullness=float(section.fullness),
-        mechanical=float(model.regime.mechanical_efficiency) if a is None else friction,
-        p_max=MPA.given(section.max_pressure_mpa),
-        boost=_boost(section),
-        bore=bore,
-        stroke=stroke,
-        lam=lam,
-        p_ambient=MPA.to_si(gas.ambient_pressure_mpa),
-        t_ambient=KELVIN.to_si(section.ambient_temperature_k),
-        recharge=float(section.recharge),
-        scavenging=float(section.scavenging),
-        h2_co=0.5 if section.h2_co_ratio is None else float(section.h2_co_ratio),
-        subtract_pumping=section.pumping == "yes",
-        strokes=model.engine.strokes,
-    )
+        radius, rod = crank_radius_mm(geometry), rod_length_mm(geometry)
+        values |= {"stroke": 2 * MM.to_si(radius), "lam": radius / rod}
+    mechanical: float | FrictionLaw = float(model.regime.mechanical_efficiency)
+    if section.friction_a_mpa is not None:
+        law = {"a": 0.0, "b": 0.0} | solver_values(section, FrictionLaw, "mechanical")
+        mechanical = FrictionLaw(**law)
+    composed = {
+        "fuel": fuel_of(section),
+        "mechanical": mechanical,
+        "boost": _boost(section),
+        "cylinders": model.engine.cylinders,
+        "subtract_pumping": section.pumping == "yes",
+    }
+    return CycleInputs(**values | composed)
 
 
 def fuel_of(section: CycleSection) -> Fuel:
     """A fuel of the list or of the file's own composition."""
     if section.fuel != "own":
         return FUELS[section.fuel]
-    return Fuel(
-        carbon=float(section.fuel_carbon or 0.0),
-        hydrogen=float(section.fuel_hydrogen or 0.0),
-        oxygen=float(section.fuel_oxygen or 0.0),
-        heating_value=MJ_KG.to_si(section.fuel_heating_value_mj_kg or 0.0),
-        vapour_molar_mass=float(section.fuel_molar_mass_kg_kmol or 100.0),
-        source="input",
-    )
+    usual = dict.fromkeys(("carbon", "hydrogen", "oxygen", "heating_value"), 0.0)
+    usual |= {"vapour_molar_mass": 100.0}
+    return Fuel(**usual | solver_values(section, Fuel, "fuel"), source="input")
 
 
 def _boost(section: CycleSection) -> Boost | None:
     if section.boost_ratio is None:
         return None
-    outlet, heat = section.turbine_outlet_ratio, section.exhaust_heat_kj_kg_k
-    return Boost(
-        pressure_ratio=float(section.boost_ratio),
-        compressor_efficiency=float(section.compressor_efficiency or 0.0),
-        turbine_efficiency=float(section.turbine_efficiency or 0.0),
-        cooler_pressure_loss=MPA.to_si(section.cooler_loss_mpa or 0.0),
-        cooler_temperature_drop=KELVIN.to_si(section.cooler_drop_k or 0.0),
-        outlet_pressure_ratio=1.03 if outlet is None else float(outlet),
-        exhaust_cp=1150.0 if heat is None else KJ_KG_K.to_si(heat),
-    )
+    return Boost(**dict.fromkeys(BOOST, 0.0) | solver_values(section, Boost, "boost"))
 
 
 def speed_law(model: InputFile, section: CycleSection) -> Leiderman:
@@ -134,7 +229,7 @@ def speed_law(model: InputFile, section: CycleSection) -> Leiderman:
 
 
 def cycle_and_findings(model: InputFile) -> tuple[CycleRun | None, list[Finding]]:
-    """The cycle and what it says itself: the error that stops it, or its remarks."""
+    """Cycle calculation, and its error or remarks as findings."""
     try:
         run = cycle_run(model)
     except CycleError as error:

@@ -1,19 +1,28 @@
-"""From the input file in user units to the solver's engine in SI."""
+"""Conversion of the input file to the solver's engine in SI."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from kshm.cycle.cycle import CycleRun
 from kshm.cycle.diagram import polytropic_gas
-from kshm.cycle.run import CycleRun
 from kshm.engine.arrangement import ArticulatedRod, hung
+from kshm.engine.bearings import Bearings, Oil, Strength
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
-from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
+from kshm.engine.gas import Gas, PolytropicGas, RoundedGas, TabulatedGas
+from kshm.engine.torsion import Torsion, TrainMass
 from kshm.nomenclature.quantity import smallness
 from reports.inputs.firing import arrangement_of
-from reports.inputs.sections.articulated import ArticulatedSection
-from reports.inputs.sections.balance import BalanceSection
-from reports.inputs.sections.crankshaft import ArmsSection, CrankshaftSection, WebSection
+from reports.inputs.meta import solver_values
+from reports.inputs.sections.bearings import MATERIALS, OILS, BearingsSection
 from reports.inputs.sections.gas import (
+    BDC_DEG,
+    FIRING_TDC_DEG,
+    JOIN_DEG,
+    PEAK_DEG,
+    PEAK_SHARE,
+    TWO_STROKE_BDC_DEG,
     CycleGasSection,
     GasSection,
     PolytropicGasSection,
@@ -21,15 +30,87 @@ from reports.inputs.sections.gas import (
     TableGasSection,
 )
 from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
-from reports.inputs.to_si.bearings import to_bearings
+from reports.inputs.sections.mechanism import (
+    ArmsSection,
+    ArticulatedSection,
+    CrankshaftSection,
+    WebSection,
+)
+from reports.inputs.sections.torsion import MassSection, TorsionSection
 from reports.inputs.to_si.cycle import cycle_run
-from reports.inputs.to_si.gas import BDC_DEG, FIRING_TDC_DEG, rounded_gas
-from reports.inputs.to_si.geometry import crank_radius_mm, rod_length_mm
-from reports.inputs.to_si.masses import to_masses, with_masses
-from reports.inputs.to_si.torsion import to_torsion
-from reports.inputs.units import DEG, KG, KW, MM, MPA, RPM
+from reports.inputs.to_si.masses import crank_radius_mm, rod_length_mm, to_masses, with_masses
+from reports.inputs.units import DEG, KG, MM, MPA, MPA_S, RPM, UM
 
-TWO_STROKE_BDC_DEG = 180.0
+
+def rounded_gas(gas: RoundedGasSection) -> RoundedGas:
+    """Rounded diagram with the usual places where the input gives none."""
+    share, peak, join = places(gas)
+    angles = {
+        "combustion_start": DEG.to_si(
+            FIRING_TDC_DEG - gas.injection_advance_deg + gas.ignition_delay_deg
+        ),
+        "peak": DEG.to_si(FIRING_TDC_DEG + peak),
+        "peak_share": share,
+        "join": DEG.to_si(FIRING_TDC_DEG + join),
+        "exhaust_open": DEG.to_si(BDC_DEG - gas.exhaust_start_before_bdc_deg),
+        "exhaust_close": DEG.to_si(BDC_DEG + gas.exhaust_end_after_bdc_deg),
+    }
+    return RoundedGas(**solver_values(gas, RoundedGas) | angles)
+
+
+def places(gas: RoundedGasSection) -> tuple[float, float, float]:
+    """Share p_zд/p_z, angles of z_д and of the join after TDC [deg]."""
+    share, peak, join = gas.peak_share, gas.peak_after_tdc_deg, gas.expansion_after_tdc_deg
+    return (
+        PEAK_SHARE[gas.kind] if share is None else float(share),
+        PEAK_DEG[gas.kind] if peak is None else float(peak),
+        JOIN_DEG[gas.kind] if join is None else float(join),
+    )
+
+
+def to_torsion(section: TorsionSection | None) -> Torsion | None:
+    """Torsion input of the solver, None without the section."""
+    if section is None:
+        return None
+    return Torsion(
+        **solver_values(section, Torsion),
+        masses=tuple(_mass(mass) for mass in section.masses),
+        peaks=tuple(
+            (RPM.to_si(peak.speed_rpm), MPA.to_si(peak.pressure_mpa)) for peak in section.peaks
+        ),
+    )
+
+
+def _mass(mass: MassSection) -> TrainMass:
+    throw = int(mass.throw) - 1 if mass.throw else None
+    return TrainMass(**solver_values(mass, TrainMass) | {"throw": throw})
+
+
+def to_bearings(section: BearingsSection | None) -> Bearings | None:
+    """Bearings input of the solver, None without the section."""
+    if section is None:
+        return None
+    s = section
+    composed = {
+        "pin_clearances": (MM.given(s.pin_clearance_min_mm), MM.given(s.pin_clearance_max_mm)),
+        "main_clearances": (MM.given(s.main_clearance_min_mm), MM.given(s.main_clearance_max_mm)),
+        "least_gap": UM.to_si(s.journal_roughness_um + s.shell_roughness_um + s.form_um),
+        "oil": _oil(s),
+        "strength": _strength(s),
+    }
+    return Bearings(**solver_values(s, Bearings) | composed)
+
+
+def _oil(section: BearingsSection) -> Oil:
+    grade = OILS[section.oil]
+    usual = {"at_40": MPA_S.to_si(grade.at_40), "at_100": MPA_S.to_si(grade.at_100)}
+    return Oil(**usual | solver_values(section, Oil))
+
+
+def _strength(section: BearingsSection) -> Strength:
+    material = MATERIALS[section.material]
+    usual = {key: MPA.to_si(getattr(material, key)) for key in ("tensile", "bending", "torsion")}
+    return Strength(**usual | solver_values(section, Strength), making=material.making)
 
 
 def to_engine(model: InputFile) -> Engine:
@@ -44,68 +125,43 @@ def engine_and_cycle(model: InputFile) -> tuple[Engine, CycleRun | None]:
 
 
 def smallness_of(model: InputFile) -> int:
-    """How much smaller the engine is than those of the books: its values have more decimals."""
+    """Smallness of the engine beside those of the books; sets further decimals."""
     bore_mm = getattr(model.geometry, "bore_mm", None)
     return smallness(bore_mm / 1000 if bore_mm else to_engine(model).geometry.bore)
 
 
 def _engine(model: InputFile, run: CycleRun | None) -> Engine:
-    regime, reference = model.regime, model.reference
     geometry = _geometry(model, run)
     shaft = with_masses(model, geometry)
-    forces = shaft.force_offsets_deg
-    power, efficiency, fullness = _power(model, run)
     places = arrangement_of(model)
-    return Engine(
-        geometry=geometry,
-        omega=RPM.to_si(regime.speed_rpm),
-        gas=_gas(model.gas, run, strokes=model.engine.strokes),
-        masses=to_masses(model, geometry),
-        crankshaft=_crankshaft(shaft),
-        arrangement=places,
-        articulated=_articulated(model.articulated, len(hung(places))),
-        torsion=to_torsion(model.torsion),
-        bearings=to_bearings(model.bearings),
-        firing_offsets=tuple(DEG.to_si(value) for value in shaft.firing_offsets_deg),
-        strokes=model.engine.strokes,
-        method=model.calculation.method,
-        step_deg=model.calculation.step_deg,
-        rays=model.calculation.wear_rays,
-        mechanical_efficiency=efficiency,
-        indicated_power=power,
-        fullness=fullness,
-        force_offsets=None if forces is None else tuple(DEG.to_si(value) for value in forces),
-        balancing=_balancing(model.balance),
-        name=model.engine.name,
-        oil_hole=DEG.given(shaft.oil_hole_deg),
-        regimes=tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
-        reference_lambdas=() if reference is None else reference.lambdas,
-        reference_angle=0.0 if reference is None else DEG.to_si(reference.angle_deg),
-    )
+    values: dict[str, Any] = {}
+    for section in (model.engine, model.calculation, model.regime, shaft, model.reference):
+        values |= {} if section is None else solver_values(section, Engine)
+    composed = {
+        "geometry": geometry,
+        "gas": _gas(model.gas, run, strokes=model.engine.strokes),
+        "masses": to_masses(model, geometry),
+        "crankshaft": _crankshaft(shaft),
+        "arrangement": places,
+        "articulated": _articulated(model.articulated, len(hung(places))),
+        "torsion": to_torsion(model.torsion),
+        "bearings": to_bearings(model.bearings),
+        "balancing": Balancing(**solver_values(model.balance, Balancing)),
+        "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
+        "name": model.engine.name,
+    }
+    return Engine(**values | composed | _power(run))
 
 
 def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:
-    return OperatingPoint(
-        name=section.name,
-        omega=RPM.to_si(section.speed_rpm),
-        gas=_gas(section.gas, None, strokes=strokes),
-        mechanical_efficiency=float(section.mechanical_efficiency),
-        indicated_power=KW.given(section.indicated_power_kw),
-        fullness=float(section.fullness),
-    )
+    gas = _gas(section.gas, None, strokes=strokes)
+    return OperatingPoint(**solver_values(section, OperatingPoint), gas=gas)
 
 
 def _articulated(section: ArticulatedSection | None, count: int) -> tuple[ArticulatedRod, ...]:
     if section is None:
         return ()
-    rod = ArticulatedRod(
-        rod_length=MM.to_si(section.rod_length_mm),
-        radius=MM.to_si(section.radius_mm),
-        angle=DEG.to_si(section.angle_deg),
-        reciprocating=KG.to_si(section.reciprocating_kg),
-        big_end=KG.to_si(section.big_end_kg),
-    )
-    return (rod,) * count
+    return (ArticulatedRod(**solver_values(section, ArticulatedRod)),) * count
 
 
 def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
@@ -127,13 +183,14 @@ def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
     return Geometry(bore, radius, rod, ratio, crank_offset, pin_offset)
 
 
-def _power(model: InputFile, run: CycleRun | None) -> tuple[float | None, float, float]:
-    """Indicated power [W], mechanical efficiency and fullness, from the cycle if there is one."""
-    if run is not None:
-        return run.gas_power, run.cycle.effective.eta_m, 1.0
-    regime = model.regime
-    efficiency, fullness = float(regime.mechanical_efficiency), float(regime.fullness)
-    return KW.given(regime.indicated_power_kw), efficiency, fullness
+def _power(run: CycleRun | None) -> dict[str, float]:
+    """Indicated power [W], mechanical efficiency and fullness of a calculated cycle."""
+    if run is None:
+        return {}
+    efficiency = run.cycle.effective.eta_m
+    return {
+        "indicated_power": run.gas_power, "mechanical_efficiency": efficiency, "fullness": 1.0,
+    }  # fmt: skip
 
 
 def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
@@ -159,21 +216,14 @@ def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
     if isinstance(gas, CycleGasSection):
         raise TypeError("gas from a cycle needs its section")
     advance, start, opens, closes = _angles(gas, strokes)
+    timing = {
+        "combustion_start": start, "ignition_advance": advance,
+        "exhaust_open": opens, "exhaust_close": closes,
+    }  # fmt: skip
     scavenge = gas.scavenge_start_before_bdc_deg
-    return PolytropicGas(
-        p_ambient=p_ambient,
-        p_intake=MPA.to_si(gas.intake_pressure_mpa),
-        p_residual=MPA.to_si(gas.residual_pressure_mpa),
-        p_max=MPA.to_si(gas.max_pressure_mpa),
-        n_compression=float(gas.compression_exponent),
-        n_expansion=float(gas.expansion_exponent),
-        rho=float(gas.preexpansion_ratio),
-        combustion_start=start,
-        ignition_advance=advance,
-        exhaust_open=opens,
-        exhaust_close=closes,
-        scavenge_open=0.0 if scavenge is None else DEG.to_si(TWO_STROKE_BDC_DEG - scavenge),
-    )
+    if scavenge is not None:
+        timing["scavenge_open"] = DEG.to_si(TWO_STROKE_BDC_DEG - scavenge)
+    return PolytropicGas(**solver_values(gas, PolytropicGas) | timing)
 
 
 def _angles(
@@ -190,12 +240,6 @@ def _angles(
         DEG.to_si(bdc - gas.exhaust_start_before_bdc_deg),
         DEG.to_si(bdc + gas.exhaust_end_after_bdc_deg),
     )
-
-
-def _balancing(section: BalanceSection) -> Balancing:
-    values = {key: float(value) for key, value in section.model_dump().items()}
-    radius = MM.to_si(values.pop("shaft_radius_mm"))
-    return Balancing(**values, shaft_radius=radius)
 
 
 def _crankshaft(shaft: CrankshaftSection) -> Crankshaft:
@@ -242,9 +286,4 @@ def _throw(
 
 
 def _web(web: WebSection) -> Web:
-    return Web(
-        mass=KG.to_si(web.mass_kg or 0.0),
-        angle=DEG.to_si(web.angle_deg),
-        counterweight_mass=KG.to_si(web.counterweight_kg),
-        counterweight_angle=DEG.to_si(web.counterweight_angle_deg),
-    )
+    return Web(**{"mass": 0.0} | solver_values(web, Web))

@@ -1,30 +1,87 @@
-"""Masses of rod, piston group and throws from what the input gives, Gots 2.2."""
+"""Sizes of crank and rod, and masses of rod, piston group and throws, Gots 2.2."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
+from kshm import defaults
 from kshm.engine.engine import Geometry
 from kshm.engine.masses import DirectMasses, Estimate, Masses, RodMasses, Swinging, Weighing
-from kshm.mechanics.rod_masses import (
+from kshm.mechanics.masses import (
     area_masses,
     reduced_web,
     swung_centre,
     swung_inertia,
     weighed_centre,
 )
-from reports.inputs.sections.crankshaft import CrankshaftSection
-from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.masses import MassesSection
-from reports.inputs.units import KG, KG_M2, KG_PER_M2, MM, PER_MIN
+from reports.inputs.meta import solver_values
+from reports.inputs.sections.input_file import GeometrySection, InputFile
+from reports.inputs.sections.mechanism import CrankshaftSection, MassesSection
+from reports.inputs.units import KG, KG_M2, MM
 
-PIN_SHARE = 0.465  # as in appendix 1 of Gots: 0.425 of 0.915 kg
-ROD_SHARE = 0.275  # as in section 2.9
+_SIMILAR_MM = 150.0  # masses over the piston area grow with the bore of larger engines
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Bore, crank radius and rod [mm], given or found by the cycle."""
+
+    bore: float
+    radius: float
+    rod: float
+
+    @property
+    def piston_area(self) -> float:
+        """F_п [m²]."""
+        return math.pi * (self.bore / 1000) ** 2 / 4
+
+    @property
+    def heavier(self) -> float:
+        """Factor of the usual masses over F_п for so large an engine."""
+        return max(1.0, self.bore / _SIMILAR_MM)
+
+
+def sizes_of(model: InputFile, bore_and_stroke: tuple[float, float] | None = None) -> Sizes:
+    """Sizes of an engine whose bore and stroke [m] are given or found."""
+    geometry = model.geometry
+    if isinstance(geometry, GeometrySection):
+        return Sizes(geometry.bore_mm, crank_radius_mm(geometry), rod_length_mm(geometry))
+    if bore_and_stroke is None:
+        raise ValueError("geometry without bore needs a wanted power")
+    bore, stroke = (1000 * size for size in bore_and_stroke)
+    return Sizes(bore, stroke / 2, stroke / 2 / geometry.lambda_)
+
+
+def crank_radius_mm(geometry: GeometrySection) -> float:
+    """Return r [mm] from r, S = 2r, or λ and L."""
+    if geometry.crank_radius_mm is not None:
+        return float(geometry.crank_radius_mm)
+    if geometry.stroke_mm is not None:
+        return geometry.stroke_mm / 2
+    if geometry.lambda_ is None or geometry.rod_length_mm is None:
+        raise ValueError("geometry does not fix the crank radius")
+    return geometry.lambda_ * geometry.rod_length_mm
+
+
+def rod_length_mm(geometry: GeometrySection) -> float:
+    """Return L [mm] as given, or from r and λ."""
+    if geometry.rod_length_mm is not None:
+        return float(geometry.rod_length_mm)
+    if geometry.lambda_ is None:
+        raise ValueError("geometry does not fix the rod length")
+    return crank_radius_mm(geometry) / geometry.lambda_
+
+
+PIN_SHARE = Estimate(fuel="diesel").pin_share
+ROD_SHARE = defaults.SMALL_END_SHARE  # as in section 2.9
 
 
 def to_masses(model: InputFile, geometry: Geometry) -> Masses:
     """Masses of one cylinder in SI units."""
     given = model.masses
     if given.reciprocating_kg is not None and given.rod_big_end_kg is not None:
-        return DirectMasses(KG.to_si(given.reciprocating_kg), KG.to_si(given.rod_big_end_kg))
+        return DirectMasses(**solver_values(given, DirectMasses))
     estimate = to_estimate(given)
     piston, rod = given.piston_group_kg, given.rod_kg
     if estimate is not None:
@@ -56,29 +113,14 @@ def to_masses(model: InputFile, geometry: Geometry) -> Masses:
 
 def to_swinging(given: MassesSection, mass: float) -> Swinging:
     """The swings of the rod in SI units."""
-    return Swinging(
-        mass=mass,
-        swings_small=PER_MIN.to_si(given.swings_small_end_per_min or 0.0),
-        swings_big=PER_MIN.to_si(given.swings_big_end_per_min or 0.0),
-        bore_radius=MM.to_si(given.small_end_radius_mm or 0.0),
-        distance=MM.to_si(given.swing_edges_mm or 0.0),
-    )
+    return Swinging(mass=mass, **solver_values(given, Swinging))
 
 
 def to_estimate(given: MassesSection) -> Estimate | None:
     """Entries of table 4, None where nothing is estimated."""
     if given.estimate_fuel is None:
         return None
-
-    return Estimate(
-        fuel=given.estimate_fuel,
-        piston_material=given.estimate_piston or "aluminium",
-        shaft=given.estimate_shaft or "steel",
-        piston_area_mass=KG_PER_M2.given(given.estimate_piston_kg_per_m2),
-        rod_area_mass=KG_PER_M2.given(given.estimate_rod_kg_per_m2),
-        throw_area_mass=KG_PER_M2.given(given.estimate_throw_kg_per_m2),
-        pin_share=PIN_SHARE if given.estimate_pin_share is None else given.estimate_pin_share,
-    )
+    return Estimate(**solver_values(given, Estimate))
 
 
 def with_masses(model: InputFile, geometry: Geometry) -> CrankshaftSection:

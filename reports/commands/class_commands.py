@@ -1,0 +1,150 @@
+"""Commands for a group of students: variants out, marks in."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from getpass import getuser
+from pathlib import Path
+
+import click
+
+from reports.commands.common import (
+    DONE,
+    HELP,
+    LOOK,
+    RussianCommand,
+    dask_option,
+    file_argument,
+    path_option,
+    verbose_option,
+)
+from reports.shared.errors import KshmError
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@file_argument("БАЗА")
+@path_option("--roster", required=True, metavar="ФАЙЛ", help="Список группы: .xlsx или CSV.")
+@path_option("-o", "--output", "folder", required=True, help="Папка для выдачи.")
+@click.option("--seed", default=1, metavar="ЧИСЛО", show_default=True,
+              help="Зерно: то же зерно — те же варианты.")  # fmt: skip
+@path_option("--rubric", metavar="ФАЙЛ", help="Рубрика TOML (без неё — правила по умолчанию).")
+@path_option("--ranges", metavar="ФАЙЛ", help="Диапазоны, если их нет в разделе [variants].")
+@path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@verbose_option
+def issue(
+    source: Path,
+    roster: Path,
+    folder: Path,
+    seed: int,
+    rubric: Path | None,
+    ranges: Path | None,
+    secret: Path | None,
+) -> int:
+    """Выдать каждому студенту свой вариант и рабочую книгу."""
+    from reports.grading.issuing.issue import issue as issue_books
+
+    done = issue_books(
+        source, roster, folder, seed=seed,
+        rubric_file=rubric, ranges_file=ranges, secret_file=secret,
+    )  # fmt: skip
+    if done.new_secret is not None:
+        click.echo(
+            f"Создан секрет: {done.new_secret}. Сохраните его: без него не проверить работы; "
+            "студентам его не давайте.",
+            err=True,
+        )
+    click.echo(f"{folder}: выдано вариантов: {len(done.register.books)}")
+    return DONE
+
+
+def _user() -> str:
+    """Login name, empty where the system has none: a container, Windows by the page."""
+    with suppress(ImportError, KeyError, OSError):
+        return getuser()
+    return ""
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.argument("issued", metavar="[ВЫДАЧА]", required=False, type=click.Path(path_type=Path))
+@click.argument("submitted", metavar="[СДАНО]", required=False, type=click.Path(path_type=Path))
+@path_option("-o", "--output", "folder", help="Папка для результатов.")
+@path_option("--rubric", metavar="ФАЙЛ", help="Другая рубрика вместо выданной.")
+@path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
+@click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
+@click.option(
+    "--timeout", default=60.0, metavar="ЧИСЛО", show_default=True, help="Секунд на один файл."
+)
+@dask_option
+@path_option(
+    "--moodle",
+    "worksheet",
+    metavar="CSV",
+    help="Ведомость оценивания Moodle: заполнить её оценками.",
+)
+@click.option(
+    "--decide",
+    "decisions",
+    nargs=4,
+    multiple=True,
+    metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
+    help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
+)
+@click.option(
+    "--author", metavar="ИМЯ", default="", help="Кто решает (по умолчанию имя пользователя)."
+)
+@click.option("--explain", nargs=2, metavar="ФАЙЛ ЛИСТ!СТОЛБЕЦ", help="Объяснить один вердикт.")
+@verbose_option
+def grade(
+    issued: Path | None,
+    submitted: Path | None,
+    folder: Path | None,
+    rubric: Path | None,
+    secret: Path | None,
+    pdf: bool,
+    jobs: int,
+    timeout: float,
+    dask: str | None,
+    worksheet: Path | None,
+    decisions: tuple[tuple[str, str, str, str], ...],
+    author: str,
+    explain: tuple[str, str] | None,
+) -> int:
+    """Проверить сданные работы: файл, папку или zip заданий Moodle.
+
+    ВЫДАЧА — папка, которую сделала команда issue; СДАНО — что сдали студенты.
+    """
+    if explain is not None:
+        from reports.grading.pages.explain import explain as explain_column
+
+        # The command of Windows passes on the quotes that a POSIX shell takes off.
+        column = re.sub(r"^'([^']*)'$", r"\1", explain[1])
+        for line in explain_column(issued, Path(explain[0]), column, rubric, secret):
+            click.echo(line)
+        return DONE
+    from reports.grading.batch.grade import GradeSetup
+    from reports.grading.batch.grade import decide as decide_all
+    from reports.grading.batch.grade import grade as grade_all
+
+    author = author or _user()
+    if decisions and issued is None and folder is not None:
+        done = decide_all(folder, GradeSetup(decisions=decisions, author=author))
+        click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
+        return LOOK if done.needs_a_person else DONE
+    if issued is None or submitted is None or folder is None:
+        raise KshmError("нужны папка выдачи, сданные работы и папка для результатов (ключ -o)")
+    if jobs < 0 or timeout <= 0:
+        raise KshmError("--jobs и --timeout должны быть положительными")
+    done = grade_all(
+        issued, submitted, folder, rubric_file=rubric, secret_file=secret,
+        options=GradeSetup(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
+                        worksheet=worksheet,
+                        author=author),
+    )  # fmt: skip
+    summary = done.summary
+    click.echo(f"{folder}: проверено файлов: {summary['files']}, с оценкой: {summary['graded']}")
+    if done.needs_a_person:
+        click.echo(f"Нужна ручная проверка: {len(summary['manual'])}", err=True)
+        return LOOK
+    return DONE

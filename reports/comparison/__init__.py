@@ -1,1 +1,0 @@
-"""Engines side by side: what differs in their data, their results, their curves."""

@@ -1,0 +1,194 @@
+"""A drawing as SVG in millimetres and as DXF (R2010): layers by name, real text."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections import OrderedDict
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from html import escape
+
+from reports.draw.canvas import LAYERS, Box, Circle, Dash, Item, Line, Words, bounds
+from reports.draw.fonts import CAPITAL, INDEX, OF_DRAWINGS, WIDER, parts_of, plain, width_of
+
+_SVG_GREY = "#9a9a9a"
+PT_PER_MM = 72 / 25.4
+
+
+def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) -> str:
+    """The items within a box of the sheet.
+
+    Args:
+        items: what is drawn.
+        box: what of the sheet is shown [mm].
+        shown_mm: width on paper, by default true to size [mm].
+    """
+    left, low, right, high = box
+    wide, tall = right - left, high - low
+    body = "".join(_runs(items, left, high))
+    size = (PT_PER_MM * wide, PT_PER_MM * tall)
+    return svg_element(body, f"{wide:.2f} {tall:.2f}", size, shown_mm or wide)
+
+
+def svg_element(body: str, extent: str, size: tuple[float, float], width_mm: float) -> str:
+    """A figure of a page as one element.
+
+    Args:
+        body: its elements.
+        extent: width and height in their units.
+        size: width and height true to size [pt].
+        width_mm: width on paper [mm].
+    """
+    return (
+        f'<svg class="fig" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {extent}" '
+        f'style="width:{width_mm:.1f}mm" data-size="{size[0]:.4g}/{size[1]:.4g}" '
+        f'font-family="{OF_DRAWINGS}" stroke-linejoin="round">{body}</svg>'
+    )
+
+
+def _runs(items: Iterable[Item], left: float, high: float) -> Iterable[str]:
+    """Items as elements; lines of equal looks follow one another in one path."""
+    paths: dict[str, list[str]] = {}
+    rest: list[str] = []
+    for item in items:
+        if isinstance(item, Words):
+            rest.append(_words(item, left, high))
+            continue
+        layer = item.layer
+        colour = _SVG_GREY if layer.grey else "#000000"
+        dash = (item.dash if isinstance(item, Line) else ()) or layer.dash
+        dashes = f' stroke-dasharray="{" ".join(f"{d:g}" for d in dash)}"' if dash else ""
+        looks = (
+            f' fill="{colour if item.filled else "none"}" stroke="{colour}" '
+            f'stroke-width="{layer.width:g}"{dashes}'
+        )
+        paths.setdefault(looks, []).append(_path(item, left, high))
+    yield from (f'<path d="{"".join(parts)}"{looks}/>' for looks, parts in paths.items())
+    yield from rest
+
+
+def _path(item: Line | Circle, left: float, high: float) -> str:
+    if isinstance(item, Circle):
+        (x, y), r = item.centre, item.radius
+        x, y = x - left, high - y
+        return (
+            f"M{x - r:.3f} {y:.3f}A{r:.3f} {r:.3f} 0 1 0 {x + r:.3f} {y:.3f}"
+            f"A{r:.3f} {r:.3f} 0 1 0 {x - r:.3f} {y:.3f}Z"
+        )
+    points = "L".join(f"{x - left:.3f} {high - y:.3f}" for x, y in item.points)
+    return f"M{points}{'Z' if item.closed else ''}"
+
+
+def _words(item: Words, left: float, high: float) -> str:
+    parts = parts_of(item.text)
+    if len(parts) == 1:
+        return _svg_text(item, left, high)
+    shown, run = [], -item.align * item.width / WIDER
+    for text, index in parts:
+        height = item.height * (INDEX if index else 1.0)
+        along, down = run, -0.3 * item.height if index else 0.0
+        turn = math.radians(item.angle)
+        x = item.place[0] + along * math.cos(turn) - down * math.sin(turn)
+        y = item.place[1] + along * math.sin(turn) + down * math.cos(turn)
+        part = replace(item, place=(x, y), text=text, height=height, align=0.0)
+        shown.append(_svg_text(part, left, high))
+        run += width_of(text, height) / WIDER
+    return "".join(shown)
+
+
+def _svg_text(item: Words, left: float, high: float) -> str:
+    x, y = item.place[0] - left, high - item.place[1]
+    anchor = {0.0: "start", 0.5: "middle", 1.0: "end"}[item.align]
+    turn = f' transform="rotate({-item.angle:g} {x:.2f} {y:.2f})"' if item.angle else ""
+    return (
+        f'<text x="{x:.2f}" y="{y:.2f}" font-style="italic" font-size="{item.height / CAPITAL:.2f}"'
+        f' text-anchor="{anchor}"{turn} xml:space="preserve">{escape(item.text)}</text>'
+    )
+
+
+STYLE = "ЕСКД"
+_FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
+_SLANT = 15.0
+_BLACK, _DXF_GREY = 7, 8
+
+
+def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
+    """The drawing as a DXF file; the same items give the same bytes.
+
+    Args:
+        items: The drawing, in millimetres of the thing where it is drawn true to size.
+        dashes: How much longer the dashes of lines are than on paper.
+    """
+    import ezdxf
+    from ezdxf import units
+    from ezdxf.enums import TextEntityAlignment
+
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no clock, no new identifiers
+    try:
+        document = ezdxf.new("R2010", setup=False, units=units.MM)
+        document.header["$MEASUREMENT"] = 1
+        document.header["$LWDISPLAY"] = 1
+        document.header["$LTSCALE"] = dashes
+        document.styles.add(STYLE, font=_FONT).dxf.oblique = _SLANT
+        for layer in LAYERS:
+            entry = document.layers.add(layer.name, color=_DXF_GREY if layer.grey else _BLACK)
+            entry.dxf.lineweight = round(100 * layer.width)
+            entry.dxf.linetype = _linetype(document, layer.dash)
+        space = document.modelspace()
+        aligns = {0.0: TextEntityAlignment.LEFT, 0.5: TextEntityAlignment.CENTER,
+                  1.0: TextEntityAlignment.RIGHT}  # fmt: skip
+        shown = list(items)
+        for item in shown:
+            looks: dict[str, object] = {"layer": item.layer.name}
+            if isinstance(item, Line):
+                if item.dash:
+                    looks["linetype"] = _linetype(document, item.dash)
+                space.add_lwpolyline(item.points, close=item.closed, dxfattribs=looks)
+                if item.filled:
+                    hatch = space.add_hatch(color=_BLACK, dxfattribs={"layer": item.layer.name})
+                    hatch.paths.add_polyline_path(item.points, is_closed=True)
+            elif isinstance(item, Circle):
+                space.add_circle(item.centre, item.radius, dxfattribs=looks)
+                if item.filled:
+                    hatch = space.add_hatch(color=_BLACK, dxfattribs={"layer": item.layer.name})
+                    edges = hatch.paths.add_edge_path()
+                    edges.add_arc(item.centre, item.radius, 0, 360)
+            else:
+                _dxf_text(space, item, aligns[item.align], looks)
+        left, low, right, high = bounds(shown)
+        corners = (left, low, 0), (right, high, 0)
+        space.reset_extents(*corners)
+        # What begins at the origin is not carried over to the header by writing.
+        document.header["$EXTMIN"], document.header["$EXTMAX"] = corners
+        space.reset_limits((left, low), (right, high))
+        centre = ((left + right) / 2, (low + high) / 2)
+        document.set_modelspace_vport(1.05 * (high - low), centre)  # the whole of it is seen
+        document.classes.add_required_classes(document.dxfversion)  # in the order of a set
+        document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
+        stream = io.StringIO()
+        document.write(stream)
+        return stream.getvalue().encode(document.output_encoding, "dxfreplace")
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _dxf_text(space: object, item: Words, align: object, looks: dict[str, object]) -> None:
+    text = space.add_text(  # type: ignore[attr-defined]
+        plain(item.text), height=item.height, rotation=item.angle,
+        dxfattribs={**looks, "style": STYLE, "oblique": _SLANT},
+    )  # fmt: skip
+    text.set_placement(item.place, align=align)
+
+
+def _linetype(document: object, dash: Dash) -> str:
+    """Name of a pattern of dashes, made where it is not there yet."""
+    if not dash:
+        return "Continuous"
+    name = "-".join(f"{part:g}" for part in dash).replace(".", "_")
+    types = document.linetypes  # type: ignore[attr-defined]
+    if name not in types:
+        pattern = [sum(dash), *(p if n % 2 == 0 else -p for n, p in enumerate(dash))]
+        types.add(name, pattern, description=f"штрихи {name} мм")
+    return name

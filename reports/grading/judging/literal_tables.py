@@ -1,0 +1,188 @@
+"""Literal tables: lists of numbers in the guise of formulas, and columns read from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from decimal import Decimal
+from functools import lru_cache
+from itertools import pairwise
+from math import isfinite, nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.grading.reading.student import StudentBook
+from reports.recalculation.formulas import PLACES, Formula, Token
+from reports.recalculation.grid import Run
+
+_ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
+_MANY = 8  # long numbers in one formula, to be a list of numbers
+_CASES = 5  # numbers among which a formula chooses, or cases that it tells apart
+_SHORT = 3  # digits of a number that may be chosen so
+_DIGITS = 20  # of a text that is a list
+_LONG = 5  # digits of a number that nobody knows by heart
+_EXACT = 9  # decimals that a calculation keeps
+_TYPED = 4  # digits, the comma with them, of a number in a list that is read; angles have fewer
+
+
+def reads_a_list(student: StudentBook, node: str) -> bool:
+    """Whether a column is made of a column of numbers typed in beside the tables."""
+    if listed(student.helpers(node)) or listed(student.runs(node), cells=True):
+        return True
+    read, length = student.own_numbers(node), student.assignment.length(node)
+    long = {v for v in read if _digits(f"{v!r}") + (not v.is_integer()) >= _TYPED}
+    if len(long) >= _ALIKE and len(read) >= length // 2:
+        return True
+    # A long number may be cut up into short ones; angles and counts go by equal steps.
+    steps = {float(f"{b - a:.9g}") for a, b in pairwise(read)}
+    return 1 < length <= len(read) and len(steps) >= max(_CASES, length // 2)
+
+
+def is_of_angles(student: StudentBook, node: str) -> bool:
+    """Whether the numbers that a column is made of are no more than its angles and their sines.
+
+    Who has looked them up, to whatever digits, has calculated all the same.
+    """
+    angles = angles_of(student, node)
+    runs = (*student.runs(node), *student.helpers(node))
+    literals = {*student.own_numbers(node), *_changing(runs)}
+    return bool(angles) and all(of_angles(value, angles) is not None for value in literals)
+
+
+def angles_of(student: StudentBook, node: str) -> tuple[float, ...]:
+    """The angles of a column's rows in degrees, none where it stands beside something else."""
+    table = student.assignment.model.tables.get(node.partition(".")[0])
+    if table is None or table.columns[0].quantity.unit != "deg":
+        return ()
+    return tuple(table.rows)
+
+
+def of_angles(value: float, angles: tuple[float, ...]) -> float | None:
+    """An angle, its sine or cosine with all digits, of which a number has the first ones."""
+    if not isfinite(value):
+        return None
+    known = _functions(angles)
+    at = int(np.searchsorted(known, value))
+    near = known[max(at - 1, 0) : at + 1]
+    exact = float(near[np.abs(near - value).argmin()])
+    half = 0.5000001 * 10.0 ** -min(_decimals(value), _EXACT)
+    return exact if abs(exact - value) <= half else None
+
+
+@lru_cache(maxsize=32)
+def _functions(angles: tuple[float, ...]) -> NDArray[np.float64]:
+    """Angles, also doubled and in radians, with their sines and cosines, in order."""
+    turns = np.radians(np.outer((1, 2), angles)).ravel()
+    functions = (np.degrees(turns), turns, np.sin(turns), np.cos(turns), 1 - np.cos(turns))
+    return np.unique(np.concatenate([np.array([0.0, 1.0, 2.0]), *functions]))
+
+
+def _decimals(value: float) -> int:
+    return max(0, -int(Decimal(repr(value)).as_tuple().exponent))
+
+
+def _changing(runs: Sequence[Run]) -> set[float]:
+    """Numbers by which formulas differ that are alike but for them, and all those of a list."""
+    changing: set[float] = set()
+    alike: dict[tuple[str, ...], list[tuple[str, ...]]] = {}
+    for run in runs:
+        if run.formula is None:
+            continue
+        skeleton, numbers = _parts(run.formula, cells=False)
+        alike.setdefault(skeleton, []).append(numbers)
+        if _long_numbers(run.formula) >= _MANY or _chooses(run.formula):
+            changing.update(map(_number, numbers))
+    for group in alike.values():
+        for column in zip(*group, strict=True):
+            if len(set(column)) > 1:
+                changing.update(map(_number, column))
+    return changing
+
+
+def _number(text: str) -> float:
+    """A number as a formula tells it, NaN where it is a text or a cell."""
+    try:
+        return float(text)
+    except ValueError:
+        return nan
+
+
+def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:
+    """Runs that are a list of numbers, by ``id``: alike but for them, or full of them.
+
+    With ``cells`` formulas that take other cells each are alike too: one may count by cells.
+    """
+    alike: dict[tuple[str, ...], list[Run]] = {}
+    lists = set()
+    for run in runs:
+        if run.formula is None:
+            continue
+        alike.setdefault(_parts(run.formula, cells=cells)[0], []).append(run)
+        if _long_numbers(run.formula) >= _MANY or _chooses(run.formula):
+            lists.add(id(run))
+    for group in alike.values():
+        numbers = {_parts(run.formula, cells=cells)[1] for run in group if run.formula is not None}
+        if len(numbers) >= _ALIKE:
+            lists |= {id(run) for run in group}
+    return lists
+
+
+@lru_cache(maxsize=20_000)
+def _parts(formula: Formula, *, cells: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A formula without what tells a number in it, and that: texts too, rows of ROW, cells."""
+    tokens: list[Token] = []
+    for kind, value in formula.pattern:
+        if tokens and tokens[-1][0] == "sheet":
+            tokens[-1] = (kind, tokens[-1][1] + value)
+        elif kind != "space":
+            tokens.append((kind, value))
+    skeleton, numbers = [], []
+    for before, (kind, value) in zip([("", ""), ("", ""), *tokens], tokens, strict=False):
+        counted = kind == "ref" and (cells or before[1].upper() in PLACES)  # ROW, a bracket, a cell
+        if counted or kind in ("number", "text"):
+            numbers.append(value)
+        skeleton.append(kind if counted or kind in ("number", "text") else f"{kind} {value}")
+    return tuple(skeleton), tuple(numbers)
+
+
+def _long_numbers(formula: Formula) -> int:
+    return len(
+        {value for kind, value in formula.pattern if kind == "number" and _digits(value) >= _LONG}
+    )
+
+
+@lru_cache(maxsize=20_000)
+def _chooses(formula: Formula) -> bool:
+    """Whether a formula picks its value out of many, whatever they are called: CHOOSE, IF, {}."""
+    tokens = [token for token in formula.pattern if token[0] != "space"]
+    signless = [t for i, t in enumerate(tokens)
+                if t != ("op", "-") or (i and tokens[i - 1] not in _BEFORE)]  # fmt: skip
+    arguments = sum(
+        kind == "number" and _digits(value) >= _SHORT and before in _BEFORE and after in _AFTER
+        for before, (kind, value), after in zip(signless, signless[1:], signless[2:], strict=False)
+    )
+    texts = (value for kind, value in tokens if kind == "text")
+    return (
+        arguments >= _CASES
+        or (tokens.count(_EQUAL) >= _CASES and _told(tokens) >= _CASES * _SHORT)
+        or any(sum(map(str.isdigit, text)) >= _DIGITS for text in texts)
+    )
+
+
+def _told(tokens: Sequence[Token]) -> int:
+    """Digits of the literals, except case selectors."""
+    around = zip((("", ""), *tokens), tokens, (*tokens[1:], ("", "")), strict=False)
+    return sum(
+        map(_digits, {at[1] for before, at, after in around
+                      if at[0] == "number" and _EQUAL not in (before, after)})
+    )  # fmt: skip
+
+
+_EQUAL = ("op", "=")
+_BEFORE = frozenset(("op", sign) for sign in "(,;{")
+_AFTER = frozenset(("op", sign) for sign in "),;}")
+
+
+def _digits(number: str) -> int:
+    """Digits of a number that say anything."""
+    return len(number.partition("e")[0].lstrip("-").replace(".", "").strip("0"))

@@ -1,0 +1,1 @@
+"""New engines as input files: generated of usual values, or scaled from another one."""

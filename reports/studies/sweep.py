@@ -1,0 +1,195 @@
+"""Run a parameter study; write Parquet, CSV or a workbook as results come."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from kshm.chain.solve import chunk_size, solve_batch
+from reports.exports.build import load_input
+from reports.exports.numbers import neutralised
+from reports.inputs.to_si.engine import engine_and_cycle
+from reports.shared.background import processors
+from reports.shared.errors import KshmError, OutputError, SystemPartMissing
+from reports.shared.files import atomic_path, reason, refuse_own
+from reports.shared.parallel_map import in_order
+from reports.shared.progress import Progress
+from reports.studies.plan import Chunk, Plan, make_plan, solved, tasks
+from reports.studies.quantities import ChosenQuantities, choose
+
+ERROR = "error"
+SUFFIXES = (".parquet", ".csv", ".xlsx")
+ROW_GROUP = 16_384
+
+
+class Sink(Protocol):
+    """Takes the chunks in order."""
+
+    def write(self, chunk: Chunk) -> None:
+        """Append the rows of a chunk."""
+
+
+@contextmanager
+def sink(path: Path, suffix: str, plan: Plan, wanted: ChosenQuantities) -> Iterator[Sink]:
+    """A writer into ``path`` for one of ``SUFFIXES``.
+
+    Raises:
+        KshmError: the suffix is none of them.
+        SystemPartMissing: Parquet is asked for without its package.
+    """
+    keys = [axis.key for axis in plan.axes]
+    if suffix == ".parquet":
+        with _parquet(path, keys, wanted) as writer:
+            yield writer
+    elif suffix == ".csv":
+        with path.open("w", encoding="utf-8", newline="") as stream:
+            yield _Csv(csv.writer(stream, lineterminator="\n"), keys, wanted)
+    elif suffix == ".xlsx":
+        from reports.studies.books import StudyBook
+
+        book = StudyBook(plan, wanted)
+        try:
+            yield book
+        except BaseException:
+            book.close()
+            raise
+        path.write_bytes(book.data())
+    else:
+        raise KshmError(f"{path.name}: нужно окончание {', '.join(SUFFIXES)}")
+
+
+class _Csv:
+    def __init__(self, writer: Any, keys: list[str], wanted: ChosenQuantities) -> None:  # noqa: ANN401
+        self._writer = writer
+        self._names = wanted.names
+        writer.writerow([*keys, *self._names, ERROR])
+
+    def write(self, chunk: Chunk) -> None:
+        columns = [chunk.values[name].tolist() for name in self._names]
+        rows = zip(chunk.rows, zip(*columns, strict=True), chunk.errors, strict=True)
+        for inputs, values, error in rows:
+            texts = ["" if error else repr(value) for value in values]
+            self._writer.writerow([*map(repr, inputs), *texts, neutralised(error)])
+
+
+@contextmanager
+def _parquet(path: Path, keys: list[str], wanted: ChosenQuantities) -> Iterator[Sink]:
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError:
+        raise SystemPartMissing(
+            "пакет pyarrow", 'pip install "kshm[sweep]"', purpose="для файлов .parquet"
+        ) from None
+    numbers = [pa.field(name, pa.float64()) for name in (*keys, *wanted.names)]
+    schema = pa.schema([*numbers, pa.field(ERROR, pa.string())])
+    with parquet.ParquetWriter(path, schema) as writer:
+        rows = _Parquet(writer, schema, pa)
+        yield rows
+        rows.flush()
+
+
+class _Parquet:
+    """Gathers rows to groups, so that columns are long enough to be read quickly."""
+
+    def __init__(self, writer: Any, schema: Any, pa: Any) -> None:  # noqa: ANN401
+        self._writer, self._schema, self._pa = writer, schema, pa
+        self._chunks: list[Chunk] = []
+        self._rows = 0
+
+    def write(self, chunk: Chunk) -> None:
+        self._chunks.append(chunk)
+        self._rows += len(chunk.rows)
+        if self._rows >= ROW_GROUP:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write what has gathered as one row group."""
+        if not self._rows:
+            return
+        chunks = self._chunks
+        inputs = np.array([row for chunk in chunks for row in chunk.rows], dtype=float)
+        values = [
+            np.concatenate([chunk.values[name] for chunk in chunks]) for name in chunks[0].values
+        ]
+        errors = [error or None for chunk in chunks for error in chunk.errors]
+        arrays = [self._pa.array(column) for column in (*inputs.T, *values)]
+        arrays.append(self._pa.array(errors, self._pa.string()))
+        table = self._pa.Table.from_arrays(arrays, schema=self._schema)
+        self._writer.write_table(table, row_group_size=self._rows)
+        self._chunks, self._rows = [], 0
+
+
+# Starting processes takes longer than that many combinations.
+_FEW = 4000
+
+
+@dataclass(frozen=True, slots=True)
+class SweepOptions:
+    """How a study runs; the results do not depend on it."""
+
+    jobs: int = 0  # 0: all cores
+    dask: str | None = None
+    chunk: int | None = None  # combinations at a time
+
+
+@dataclass(frozen=True, slots=True)
+class Studied:
+    """How many combinations a study had and how many have no result."""
+
+    points: int
+    failed: int
+    first_error: str = ""
+
+
+def sweep(
+    source: Path,
+    vary: Sequence[str],
+    target: Path,
+    *,
+    quantities: Sequence[str] = (),
+    pairwise: bool = False,
+    options: SweepOptions | None = None,
+) -> Studied:
+    """Vary keys of a base file and write the results to ``target``, whole or not at all.
+
+    Raises:
+        InputError: the base or what is asked for is wrong.
+        OutputError: the file cannot be written.
+    """
+    options = options or SweepOptions()
+    suffix = target.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise KshmError(f"{target}: нужно окончание {', '.join(SUFFIXES)}; укажите его в ключе -o")
+    loaded = load_input(source)
+    refuse_own([target], [source, *loaded.beside])
+    model = loaded.model
+    plan = make_plan(model, source.name, vary, pairwise=pairwise)
+    engine, cycle = engine_and_cycle(model)
+    wanted = choose(solve_batch([engine]), quantities, cycle)
+    size = options.chunk or chunk_size(engine)
+    jobs = options.jobs or processors()
+    if plan.count <= _FEW and not options.jobs:
+        jobs = 1
+    done = failed = 0
+    first_error = ""
+    with Progress("Исследование") as progress, atomic_path(target) as temporary:
+        try:
+            with sink(temporary, suffix, plan, wanted) as out:
+                work = tasks(plan, wanted, size)
+                for chunk in in_order(solved, work, jobs=jobs, dask=options.dask):
+                    out.write(chunk)
+                    done += len(chunk.rows)
+                    errors = [error for error in chunk.errors if error]
+                    failed += len(errors)
+                    first_error = first_error or next(iter(errors), "")
+                    progress.step(f"Исследование: {done} из {plan.count}")
+        except OSError as error:
+            raise OutputError(f"{target}: не записать: {reason(error)}") from None
+    return Studied(done, failed, first_error)

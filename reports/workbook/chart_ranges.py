@@ -1,0 +1,82 @@
+"""Ranges that charts draw: curves, rays, named points, limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from openpyxl.utils import get_column_letter
+
+from kshm.nomenclature.quantity import roman
+from reports.model.charts import ChartSpec
+from reports.model.evaluation import Values
+from reports.workbook.layout import Layout, column_range, quoted
+
+_ANGLE, _MOST_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name
+_NAME = (0.35, 0.14)  # room of such a name, of the greatest radius: across and down
+
+
+@dataclass(frozen=True, slots=True)
+class CurveRanges:
+    """A curve by the ranges of its numbers."""
+
+    name: str
+    x: str
+    y: str
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A broken line, or a point that moves, by the ranges of its numbers."""
+
+    name: str
+    x: str
+    y: str
+    point: bool = False
+    hidden: bool = False  # only keeps the axes in proportion
+
+
+def rays(spec: ChartSpec, layout: Layout) -> list[CurveRanges]:
+    """Worn depth at every ray of a wear diagram, from the wear to the circle."""
+    circle, wear = spec.drawn_by("workbook")[:2]
+    xs, ys = layout.cells_of_run(wear.x)[:-1], layout.cells_of_run(wear.y)[:-1]
+    ends = layout.cells_of_run(circle.x), layout.cells_of_run(circle.y)
+    return [
+        CurveRanges(roman(number), *(column_range(at.sheet, at.column, at.row, to.row)
+                               for at, to in ((x, ends[0][number - 1]), (y, ends[1][number - 1]))))
+        for number, (x, y) in enumerate(zip(xs, ys, strict=True), 1)
+    ]  # fmt: skip
+
+
+def marks(spec: ChartSpec, layout: Layout, values: Values) -> list[CurveRanges]:
+    """Points of a polar diagram at round angles, called by them: no name upon another."""
+    path = spec.drawn_by("workbook")[0]
+    if path.y not in layout.columns:
+        return []
+    table = layout.columns[path.y][0]
+    angles = table.rows[:-1]
+    first = layout.rows_of(table)[0]
+    xs, ys = (values.columns[table.id][key.split(".")[1]] for key in (path.x, path.y))
+    radius = max((np.hypot(x, y) for x, y in zip(xs, ys, strict=True)), default=0.0)
+    round_ones = (index for index, angle in enumerate(angles) if angle % _ANGLE == 0)
+    kept: list[int] = []
+    for index in sorted(round_ones, key=lambda index: (angles[index] % (3 * _ANGLE), index)):
+        are_distant = all(
+            abs(xs[index] - xs[other]) > _NAME[0] * radius
+            or abs(ys[index] - ys[other]) > _NAME[1] * radius
+            for other in kept
+        )
+        if are_distant and len(kept) < _MOST_NAMES:
+            kept.append(index)
+    return [
+        CurveRanges(f"{angles[index]:g}°", *(
+            f"{quoted(table.sheet)}!${get_column_letter(layout.column_of(key))}${first + index}"
+            for key in (path.x, path.y)
+        ))
+        for index in sorted(kept)
+    ]  # fmt: skip
+
+
+def limits(spec: ChartSpec, layout: Layout, values: Values) -> list[float]:
+    """Common limits of both axes of a polar diagram: the run of its corners."""
+    return [float(values.scalars[key]) for key in layout.keys_of_run(spec.series[-1].x)]

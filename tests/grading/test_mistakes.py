@@ -1,0 +1,54 @@
+"""Formulas rewritten with one usual mistake: the mistake and nothing else."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from reports.grading.judging.mistakes import (
+    Flipped,
+    OtherExponent,
+    OtherRatio,
+    WithoutPowers,
+    WithoutSummand,
+)
+
+
+@pytest.mark.parametrize(
+    ("number", "wanted"),
+    [
+        (0, "-a + b - (c + d) * e"),
+        (1, "-a - b - (c - d) * e"),
+        (2, "-a - b + (c + d) * e"),
+        (3, "-a - b - (c + d) * e"),
+    ],
+)
+def test_the_sign_of_one_sum_is_turned(number: int, wanted: str) -> None:
+    found = Flipped(number, ast.Add, ast.Sub).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
+    assert ast.unparse(found) == wanted
+
+
+def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:
+    def rewritten(change: ast.NodeTransformer) -> str:
+        return ast.unparse(change.visit(ast.parse("a**n + b**(n - 1) + (c - d)**2", mode="eval")))
+
+    assert rewritten(OtherExponent(more=True)) == "a ** n + b ** n + (c - d) ** 2"
+    assert rewritten(OtherExponent(more=False)) == "a ** (n - 1) + b ** (n - 1) + (c - d) ** 2"
+    assert rewritten(WithoutPowers()) == "a ** n + b ** (n - 1) + (c - d)"
+
+
+def test_a_summand_is_left_out_where_there_is_one() -> None:
+    """Formulas of one item may have more of them or fewer."""
+    found = [ast.unparse(WithoutSummand(1).changed(ast.parse(text, mode="eval").body))
+             for text in ("a - b + c", "a", "a / (b - 1) ** (n - 1)")]  # fmt: skip
+    assert found == ["a - 0 + c", "a", "a / (b - 0) ** (n - 1)"]
+
+
+@pytest.mark.parametrize(
+    ("number", "wanted"),
+    [(None, "sin(a) / cos(sin(b))"), (0, "sin(a) / sin(cos(b))"), (2, "cos(a) / cos(cos(b))")],
+)
+def test_sine_and_cosine_are_taken_for_each_other(number: int | None, wanted: str) -> None:
+    found = OtherRatio(number).visit(ast.parse("cos(a) / sin(cos(b))", mode="eval"))
+    assert ast.unparse(found) == wanted

@@ -45,6 +45,6 @@ def source_digest() -> str:
     digest = hashlib.sha256()
     for folder in (Path(kshm.__file__).parent, Path(__file__).parents[1], templates_dir()):
         for path in sorted(folder.rglob("*")):
-            if path.suffix in (".py", ".j2"):
+            if path.suffix in (".py", ".j2", ".book"):
                 digest.update(path.read_bytes())
     return digest.hexdigest()

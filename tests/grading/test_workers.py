@@ -107,5 +107,5 @@ def test_a_part_takes_one_process_and_the_time_it_brings(monkeypatch: pytest.Mon
     """The cluster counts its workers by processors, and a person has set the seconds."""
     asked: list[dict[str, object]] = []
     monkeypatch.setattr(pool, "grade_all", lambda *_, **how: asked.append(how) or [])
-    assert pool._grade_here(pool.Part("{}", [], 7.0)) == []
+    assert pool._grade_here(pool.ClusterPart("{}", [], 7.0)) == []
     assert asked == [{"workers": 1, "timeout_s": 7.0}]

@@ -261,7 +261,7 @@ class Leak:
     """An asked item and where its values stand."""
 
     item: str
-    part: str
+    place: str
     count: int
 
 
@@ -273,7 +273,7 @@ def check_for_leaks(book: bytes, assignment: Assignment, source: str) -> None:
     """
     leaks = leaks_of(book, assignment)
     if leaks:
-        what = "; ".join(f"{leak.item} — {leak.part}" for leak in leaks[:6])
+        what = "; ".join(f"{leak.item} — {leak.place}" for leak in leaks[:6])
         more = f" и ещё {len(leaks) - 6}" if len(leaks) > 6 else ""
         items = (leak.item.partition(" ")[0] for leak in leaks)
         names = ", ".join(f'"{item}"' for item in dict.fromkeys(items))
@@ -359,7 +359,7 @@ def _of_columns(
             chance = size * len(given) / 9000
             if count >= max(_FEWEST, chance + 5 * sqrt(chance) + 2, 0.5 * size):
                 leaks.append(Leak(item, part, count))
-    return sorted(leaks, key=lambda leak: (leak.item, leak.part))
+    return sorted(leaks, key=lambda leak: (leak.item, leak.place))
 
 
 def _of_scalars(

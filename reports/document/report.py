@@ -209,7 +209,7 @@ class Report:
         body = Markup(texts.unbroken(_write(chapter, chosen(self.model.input), self.further)))
         if media == "print":
             sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
-            placed = arranged(body, sheets, run_on=_run_on(chapter, style))
+            placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(chapter, style))
             body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
         numbering.check()
         head, start, page = _whole(env, chapter, body).partition("<body>")

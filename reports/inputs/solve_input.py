@@ -65,12 +65,13 @@ MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
 
 
 def power_problems(model: InputFile) -> tuple[Problem, ...]:
-    """Problems of regimes whose stated power contradicts their diagram."""
+    """Problems of regimes whose stated power contradicts their diagram, whatever the grid."""
     regimes = (model.regime, *model.regimes)
     if all(regime.indicated_power_kw is None for regime in regimes):
         return ()
     try:
-        scalars = solved(model).scalars
+        coarse = model.calculation.step_deg > FINE
+        scalars = solved(refined(model) if coarse else model).scalars
     except (ValueError, InputError):
         return ()
     accepted = {entry.what for entry in model.checks.accepted} if model.checks else set()

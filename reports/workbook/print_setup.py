@@ -60,6 +60,7 @@ _LEAST = 0.45  # scale below which a sheet rather takes more pages, down and acr
 SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
 _BEGINNING = 3  # rows of a long list that stand with its heading
 _FINE = 54  # per cent to which nothing is made smaller only to save a page
+_SHOWN_ROWS = 40  # of a helper sheet
 _SQUEEZED = 0.3  # what is made smaller by less than this saves a page
 
 
@@ -273,6 +274,14 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
         _end_between(sheet, parts, width)
     sheet.print_area = area(Cell("", 1, 1), last)
     set_margins(sheet)
+
+
+def print_beginning(sheet: Worksheet) -> None:
+    """One page of a helper sheet, whose rows are alike and which nobody reads on paper."""
+    page = sheet.page_setup
+    page.fitToWidth = page.fitToHeight = 1
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.print_area = area(Cell("", 1, 1), Cell("", _SHOWN_ROWS, sheet.max_column))
 
 
 def set_margins(sheet: Worksheet) -> None:

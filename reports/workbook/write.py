@@ -12,7 +12,6 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.formula.excel import number
 from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
 from reports.model.evaluation import Values, evaluate_model
@@ -54,7 +53,7 @@ from reports.workbook.places import (
     top_of,
     wrap_across,
 )
-from reports.workbook.print_setup import UPRIGHT, set_page, set_widths
+from reports.workbook.print_setup import UPRIGHT, print_beginning, set_page, set_widths
 from reports.workbook.sheets import BlockWriter, CacheValues, link
 from reports.workbook.verdict import colour_verdicts, write_verdict
 
@@ -109,8 +108,7 @@ def _write_run(sheet: Worksheet, writer: BlockWriter, run: str) -> None:
     for column, (cell, angle) in enumerate(zip(cells, angles, strict=True), 2):
         _cell(sheet, writer, top, column, f"={cell.absolute}", angle)
     for row, (turn, order) in enumerate(_each(layout.run_orders[run]), top + 1):
-        writer.formula(sheet, row, 1, f"={number(order)}", order)
-        sheet.cell(row, 1).style = styles.NUMBER
+        sheet.cell(row, 1, order).style = styles.NUMBER
         for column, angle in enumerate(angles, 2):
             letter = get_column_letter(column)
             text = f"={turn.upper()}({letter}${top}*($A{row}*PI()/180))"
@@ -181,6 +179,8 @@ def assemble(
         # Of the points under the charts of the mechanism nobody needs a print.
         alone = sheet.title == motion.SHEET
         set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)
+    if WAVES_SHEET in book.sheetnames:
+        print_beginning(book[WAVES_SHEET])
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
             book.defined_names[name] = DefinedName(name, attr_text=address)

@@ -13,7 +13,7 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.compat import safe_string
 from openpyxl.worksheet.formula import ArrayFormula
 
-from reports.formula.excel import compile_formula
+from reports.formula.excel import compile_formula, number
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.handout import fill_cells
 from reports.model.blocks import TableSpec
@@ -35,15 +35,37 @@ def solved_formulas(assignment: Assignment, layout: Layout) -> dict[str, list[Fo
             rows = layout.rows_of(block)
             for column in block.columns:
                 if column.expr is not None:
-                    text = compile_formula(column.expr, RowReferences(layout, block))
+                    text = _typed(column.expr, layout, block)
                     found[f"{block.id}.{column.key}"] = [
                         at_row(text, row, last=row == rows[-1]) for row in rows
                     ]
         else:
             for node in fill_cells(block, layout):
                 expr = model.scalars[node].expr
-                found[node] = [compile_formula(expr, RowReferences(layout, None))]
+                found[node] = [_typed(expr, layout, None)]
     return found
+
+
+def _typed(expr: str, layout: Layout, block: TableSpec | None) -> str:
+    """Formula of a student; only in a product are all cells of a function taken."""
+    text = compile_formula(expr, TypedReferences(layout, block))
+    return re.sub(r"\bSUM\((?=(COS|SIN)\([^()]*\*\([^()]*\*PI\()", "SUMPRODUCT(", text)
+
+
+class TypedReferences(RowReferences):
+    """References of a student, who types the sines of an order: the hand-out has no helper."""
+
+    def wave(self, turn: str, angle: str, order: float | str) -> str:
+        """Sines or cosines of an order times a column."""
+        return self._turned(turn, self.column(angle, repeat_last=False), order)
+
+    def run_wave(self, turn: str, angles: str, order: float | str) -> str:
+        """The same of a run."""
+        return self._turned(turn, self.column(angles, repeat_last=True), order)
+
+    def _turned(self, turn: str, angles: str, order: float | str) -> str:
+        times = number(order) if isinstance(order, float) else self.name(order)
+        return f"{turn.upper()}({angles}*({times}*PI()/180))"
 
 
 def filled_book(

@@ -175,7 +175,7 @@ def test_results_of_another_program_are_made_anew(tmp_path, monkeypatch):
     (submitted / "a.xlsx").write_bytes(classroom.handout(1))
     for _ in range(2):
         run(submitted, tmp_path / "out")
-    monkeypatch.setattr(room, "program", lambda: "another")
+    monkeypatch.setattr(room, "source_digest", lambda: "another")
     run(submitted, tmp_path / "out")
     assert [count for count in marked if count] == [1, 1]
 

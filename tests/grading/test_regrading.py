@@ -72,6 +72,6 @@ def test_the_tables_of_before_stand_until_all_is_graded(tmp_path, monkeypatch):
             yield outcome
 
     monkeypatch.setattr(room, "grade_all", watched)
-    monkeypatch.setattr(room, "program", lambda: "another")
+    monkeypatch.setattr(room, "source_digest", lambda: "another")
     assert run(where, out)[2]["points"] == 55
     assert len(seen) == 2 and set(seen) == {table}

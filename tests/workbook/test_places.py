@@ -256,8 +256,11 @@ def test_lists_beside_a_table_stand_one_below_the_other(name: str) -> None:
     for title in tables:
         lists = [b for b in model.blocks if b.sheet == title and isinstance(b, ScalarTable)]
         assert len({layout.places[block.id].column for block in lists}) <= 1
-        cells = [layout.cells[scalar.key] for block in lists for scalar in block.scalars]
-        rows = [cell.row for cell in cells] + [layout.places[block.id].row for block in lists]
+        each = [
+            {layout.places[block.id].row, *(layout.cells[s.key].row for s in block.scalars)}
+            for block in lists
+        ]
+        rows = [row for own in each for row in own]
         assert len(set(rows)) == len(rows)
         met += len(lists) > 1
     assert met

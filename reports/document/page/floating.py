@@ -31,6 +31,8 @@ _SIZE = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 _SIZES = ("height", "most", "size")  # what the drawing functions call their size [mm]
 _TRIES = 8
 _CLOSE = 0.995  # of the height that there is
+_WITH_LETTERS = 0.92  # part of its size that a picture keeps whose letters shrink: 7.7 to 7 pt
+_FIGURE = re.compile(r'<figure id="([^"]+)"')
 
 
 def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, str], str]) -> str:
@@ -57,10 +59,8 @@ def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, s
 
 def smaller(draw: Callable[[], str], height: float) -> str | None:
     """A drawing within a height [pt]; ``None`` where its size is not to be chosen."""
-    if not isinstance(draw, partial):
-        return None
-    key = next((name for name in _SIZES if name in draw.keywords), None)
-    if key is None:
+    key = _size_key(draw)
+    if key is None or not isinstance(draw, partial):
         return None
     size, margins = float(draw.keywords[key]), 0.0
     svg: str = draw()
@@ -76,6 +76,12 @@ def smaller(draw: Callable[[], str], height: float) -> str | None:
         svg = draw.func(*draw.args, **draw.keywords | {key: size})
         margins = max(0.0, (_height(svg) - share * tall) / (1 - share))
     return None
+
+
+def _size_key(draw: Callable[[], str]) -> str | None:
+    """What a drawing calls its size; ``None`` where that is not to be chosen."""
+    chosen = draw.keywords if isinstance(draw, partial) else {}
+    return next((name for name in _SIZES if name in chosen), None)
 
 
 def _height(svg: str) -> float:
@@ -104,12 +110,15 @@ _SCANT = 0.3  # of a page, the last one before a chapter on a page of its own
 _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 
 
-def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
+def arranged(
+    body: str, style: Style, figures: Mapping[str, Figure] | None = None, *, run_on: float = 1.0
+) -> str:
     """The text with its figures and small tables where they leave no hole in the page.
 
     Args:
         body: HTML of the chapters.
         style: Sizes of sheet and type.
+        figures: Plans by the ids of the figures.
         run_on: A numbered chapter follows on the same page if this share of it is free.
     """
     room = style.height_px - _SLACK
@@ -117,7 +126,7 @@ def arranged(body: str, style: Style, *, run_on: float = 1.0) -> str:
     out: list[str] = []
     chapter: list[Block] = []
     spot = Spot(room, page=0)
-    for block in _blocks(str(body), style):  # no Markup: nothing is escaped here
+    for block in _blocks(str(body), style, figures or {}):  # no Markup: nothing is escaped here
         if block.kind == "chapter":
             placed, end = filled(chapter, spot, room, line)
             follows = bool(chapter) and not {_number(chapter[0]), _number(block)} & {""}
@@ -155,7 +164,7 @@ def _number(chapter: Block) -> str:
     return match[1] if match else ""
 
 
-def _blocks(body: str, style: Style) -> Iterator[Block]:
+def _blocks(body: str, style: Style, figures: Mapping[str, Figure]) -> Iterator[Block]:
     """Blocks of the body; a table's caption, box and end are one."""
     table: list[str] = []
     for html, tag, attributes in _elements(body):
@@ -165,7 +174,15 @@ def _blocks(body: str, style: Style) -> Iterator[Block]:
                 yield _table("\n".join(table), style)
                 table = []
             continue
-        yield _block(html, tag, attributes, style)
+        block = _block(html, tag, attributes, style)
+        yield replace(block, least=_WITH_LETTERS) if _shrinks_letters(html, figures) else block
+
+
+def _shrinks_letters(html: str, figures: Mapping[str, Figure]) -> bool:
+    """Whether a picture is not drawn anew, so that its letters shrink with it."""
+    name = _FIGURE.match(html)
+    plan = figures.get(name[1]) if name else None
+    return plan is not None and _size_key(plan.draw) is None
 
 
 def _elements(body: str) -> Iterator[tuple[str, str, str]]:

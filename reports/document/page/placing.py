@@ -16,7 +16,6 @@ Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 
 _HEADING = re.compile(r"<h[1-3]")
 WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
-_LEAST = 0.7  # to which a figure may be reduced to fit the foot of a page
 _TOGETHER = 3  # rows of a table that stand together at its beginning and at its end
 _DIVIDED = 4  # lines of the least paragraph that is divided
 _LAYOUTS = 24  # that are followed
@@ -58,6 +57,7 @@ class Block:
     above: float = 0.0  # margins; the larger of two that meet is kept
     below: float = 0.0
     figure: float = 0.0  # of it the picture, which may be reduced
+    least: float = 0.7  # part to which the picture may be reduced to fit the foot of a page
     head: float = 0.0  # of it what a table repeats on each page that it goes on to
     rows: tuple[float, ...] = ()
     line: float = 0.0  # of a paragraph
@@ -176,7 +176,7 @@ def _put(
             spare -= max(margin, other.above) + other.height
             margin, figures = other.below, figures + other.figure
         lost = (_SPARE - spare) / figures if spot.used or other else 1.0
-        if 0 < lost <= 1 - _LEAST:
+        if 0 < lost <= 1 - block.least:
             end = begin + block.height - lost * block.figure
             cost = spot.cost + _SMALLER * lost**2
             yield _reduced(block, 1 - lost), Spot(end, block.below, spot.page, cost)

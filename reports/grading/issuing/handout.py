@@ -36,7 +36,14 @@ from reports.shared.errors import InputError, Problem
 from reports.workbook import styles
 from reports.workbook.caches import sheet_parts
 from reports.workbook.inputs import shown
-from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell, Layout, check_names
+from reports.workbook.layout import (
+    CONTENTS_SHEET,
+    INPUT_SHEET,
+    WAVES_SHEET,
+    Cell,
+    Layout,
+    check_names,
+)
 from reports.workbook.sheets import BlockWriter
 from reports.workbook.write import assemble, saved
 
@@ -77,7 +84,8 @@ class _HandoutWriter(BlockWriter):
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
     ) -> None:
         """A given number, or a formula without a saved value; a value to be found stays out."""
-        if Cell(sheet.title, row, column) in self.live:
+        # Sines of orders follow the student's own angles and tell no answer.
+        if sheet.title == WAVES_SHEET or Cell(sheet.title, row, column) in self.live:
             super().formula(sheet, row, column, text, "")
             return
         known = value if isinstance(value, str) else float(value)

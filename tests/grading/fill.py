@@ -26,8 +26,11 @@ Value = str | float | ArrayFormula | None
 _CELL = re.compile(rb'(<c r="([A-Z]+[0-9]+)"(?: s="[0-9]+")?)[^>]*?(?:/>|>.*?</c>)')
 
 
-def solved_formulas(assignment: Assignment, layout: Layout) -> dict[str, list[Formula]]:
-    """Node → what the solved book has in its cells."""
+def solved_formulas(
+    assignment: Assignment, layout: Layout, *, typed: bool = True
+) -> dict[str, list[Formula]]:
+    """Node → what a student types, or the solved book has in its cells."""
+    compiled = _typed if typed else _as_solved
     model = assignment.model
     found: dict[str, list[Formula]] = {}
     for block in assignment.fill:
@@ -35,14 +38,14 @@ def solved_formulas(assignment: Assignment, layout: Layout) -> dict[str, list[Fo
             rows = layout.rows_of(block)
             for column in block.columns:
                 if column.expr is not None:
-                    text = _typed(column.expr, layout, block)
+                    text = compiled(column.expr, layout, block)
                     found[f"{block.id}.{column.key}"] = [
                         at_row(text, row, last=row == rows[-1]) for row in rows
                     ]
         else:
             for node in fill_cells(block, layout):
                 expr = model.scalars[node].expr
-                found[node] = [_typed(expr, layout, None)]
+                found[node] = [compiled(expr, layout, None)]
     return found
 
 
@@ -52,8 +55,12 @@ def _typed(expr: str, layout: Layout, block: TableSpec | None) -> str:
     return re.sub(r"\bSUM\((?=(COS|SIN)\([^()]*\*\([^()]*\*PI\()", "SUMPRODUCT(", text)
 
 
+def _as_solved(expr: str, layout: Layout, block: TableSpec | None) -> str:
+    return compile_formula(expr, RowReferences(layout, block))
+
+
 class TypedReferences(RowReferences):
-    """References of a student, who types the sines of an order: the hand-out has no helper."""
+    """References of a student, who types the sines of an order."""
 
     def wave(self, turn: str, angle: str, order: float | str) -> str:
         """Sines or cosines of an order times a column."""

@@ -8,7 +8,7 @@ is the row above, ``^`` the first row, ``|`` the whole column; ``{row}`` is the 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -79,8 +79,6 @@ class Base:
         self, texts: Mapping[str, str], pasted: Mapping[str, str] | None = None
     ) -> dict[str, dict[str, Any]]:
         """Lines of the feedback by node where some nodes are filled in otherwise."""
-        register, folder, marker = self._issued
-        book = register.books[0]
         values = evaluate_model(self.assignment.model)
 
         def numbers(node: str) -> list[float | str]:
@@ -107,8 +105,18 @@ class Base:
                 for row, value in enumerate(numbers(node), 1):
                     sheet.cell(row, column).value = value
 
+        return self.marked(changes, edit if copied else None)
+
+    def marked(
+        self,
+        changes: Mapping[str, list[Formula]],
+        edit: Callable[[Workbook, Layout], None] | None = None,
+    ) -> dict[str, dict[str, Any]]:
+        """Lines of the feedback by node where some nodes have these cells."""
+        register, folder, marker = self._issued
+        book = register.books[0]
         empty = (folder / "issued" / book.folder / book.file).read_bytes()
-        data = filled_book(empty, self.assignment, changes, edit if copied else None)
+        data = filled_book(empty, self.assignment, changes, edit)
         result = marker.mark(Submission("р.xlsx", Path("р.xlsx"), None, None), data)
         assert result["status"] == "graded", result
         items = {node: item.id for item in self.assignment.items for node in item.nodes}

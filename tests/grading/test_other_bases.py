@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from reports.workbook.layout import WAVES_SHEET, Layout
+from tests.grading.fill import solved_formulas
 from tests.grading.other_bases import Base
 
 V6 = Base(
@@ -268,6 +270,18 @@ def base(request: pytest.FixtureRequest) -> Base:
 def test_honest_formulas_are_right(base):
     lines = base.marks(base.honest)
     assert {n: x["verdict"] for n, x in lines.items() if x["verdict"] != "right"} == {}
+
+
+@pytest.mark.xdist_group("base V6")
+def test_sines_of_the_hand_out_are_paid_like_typed_ones():
+    """They were numbers that followed no angle of the student: every sum over them was wrong."""
+    solved = solved_formulas(V6.assignment, Layout.of(V6.assignment.model), typed=False)
+    pointed = {
+        node: texts for node, texts in solved.items() if any(WAVES_SHEET in str(t) for t in texts)
+    }
+    assert len(pointed) > 3
+    lines = V6.marked(pointed)
+    assert {lines[node]["verdict"] for node in pointed if node in lines} == {"right"}
 
 
 def test_mistakes_are_told_and_cost_no_other_column(base):

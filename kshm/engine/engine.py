@@ -285,7 +285,7 @@ def _degrees(angle: float) -> str:
 STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
 MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
 PEAK_PRESSURE = (1.2, 25.0)  # [MPa]
-SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
+USUAL_SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
 _RECIPROCATING = (30.0, 2000.0)  # over the piston's area [kg/m²], from models to ships
 
 

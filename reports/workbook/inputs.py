@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from itertools import groupby
+from textwrap import shorten
 
 from openpyxl.formatting.rule import CellIsRule
 from openpyxl.worksheet.datavalidation import DataValidation
@@ -22,6 +23,8 @@ from reports.workbook.layout import (
     VALUE_COLUMN,
     Layout,
 )
+
+_TITLE_LETTERS = 32  # of a message box, as much as Excel takes
 
 
 def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
@@ -117,7 +120,7 @@ def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
         rule.error = f"Допустимо {range_text(item)} {item.unit}".strip() + "."
     else:
         return
-    rule.errorTitle = item.title[:32]
+    rule.errorTitle = shorten(item.title, _TITLE_LETTERS, placeholder="…")
     rule.showErrorMessage = True
     sheet.add_data_validation(rule)
     rule.add(coordinate)

@@ -32,6 +32,7 @@ from reports.workbook.sheets import BlockWriter
 SHEET = "Механизм"
 ANGLE, CYLINDER = "view_phi_deg", "view_cylinder"
 # Values whose size goes with the engine's: they have the decimals of their columns.
+_ON_PIN = quantity("Krod_MPa")
 _AS_IN_TABLES = {"gas_V": "volume_dm3", "torque": "Msum_Nm"}
 _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"}
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
@@ -194,7 +195,7 @@ def _chosen(sheet: Worksheet, writer: BlockWriter, view: _View, shape: Shape, sm
         ("gas_V", "Объём V", "дм³", at_psi("gas.volume_dm3")),
         ("torque", "Суммарный момент ΣM", "Н·м", "element(P4_2.Msum_Nm, view_row)"),
         ("pin_T", "Нагрузка шейки: T", "МПа", of_pin("crankpin.T_MPa")),
-        ("pin_K", "K − Kr ш", "МПа", of_pin("crankpin.Krod_MPa")),
+        ("pin_K", f"Нагрузка шейки: {_ON_PIN.symbol}", "МПа", of_pin("crankpin.Krod_MPa")),
         ("r", "Радиус кривошипа r", "мм", "to_mm(r_crank)"),
         ("L", "Длина шатуна L", "мм", "to_mm(L_rod)"),
         ("D", "Диаметр цилиндра D", "мм", "to_mm(sqrt(4*F_piston/pi))"),
@@ -330,7 +331,7 @@ def _charts(
                  curve("P", "P4_1.phi_deg", "P4_1.Ps_MPa"), of["силы"]], turn=turn),
         drawing("Крутящий момент двигателя", ("φ, °", "ΣM, Н·м"),
                 [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]], turn=turn),
-        drawing("Нагрузка шатунной шейки 1", ("T, МПа", "K − Kr ш, МПа"),
+        drawing("Нагрузка шатунной шейки 1", ("T, МПа", _ON_PIN.header),
                 [curve("R", "crankpin.T_MPa", "crankpin.Krod_MPa"), of["шейка"],
                  Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE,
                 limit=max(map(abs, writer.caches.ranges[limits]))),

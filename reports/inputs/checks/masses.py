@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from kshm.engine.engine import SMALL_END_SHARE
+from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from reports.inputs.findings import Finding, ValidValues, radius_and_rod
 from reports.inputs.sections.mechanism import ESTIMATE_EXTRA, SWUNG, WEIGHED
 from reports.inputs.units import is_within, number_text, span_text
@@ -141,9 +141,9 @@ def _centre(values: ValidValues) -> Iterator[Finding]:
         if pair is None:
             return
         share = 1 - centre / pair[1]
-    if share is not None and not is_within(share, SMALL_END_SHARE):
+    if share is not None and not is_within(share, USUAL_SMALL_END_SHARE):
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
-        hint = f"обычно {span_text(SMALL_END_SHARE[0], SMALL_END_SHARE[1])}"
+        hint = f"обычно {span_text(USUAL_SMALL_END_SHARE[0], USUAL_SMALL_END_SHARE[1])}"
         yield Finding(("masses", key), what, hint, warning=True)
 
 
@@ -171,13 +171,13 @@ def _swung(values: ValidValues) -> Iterator[Finding]:
         what = "по качаниям момент инерции шатуна отрицателен"
         yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
         return
-    if pair is not None and not is_within(1 - centre / pair[1], SMALL_END_SHARE):
+    if pair is not None and not is_within(1 - centre / pair[1], USUAL_SMALL_END_SHARE):
         share = number_text(round(1 - centre / pair[1], 4))
         what = f"доля массы шатуна у пальца {share} необычна"
         yield Finding(
             path,
             what,
-            f"обычно {span_text(SMALL_END_SHARE[0], SMALL_END_SHARE[1])}",
+            f"обычно {span_text(USUAL_SMALL_END_SHARE[0], USUAL_SMALL_END_SHARE[1])}",
             warning=True,
         )
 

@@ -16,8 +16,8 @@ from reports.workbook.charts import curves_chart
 from reports.workbook.places import top_of
 from reports.workbook.plain_book import hang
 from reports.workbook.print_setup import PAPER
-from tests.comparison.test_compare import run, sources
-from tests.sweep.test_sweep import BASE, VARY
+from tests.studies.test_compare import run, sources
+from tests.studies.test_sweep import BASE, VARY
 from tests.workbook.test_places import boxes_of, problems
 
 

@@ -37,6 +37,7 @@ from reports.inputs.sections.input_file import (
 )
 from reports.inputs.sections.report import FILE_KEYS
 from reports.inputs.to_si.masses import sizes_of
+from reports.inputs.toml_errors import decimal_commas, toml_error
 from reports.shared.errors import InputError, Problem, one_line
 
 MOST_REGIMES = 4
@@ -140,7 +141,12 @@ def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loade
         if problems:
             raise InputError(problems)
     filled = with_points(normalise(raw, source), folder, source)
-    return replace(load_mapping(filled.raw, source=source), beside=filled.files, notes=filled.notes)
+    try:
+        loaded = load_mapping(filled.raw, source=source)
+    except InputError as error:
+        likely = [Problem(one_line(source, 120), *words) for words in decimal_commas(text)]
+        raise InputError([*likely, *error.problems]) from None
+    return replace(loaded, beside=filled.files, notes=filled.notes)
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:
@@ -167,7 +173,7 @@ def tables_of(text: str, *, source: str) -> dict[str, Any]:
     except RecursionError:
         raise refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
     except ValueError as error:  # TOMLDecodeError, or an integer of thousands of digits
-        what, hint = messages.toml_error(error, text)
+        what, hint = toml_error(error, text)
         raise refused(source, what, hint) from None
 
 
@@ -304,7 +310,7 @@ class _SectionReader:
         for name, about in SECTIONS.items():
             if name not in data and not about.optional:
                 if name not in guessed:
-                    hint = f"добавьте раздел [{name}]"
+                    hint = f"добавьте раздел [{name}], ключи его покажет «kshm new»"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
             if about.absent and name not in data:

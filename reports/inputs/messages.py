@@ -1,4 +1,4 @@
-"""Russian messages for errors of pydantic and the TOML parser."""
+"""Russian messages for errors of pydantic."""
 
 from __future__ import annotations
 
@@ -67,6 +67,9 @@ def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) ->
     if fault == "string_too_long":
         return f"слишком длинная строка, {len(str(value))} знаков", f"допустимо до {MAX_TEXT}"
     if fault == "control_character":
+        if "\n" not in str(value).strip() and set(str(value)) & set("\t\b\f\r"):
+            what = "в строке обратная черта «\\» со знаком, как в «\\t»"
+            return what, "пишите в путях прямую черту: «папка/файл.csv»"
         return "в строке есть управляющие символы", "оставьте одну строку обычного текста"
     return _explain_shape(fault, value)
 
@@ -118,6 +121,14 @@ def likely_word(word: str, words: Iterable[str]) -> str | None:
     return close[0] if close else None
 
 
+_LOOK_ALIKE = str.maketrans("аеорсухкмтіАВЕКМНОРСТХУ", "aeopcyxkmtiABEKMHOPCTXY")
+
+
+def latin(word: str) -> str:
+    """Return a word with Latin letters for the Cyrillic ones that look the same."""
+    return word.translate(_LOOK_ALIKE)
+
+
 def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
     """Return (what, hint) for a key `model` does not know."""
     what = "неизвестный ключ"
@@ -125,6 +136,9 @@ def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
         if any(key in hints(candidate) for candidate in models):
             other = "при другом source" if model in models else f"в разделе {home}"
             return what, f"такой ключ есть {other}"
+    strange = next((sign for sign in key if sign != latin(sign)), "")
+    if strange and latin(key) in hints(model):
+        return f"в ключе русская буква «{strange}»", f"напишите латиницей: {latin(key)}"
     likely = likely_key(key, model)
     return what, f"возможно, имелся в виду {likely}" if likely else "удалите его"
 
@@ -146,40 +160,3 @@ def meta_at(model: type[Strictly], path: tuple[str | int, ...]) -> Meta | None:
     if not metas:
         return None
     return metas[0].numbered(numbers[0] + 1) if numbers else metas[0]
-
-
-_TOML = (
-    ("Cannot overwrite a value", "ключ задан дважды"),
-    ("Cannot declare", "раздел задан дважды"),
-    ("Cannot mutate immutable", "раздел задан дважды"),
-    ("Cannot redefine namespace", "раздел задан дважды"),
-    ("Unterminated string", "строка не закрыта кавычкой"),
-    ("Unclosed array", "список не закрыт скобкой «]»"),
-    (r"Illegal character '\n'", "строка не закрыта кавычкой"),
-    ("Illegal character", "недопустимый символ"),
-    ("Invalid value", "после знака «=» нет допустимого значения"),
-    ("Expected '=' after a key", "после ключа нет знака «=»"),
-    ("Expected ']'", "заголовок раздела не закрыт скобкой «]»"),
-    ("Expected newline or end of document", "лишние символы после значения"),
-    ("Invalid statement", "непонятная строка"),
-    ("Invalid initial character for a key part", "непонятный ключ"),
-)
-
-
-def toml_error(error: Exception, text: str) -> tuple[str, str]:
-    """Return (what, hint) for an error of the TOML parser."""
-    message = str(error)
-    what = next((russian for english, russian in _TOML if english in message), "ошибка записи TOML")
-    position = re.search(r"\(at line (\d+), column (\d+)\)", message)
-    if position is None:
-        if "end of document" in message:
-            return "файл обрывается на середине записи", "восстановите его конец"
-        return what, "проверьте запись по примеру из «kshm new»"
-    row, column = int(position[1]), int(position[2])
-    # tomllib counts lines by "\n" only; splitlines() would also cut at other breaks.
-    lines = text.replace("\r\n", "\n").split("\n")
-    line = lines[row - 1] if row <= len(lines) else ""
-    hint = f"строка: {shown(line.strip())}" if line.strip() else ""
-    if re.search(r"=\s*[-+]?\d+,\d", line):
-        hint = "десятичный разделитель — точка, а не запятая"
-    return f"строка {row}, столбец {column}: {what}", hint

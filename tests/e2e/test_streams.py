@@ -51,8 +51,13 @@ COMMANDS = [
 ]
 
 
-@pytest.mark.parametrize("encoding", ["cp1251", "cp866", "ascii", "utf-8"])
-@pytest.mark.parametrize(("words", "told"), COMMANDS[:5])
+@pytest.mark.parametrize(
+    ("words", "told", "encoding"),
+    [
+        *((*COMMANDS[0], encoding) for encoding in ("cp866", "ascii", "utf-8")),
+        *((*command, "cp1251") for command in COMMANDS[:5]),
+    ],
+)
 def test_what_is_redirected_is_whole_in_utf_8(
     tmp_path: Path, words: str, told: str, encoding: str
 ) -> None:
@@ -110,16 +115,15 @@ def closing(*numbers: int) -> Callable[[], None]:
     return lambda: [os.close(number) for number in numbers] and None
 
 
-@pytest.mark.parametrize("numbers", [(1,), (2,), (1, 2), (0, 1), (0, 1, 2)])
 @pytest.mark.parametrize(
-    ("words", "code"),
+    ("words", "code", "numbers"),
     [
-        ("solve ENGINE", 0),
-        ("solve ENGINE --json -", 0),
-        ("new", 0),
-        ("--help", 0),
-        ("check none.toml", 2),
-        ("build ENGINE --only html -o OUT", 1),  # the book of a coarse grid is told
+        *(("solve ENGINE", 0, numbers) for numbers in ((1,), (2,), (1, 2), (0, 1), (0, 1, 2))),
+        ("solve ENGINE --json -", 0, (0, 1, 2)),
+        ("new", 0, (0, 1)),
+        ("--help", 0, (1, 2)),
+        ("check none.toml", 2, (0, 1, 2)),
+        ("build ENGINE --only html -o OUT", 1, (1, 2)),  # the book of a coarse grid is told
     ],
 )
 def test_a_closed_stream_ends_quietly(

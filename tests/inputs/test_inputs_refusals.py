@@ -72,7 +72,10 @@ CASES = {
         {"geometry.bore_mm": 10**400},
         f"geometry.bore_mm: нужно число, а задано: слишком большое целое число; {BORE}",
     ),
-    "missing section": ({"regime": GONE}, "regime: нет раздела; добавьте раздел [regime]"),
+    "missing section": (
+        {"regime": GONE},
+        "regime: нет раздела; добавьте раздел [regime], ключи его покажет «kshm new»",
+    ),
     "missing key": (
         {"geometry.bore_mm": GONE},
         f"geometry.bore_mm: обязательный ключ не задан (Диаметр цилиндра); {BORE}",

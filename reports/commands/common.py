@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -83,6 +84,13 @@ def tell_written(target: Path, more: str = "") -> None:
     from reports.shared.files import is_output
 
     click.echo(f"{target}{more}", err=is_output(target))
+
+
+def tell_next(command: str, path: Path) -> None:
+    """Print the command that follows, on stderr: the output stays what was asked for."""
+    program = os.environ.get("KSHM_COMMAND", "kshm")  # as the script calls it that was typed
+    name = f'"{path}"' if " " in str(path) else str(path)
+    click.echo(f"Дальше: {program} {command} {name}", err=True)
 
 
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:

@@ -23,6 +23,7 @@ from reports.commands.common import (
     number_option,
     path_option,
     tell,
+    tell_next,
     tell_solved,
     tell_written,
     verbose_option,
@@ -72,6 +73,7 @@ def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: 
         raise KshmError(f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его")
     write_text(output, text)
     tell_written(output)
+    tell_next("check", output)
     return DONE
 
 
@@ -144,6 +146,7 @@ def check(source: Path, as_json: bool) -> int:
     tell(loaded, source)
     click.echo(f"{source}: ошибок нет")
     odd = tell_solved(loaded)
+    tell_next("build", source)
     return LOOK if warnings or odd else DONE
 
 
@@ -252,8 +255,6 @@ def build(
     for built in build_each(inputs, folder, only, dask, _chapters, style):  # type: ignore[arg-type]
         for path in built.files:
             click.echo(f"{path}")
-        for line in built.accepted:
-            click.echo(f"Принято: {line}", err=True)
         for line in built.failed:
             click.echo(f"Внимание: {line}", err=True)
             code = max(code, LOOK)

@@ -41,12 +41,11 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """Written files, skipped ones with reasons, failed and explained checks."""
+    """Written files, skipped ones with reasons, failed checks."""
 
     files: tuple[Path, ...]
     missing: SystemPartMissing | None = None
     failed: tuple[str, ...] = ()
-    accepted: tuple[str, ...] = ()
 
 
 def load_input(path: Path) -> Loaded:
@@ -141,8 +140,7 @@ def build(
         from reports.document.report import remarks_on
 
         failed += remarks_on(loaded.model, path.parent, style)
-    accepted = tuple(check.line() for check in checks if check.reason)
-    return Built(tuple(making.files), missing, failed, accepted)
+    return Built(tuple(making.files), missing, failed)
 
 
 def needs(kinds: Sequence[Kind]) -> None:
@@ -250,12 +248,11 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Delivery:
-    """Files by name, what the other machine lacked, failed checks and explained ones."""
+    """Files by name, what the other machine lacked, failed checks."""
 
     files: list[tuple[str, bytes]]
     missing: tuple[str, str, str] | None = None
     failed: tuple[str, ...] = ()
-    accepted: tuple[str, ...] = ()
 
 
 def build_each(
@@ -298,7 +295,7 @@ def build_each(
             part, command, purpose = delivery.missing
             missing = SystemPartMissing(part, command, purpose=purpose)
         files = tuple(folder / name for name, _ in delivery.files)
-        yield Built(files, missing, delivery.failed, delivery.accepted)
+        yield Built(files, missing, delivery.failed)
 
 
 def delivered(order: Order) -> Delivery:
@@ -310,7 +307,7 @@ def delivered(order: Order) -> Delivery:
         files = [(path.name, path.read_bytes()) for path in built.files]
         lacks = built.missing
         missing = (lacks.part, lacks.command, lacks.purpose) if lacks else None
-        return Delivery(files, missing, built.failed, built.accepted)
+        return Delivery(files, missing, built.failed)
 
 
 def _order(

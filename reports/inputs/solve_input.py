@@ -266,9 +266,23 @@ def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
     return bool(taken - sums.min() > 1e-6 * sums.mean())
 
 
+_USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
+
+
 def grid_remark(model: InputFile) -> str:
-    """Errors of the table step in one line, empty without any."""
-    return remark_on(grid_errors(model), model)
+    """Errors of the table step in results that people use, in one line; empty without any."""
+    errors = grid_errors(model)
+    used = [error for error in errors if _USED.fullmatch(error.key)]
+    if not used:
+        return ""
+    first = max(used, key=lambda error: abs(error.percent))
+    coarse, fine, unit = _written(first)
+    others = f"; других таких результатов: {len(errors) - 1}" if len(errors) > 1 else ""
+    step = fixed(model.calculation.step_deg, 0)
+    return (
+        f"Шаг таблиц {step}°: {first.title} {coarse}{unit}, с шагом 1° {fine}{unit}{others}; "
+        "шаг задаёт calculation.step_deg"
+    )
 
 
 def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
@@ -285,10 +299,15 @@ def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
     )
 
 
-def _said(error: GridError) -> str:
-    q = error.quantity
+def _written(error: GridError) -> tuple[str, str, str]:
+    """Both values and the unit as a sentence has them."""
+    label = error.quantity.unit_label
     coarse, fine = (written(value, error.digits) for value in (error.coarse, error.fine))
-    unit = q.unit_label if q.unit_label in ("", "°") else f"{NBSP}{q.unit_label}"
+    return coarse, fine, label if label in ("", "°") else f"{NBSP}{label}"
+
+
+def _said(error: GridError) -> str:
+    coarse, fine, unit = _written(error)
     return f"{error.title}: {coarse} вместо {fine}{unit}"
 
 

@@ -16,7 +16,8 @@ from reports.inputs.findings import Finding
 from reports.inputs.units import number_text
 
 if TYPE_CHECKING:
-    from reports.inputs.sections.input_file import InputFile
+    from reports.inputs.sections.input_file import EngineSection, InputFile
+    from reports.inputs.sections.mechanism import ArticulatedSection, CrankshaftSection
 
 _ORDER = re.compile(r"\d{1,2}(\s*[-–—,]\s*\d{1,2})*")
 _PATH = ("crankshaft", "firing_order")
@@ -48,13 +49,19 @@ def arrangement(
 
 def arrangement_of(model: InputFile) -> Arrangement:
     """Return the arrangement of a checked input."""
-    shaft = model.crankshaft
+    return places_of(model.engine, model.crankshaft, model.articulated)
+
+
+def places_of(
+    engine: EngineSection, shaft: CrankshaftSection, articulated: ArticulatedSection | None
+) -> Arrangement:
+    """Return the arrangement of the sections of a checked input."""
     places = arrangement(
-        model.engine.layout,
-        model.engine.cylinders,
+        engine.layout,
+        engine.cylinders,
         shaft.bank_angle_deg,
         shaft.split_pin_deg,
-        articulated=model.articulated is not None,
+        articulated=articulated is not None,
     )
     if places is None:
         raise ValueError("the layout has no arrangement")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import difflib
 import math
 from collections.abc import Iterator, Sequence
@@ -15,10 +14,9 @@ from numpy.typing import NDArray
 from kshm.chain.solve import solve_chunks
 from kshm.cycle.cycle import CycleRun
 from kshm.engine.engine import Engine
-from reports.inputs.fields import Field, Path, iter_fields, set_value, to_mapping
-from reports.inputs.load import load_mapping
+from reports.inputs.fields import Field, Path, iter_fields, to_mapping
+from reports.inputs.revisions import Revisions
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.studies.quantities import ChosenQuantities, of_batch
@@ -192,8 +190,9 @@ def solved(task: SweepTask) -> Chunk:
             values[name][here] = numbers
         for row, reason in zip(here, reasons, strict=True):
             errors[row] = reason
+    finite = np.all([np.isfinite(each) for each in values.values()], axis=0)
     for row in places:
-        if not all(np.isfinite(each[row]) for each in values.values()):
+        if not finite[row]:
             errors[row] = errors[row] or NOT_FINITE
     return Chunk(task.rows, values, errors)
 
@@ -201,20 +200,14 @@ def solved(task: SweepTask) -> Chunk:
 def _engines(
     task: SweepTask, errors: list[str]
 ) -> tuple[list[tuple[Engine, CycleRun | None]], list[int]]:
-    raw = copy.deepcopy(task.raw)
+    revisions = Revisions(task.raw, task.source, task.paths)
     engines: list[tuple[Engine, CycleRun | None]] = []
     places: list[int] = []
     for number, row in enumerate(task.rows):
-        _put(raw, task.paths, row)
         try:
-            engines.append(engine_and_cycle(load_mapping(raw, source=task.source).model))
+            engines.append(revisions.engine(row))
         except KshmError as error:
             errors[number] = error.lines()[0]
         else:
             places.append(number)
     return engines, places
-
-
-def _put(raw: dict[str, Any], paths: Sequence[Path], row: Sequence[float | int]) -> None:
-    for path, value in zip(paths, row, strict=True):
-        set_value(raw, path, value)

@@ -235,8 +235,13 @@ PAIRS = (
 def check_pairs(values: ValidValues) -> Iterator[Finding]:
     """Yield the pairs of a file that do not hold, each once."""
     for pair in PAIRS:
-        if pair.what and is_of(pair, values.get("engine", "strokes"), lambda k: _at(values, k)):
-            yield from _told(pair, values)
+        yield from check_pair(pair, values)
+
+
+def check_pair(pair: Pair, values: ValidValues) -> Iterator[Finding]:
+    """Yield one pair if it does not hold."""
+    if pair.what and is_of(pair, values.get("engine", "strokes"), lambda k: _at(values, k)):
+        yield from _told(pair, values)
 
 
 def is_of(pair: Pair, strokes: int | None, there: Callable[[str], object]) -> bool:

@@ -6,9 +6,10 @@ all errors are found at once; it keeps silent about what it cannot judge.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
-from reports.inputs.checks.bearings import check_bearings, check_pairs
+from reports.inputs.checks.bearings import PAIRS, check_bearings, check_pair
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
 from reports.inputs.checks.masses import check_masses
@@ -116,21 +117,6 @@ LENGTH_TOLERANCE = 1e-3
 USUAL_LAMBDA = (0.15, 0.45)
 
 
-def check(values: ValidValues) -> Iterator[Finding]:
-    """Yield all contradictions between fields, errors and warnings."""
-    yield from _geometry(values)
-    yield from check_pairs(values)
-    yield from check_layout(values)
-    yield from _arms(values)
-    yield from check_masses(values)
-    yield from check_gas(values)
-    yield from check_cycle(values)
-    yield from check_torsion(values)
-    yield from check_bearings(values)
-    yield from check_reference(values)
-    yield from check_accepted(values)
-
-
 def _geometry(values: ValidValues) -> Iterator[Finding]:
     keys = ("crank_radius_mm", "stroke_mm", "rod_length_mm", "lambda")
     if not values.sure("geometry", *keys):
@@ -182,3 +168,16 @@ def _arms(values: ValidValues) -> Iterator[Finding]:
             what = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {whole})"
             hint = "задайте l1, l2 и l5, l6 больше нуля"
             yield Finding(("crankshaft", "arms", index), what, hint)
+
+
+Check = Callable[[ValidValues], Iterator[Finding]]
+CHECKS: tuple[Check, ...] = (
+    _geometry, *(partial(check_pair, pair) for pair in PAIRS), check_layout, _arms, check_masses,
+    check_gas, check_cycle, check_torsion, check_bearings, check_reference, check_accepted,
+)  # fmt: skip
+
+
+def check(values: ValidValues) -> Iterator[Finding]:
+    """Yield all contradictions between fields, errors and warnings."""
+    for each in CHECKS:
+        yield from each(values)

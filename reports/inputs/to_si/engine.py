@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
+
+from pydantic import BaseModel
 
 from kshm.cycle.cycle import CycleRun
 from kshm.cycle.diagram import polytropic_gas
@@ -13,7 +16,7 @@ from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
 from kshm.engine.gas import Gas, PolytropicGas, RoundedGas, TabulatedGas
 from kshm.engine.torsion import Torsion, TrainMass
 from kshm.nomenclature.quantity import smallness
-from reports.inputs.firing import arrangement_of
+from reports.inputs.firing import places_of
 from reports.inputs.meta import solver_values
 from reports.inputs.sections.bearings import MATERIALS, OILS, BearingsSection
 from reports.inputs.sections.gas import (
@@ -29,10 +32,16 @@ from reports.inputs.sections.gas import (
     RoundedGasSection,
     TableGasSection,
 )
-from reports.inputs.sections.input_file import GeometrySection, InputFile, RegimeSection
+from reports.inputs.sections.input_file import (
+    DesignGeometrySection,
+    GeometrySection,
+    InputFile,
+    RegimeSection,
+)
 from reports.inputs.sections.mechanism import (
     ArmsSection,
     ArticulatedSection,
+    BalanceSection,
     CrankshaftSection,
     WebSection,
 )
@@ -118,10 +127,15 @@ def to_engine(model: InputFile) -> Engine:
     return engine_and_cycle(model)[0]
 
 
-def engine_and_cycle(model: InputFile) -> tuple[Engine, CycleRun | None]:
-    """Return the engine in SI units and the cycle calculation that its gas comes from."""
+def engine_and_cycle(
+    model: InputFile, kept: KeptParts | None = None
+) -> tuple[Engine, CycleRun | None]:
+    """Return the engine in SI units and the cycle calculation that its gas comes from.
+
+    ``kept`` parts are those of engines before, of inputs that share sections.
+    """
     run = cycle_run(model)
-    return _engine(model, run), run
+    return _engine(model, run, kept or _called), run
 
 
 def smallness_of(model: InputFile) -> int:
@@ -130,31 +144,62 @@ def smallness_of(model: InputFile) -> int:
     return smallness(bore_mm / 1000 if bore_mm else to_engine(model).geometry.bore)
 
 
-def _engine(model: InputFile, run: CycleRun | None) -> Engine:
-    geometry = _geometry(model, run)
-    shaft = with_masses(model, geometry)
-    places = arrangement_of(model)
+class KeptParts:
+    """Results of functions for their last arguments, as many engines differ in few parts."""
+
+    def __init__(self) -> None:
+        self._last: dict[object, tuple[tuple[object, ...], Any]] = {}
+
+    def __call__(self, function: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401
+        """Call a function unless it was last called with the same objects or equal numbers."""
+        key = function, type(arguments[0])
+        last = self._last.get(key)
+        if last is None or not all(map(_same, last[0], arguments)):
+            last = self._last[key] = arguments, function(*arguments)
+        return last[1]
+
+
+def _same(one: object, other: object) -> bool:
+    return one is other or (isinstance(one, float | int) and one == other)
+
+
+def _called(function: Callable[..., Any], *arguments: object) -> Any:  # noqa: ANN401
+    return function(*arguments)
+
+
+def _engine(model: InputFile, run: CycleRun | None, kept: Callable[..., Any] = _called) -> Engine:
+    geometry = kept(_geometry, model.geometry, run)
+    shaft = kept(with_masses, model.crankshaft, model.masses, geometry.bore, geometry.crank_radius)
+    places = kept(places_of, model.engine, model.crankshaft, model.articulated)
     values: dict[str, Any] = {}
-    for section in (model.engine, model.calculation, model.regime, shaft, model.reference):
-        values |= {} if section is None else solver_values(section, Engine)
+    for section in (model.engine, model.calculation, model.regime, model.reference):
+        values |= {} if section is None else kept(_numbers, section)
     composed = {
         "geometry": geometry,
-        "gas": _gas(model.gas, run, strokes=model.engine.strokes),
-        "masses": to_masses(model, geometry),
-        "crankshaft": _crankshaft(shaft),
+        "gas": kept(_gas, model.gas, run, model.engine.strokes),
+        "masses": kept(to_masses, model.masses, geometry),
+        "crankshaft": kept(_crankshaft, shaft),
         "arrangement": places,
-        "articulated": _articulated(model.articulated, len(hung(places))),
-        "torsion": to_torsion(model.torsion),
-        "bearings": to_bearings(model.bearings),
-        "balancing": Balancing(**solver_values(model.balance, Balancing)),
+        "articulated": kept(_articulated, model.articulated, len(hung(places))),
+        "torsion": kept(to_torsion, model.torsion),
+        "bearings": kept(to_bearings, model.bearings),
+        "balancing": kept(_balancing, model.balance),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,
     }
-    return Engine(**values | composed | _power(run))
+    return Engine(**values | kept(_numbers, shaft) | composed | _power(run))
+
+
+def _numbers(section: BaseModel) -> dict[str, Any]:
+    return solver_values(section, Engine)
+
+
+def _balancing(section: BalanceSection) -> Balancing:
+    return Balancing(**solver_values(section, Balancing))
 
 
 def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:
-    gas = _gas(section.gas, None, strokes=strokes)
+    gas = _gas(section.gas, None, strokes)
     return OperatingPoint(**solver_values(section, OperatingPoint), gas=gas)
 
 
@@ -164,8 +209,7 @@ def _articulated(section: ArticulatedSection | None, count: int) -> tuple[Articu
     return (ArticulatedRod(**solver_values(section, ArticulatedRod)),) * count
 
 
-def _geometry(model: InputFile, run: CycleRun | None) -> Geometry:
-    given = model.geometry
+def _geometry(given: GeometrySection | DesignGeometrySection, run: CycleRun | None) -> Geometry:
     crank_offset = pin_offset = None
     if isinstance(given, GeometrySection):
         crank_offset, pin_offset = (
@@ -193,7 +237,7 @@ def _power(run: CycleRun | None) -> dict[str, float]:
     }  # fmt: skip
 
 
-def _gas(gas: GasSection, run: CycleRun | None, *, strokes: int) -> Gas:
+def _gas(gas: GasSection, run: CycleRun | None, strokes: int) -> Gas:
     p_ambient = MPA.to_si(gas.ambient_pressure_mpa)
     if isinstance(gas, TableGasSection):
         return TabulatedGas(

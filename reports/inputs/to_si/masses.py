@@ -77,9 +77,8 @@ PIN_SHARE = Estimate(fuel="diesel").pin_share
 ROD_SHARE = defaults.SMALL_END_SHARE  # as in section 2.9
 
 
-def to_masses(model: InputFile, geometry: Geometry) -> Masses:
+def to_masses(given: MassesSection, geometry: Geometry) -> Masses:
     """Masses of one cylinder in SI units."""
-    given = model.masses
     if given.reciprocating_kg is not None and given.rod_big_end_kg is not None:
         return DirectMasses(**solver_values(given, DirectMasses))
     estimate = to_estimate(given)
@@ -123,19 +122,26 @@ def to_estimate(given: MassesSection) -> Estimate | None:
     return Estimate(**solver_values(given, Estimate))
 
 
-def with_masses(model: InputFile, geometry: Geometry) -> CrankshaftSection:
-    """The crankshaft with every reduced mass of pin and webs in its place [kg]."""
-    shaft, estimate = model.crankshaft, to_estimate(model.masses)
+def with_masses(
+    shaft: CrankshaftSection, masses: MassesSection, bore: float, radius: float
+) -> CrankshaftSection:
+    """The crankshaft with every reduced mass of pin and webs in its place [kg]; sizes in m."""
+    whole = shaft.pin_mass_kg is not None and all(
+        web.mass_kg is not None and (web.actual_mass_kg is None or web.centre_mm is None)
+        for web in shaft.webs
+    )
+    if whole:
+        return shaft
+    estimate = to_estimate(masses)
     throw = share = 0.0
     if estimate is not None:
-        near = area_masses(estimate, geometry.bore, 2 * geometry.crank_radius)
-        throw, share = near.throw * geometry.piston_area, estimate.pin_share
-    radius_mm = MM.from_si(geometry.crank_radius)
+        near = area_masses(estimate, bore, 2 * radius)
+        throw, share = near.throw * math.pi * bore**2 / 4, estimate.pin_share
     webs = []
     for web in shaft.webs:
         mass = web.mass_kg
         if web.actual_mass_kg is not None and web.centre_mm is not None:
-            mass = reduced_web(web.actual_mass_kg, web.centre_mm, radius_mm)
+            mass = reduced_web(web.actual_mass_kg, web.centre_mm, MM.from_si(radius))
         elif mass is None:
             mass = throw * (1 - share) / 2
         webs.append(web.model_copy(update={"mass_kg": mass}))

@@ -100,8 +100,10 @@ class _Russian(RussianGroup):
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
         from reports.shared.interrupt import stoppable
+        from reports.shared.user_home import give_libraries_a_home
 
         prepare()
+        give_libraries_a_home()
         kwargs["standalone_mode"] = False
         kwargs.setdefault("prog_name", "kshm")
         arguments = kwargs.get("args") or (args[0] if args else None) or sys.argv[1:]

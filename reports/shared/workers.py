@@ -10,6 +10,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import tempfile
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from multiprocessing.connection import Connection
@@ -24,9 +25,13 @@ if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
 
 
+_LONGEST_FOLDER = 107 - 33
+
+
 def processes(needs: str) -> ForkServerContext | SpawnContext:
     """Context whose processes have a module imported: forkserver on Linux, else spawn."""
-    if sys.platform != "linux":
+    # The name of forkserver's socket has at most 107 bytes, of them 33 behind the folder's.
+    if sys.platform != "linux" or len(os.fsencode(tempfile.gettempdir())) > _LONGEST_FOLDER:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([needs])  # heard before the first copy

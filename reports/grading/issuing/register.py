@@ -18,8 +18,9 @@ from typing import Any
 from reports.exports.numbers import neutralised
 from reports.grading.issuing.roster import Student
 from reports.grading.issuing.rubric import Rubric, rubric_of
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import InputError, KshmError, Problem
 from reports.shared.files import reason
+from reports.shared.user_home import NO_HOME
 
 ENVIRONMENT = "KSHM_SECRET"
 SECRET = "secret.key"
@@ -28,11 +29,18 @@ _LENGTH = 32
 
 
 def secret_path(given: Path | None) -> Path:
-    """Path of the secret: the key, the environment, else the user's settings."""
+    """Path of the secret: the key, the environment, else the user's settings.
+
+    Raises:
+        KshmError: the user has no home.
+    """
     if given is not None:
         return given
     if os.environ.get(ENVIRONMENT):
         return Path(os.environ[ENVIRONMENT])
+    if os.environ.get(NO_HOME):
+        msg = "нет домашней папки, где хранить секрет; укажите файл для него ключом --secret"
+        raise KshmError(msg)
     home = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config")
     return home / "kshm" / SECRET
 

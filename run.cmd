@@ -3,6 +3,15 @@ rem run test [ARGS]: lint, types, rooms and tests; run bench, docs, fuzz: as in 
 setlocal
 chcp 65001 >nul
 set "PYTHONUTF8=1"
+set "PYTHONPATH="
+set "PYTHONHOME="
+set "KSHM_COMMAND=run"
+rem The libraries that PDF needs, where docs/first-project.md says to install them.
+if not defined WEASYPRINT_DLL_DIRECTORIES if exist "C:\msys64\mingw64\bin" set "WEASYPRINT_DLL_DIRECTORIES=C:\msys64\mingw64\bin"
+rem Developers' commands take more packages.
+set "PARTS=[serve]"
+for %%c in (test bench docs fuzz breaks) do if /i "%~1"=="%%c" set "PARTS=[serve,sweep,dask]"
+for %%a in (%*) do if /i "%%~xa"==".parquet" if "%PARTS%"=="[serve]" set "PARTS=[serve,sweep]"
 set "ROOT=%~dp0"
 if "%~1"=="" goto usage
 set "VENV=%ROOT%.venv"
@@ -17,20 +26,30 @@ if errorlevel 1 (
 if not exist "%VENV%\Scripts\kshm.exe" goto install
 fc /b "%ROOT%pyproject.toml" "%VENV%\kshm-pyproject" >nul 2>nul || goto install
 fc /b "%ROOT%constraints.txt" "%VENV%\kshm-constraints" >nul 2>nul || goto install
-goto ready
+if exist "%VENV%\kshm-parts-[serve,sweep,dask]" goto ready
+if exist "%VENV%\kshm-parts-%PARTS%" goto ready
+goto packages
 
 :install
 echo Устанавливаю пакеты Python в .venv 1>&2
 if exist "%VENV%" rmdir /s /q "%VENV%"
 %PY% -m venv "%VENV%"
 if errorlevel 1 exit /b 3
-"%VENV%\Scripts\python.exe" -m pip install --quiet --disable-pip-version-check --constraint "%ROOT%constraints.txt" --editable "%ROOT%.[dev]" 1>&2
+:packages
+set "PIP="%VENV%\Scripts\python.exe" -m pip install --quiet --disable-pip-version-check --constraint "%ROOT%constraints.txt""
+if "%PARTS%"=="[serve,sweep,dask]" (
+  %PIP% pip 1>&2
+  %PIP% --editable "%ROOT%.%PARTS%" --group "%ROOT%pyproject.toml:dev" 1>&2
+) else (
+  %PIP% --editable "%ROOT%.%PARTS%" 1>&2
+)
 if errorlevel 1 (
   echo Не удалось установить пакеты Python: проверьте сеть и повторите. 1>&2
   exit /b 3
 )
 copy /y "%ROOT%pyproject.toml" "%VENV%\kshm-pyproject" >nul
 copy /y "%ROOT%constraints.txt" "%VENV%\kshm-constraints" >nul
+echo.>"%VENV%\kshm-parts-%PARTS%"
 
 :ready
 rem System parts (pango for PDF, LibreOffice for tests) are a person's task here: kshm doctor names them.

@@ -37,7 +37,8 @@ class House:
         self.log = folder / "log"
         self.log.touch()
         self.root.mkdir()
-        for name in ("run", "pyproject.toml", "constraints.txt"):
+        (self.root / "tools").mkdir()
+        for name in ("run", "pyproject.toml", "constraints.txt", "tools/develop.sh"):
             shutil.copy2(ROOT / name, self.root / name)
         given = (ROOT / "run").read_text(encoding="utf-8")
         pretended = given.replace("=/usr/bin/python3\n", f"='{self.bin}/system/python3'\n")
@@ -65,7 +66,7 @@ class House:
         for name in ("pyproject.toml", "constraints.txt"):
             parts += (self.root / name).read_bytes()
         total = subprocess.run(["cksum"], input=parts, capture_output=True, check=True).stdout
-        (self.root / ".venv/kshm-stamp").write_bytes(total)
+        (self.root / ".venv/kshm-stamp").write_bytes(total + b"base dev\n")
 
     def run(self, *args, command="run", **more):
         keep = {"HOME": str(self.root), "PATH": f"{self.bin}:{os.environ['PATH']}"}
@@ -314,6 +315,41 @@ def test_a_changed_requirement_reinstalls(house, name):
     assert done.returncode == 3
     assert "Не удалось создать окружение" in done.stderr
     assert "kshm build x" not in house.calls()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kept", "extras"),
+    [
+        ("build x", "", "serve"),
+        ("build x", "base", None),
+        ("sweep x -o y.parquet", "base", "serve,sweep"),
+        ("build x --dask tcp://a:1", "base sweep", "serve,dask,sweep"),
+        ("test tests/inputs", "base", "serve,sweep,dask"),
+        ("sweep x -o y.parquet", "base dev", None),
+    ],
+)
+def test_only_what_is_asked_for_is_installed(house, arguments, kept, extras):
+    """A developer has everything; a part that came once stays."""
+    stamp = house.root / ".venv/kshm-stamp"
+    stamp.write_text(stamp.read_text().replace("base dev", kept))
+    house.run(*arguments.split(), KSHM_NO_SYSTEM="1")
+    installs = [call for call in house.calls() if "pip install" in call and "--editable" in call]
+    if extras is None:
+        assert installs == []
+        return
+    (call,) = installs
+    assert f"--editable {house.root}[{extras}]" in call
+    assert (f"--group {house.root}/pyproject.toml:dev" in call) == ("test" in arguments)
+    house.log.write_text("")
+    house.run(*arguments.split(), KSHM_NO_SYSTEM="1")
+    assert not any("pip install" in call for call in house.calls())
+
+
+def test_variables_of_other_programs_do_not_reach_it(house):
+    shown = 'echo "${PYTHONPATH-none} ${PYTHONHOME-none} $KSHM_COMMAND"'
+    house.tool(house.root / ".venv/bin/kshm", shown)
+    done = house.run("check", "x", PYTHONPATH="/elsewhere", PYTHONHOME="/nowhere")
+    assert done.stdout == "none none ./run\n"
 
 
 def test_what_the_system_lacks_comes_beside_the_packages(house):

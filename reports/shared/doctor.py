@@ -6,6 +6,7 @@ import ctypes
 import importlib
 import importlib.util
 import io
+import platform
 import shutil
 import subprocess
 import sys
@@ -16,8 +17,23 @@ from pathlib import Path
 from reports.shared.errors import SystemPartMissing
 
 MIN_PYTHON = (3, 11)
-PANGO_COMMAND = "sudo apt-get install -y libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
-OFFICE_COMMAND = "sudo apt-get install -y libreoffice-calc-nogui python3-uno poppler-utils"
+_PANGO_DEBIAN = "libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0"
+_OFFICE_DEBIAN = "libreoffice-calc-nogui python3-uno poppler-utils"
+# Managers of packages: how they install, and the parts.  ALT has apt-get too, with other names.
+_MANAGERS = {
+    "alt": {"": "apt-get install -y", "pango": "libpango", "LibreOffice": "LibreOffice",
+            "Python": "python3"},
+    "apt-get": {"": "apt-get install -y", "pango": _PANGO_DEBIAN, "LibreOffice": _OFFICE_DEBIAN,
+                "Python": "python3 python3-venv"},
+    "dnf": {"": "dnf install -y", "pango": "pango", "Python": "python3",
+            "LibreOffice": "libreoffice-calc libreoffice-pyuno"},
+    "apk": {"": "apk add", "pango": "pango fontconfig", "LibreOffice": "libreoffice",
+            "Python": "python3"},
+    "zypper": {"": "zypper install -y", "pango": "libpango-1_0-0", "LibreOffice":
+               "libreoffice-calc", "Python": "python311"},
+    "pacman": {"": "pacman -S", "pango": "pango", "LibreOffice": "libreoffice-fresh",
+               "Python": "python"},
+}  # fmt: skip
 _PANGO = ("libgobject-2.0", "libpango-1.0", "libharfbuzz", "libpangoft2-1.0", "libfontconfig")
 _FONTS = (
     "STIXGeneral.ttf",
@@ -93,7 +109,7 @@ def pango_loads() -> bool:
 def _python() -> SystemPart:
     version = ".".join(str(part) for part in sys.version_info[:3])
     ok = sys.version_info >= MIN_PYTHON
-    command = "" if ok else "sudo apt-get install -y python3 python3-venv"
+    command = "" if ok else install_command("Python")
     return SystemPart("Python", ok, f"{version}, нужен 3.11 или новее", command)
 
 
@@ -118,8 +134,25 @@ def _pango() -> SystemPart:
 
 def _pango_command() -> str:
     if sys.platform == "win32":
-        return "pacman -S mingw-w64-x86_64-pango (в оболочке MSYS2)"
-    return "brew install pango" if sys.platform == "darwin" else PANGO_COMMAND
+        return (
+            "winget install MSYS2.MSYS2, затем в окне MSYS2 MINGW64: "
+            "pacman -S mingw-w64-x86_64-pango (по шагам — docs/first-project.md)"
+        )
+    return "brew install pango" if sys.platform == "darwin" else install_command("pango")
+
+
+def install_command(part: str) -> str:
+    """Command of this system's package manager that installs a part; words where none is known."""
+    try:
+        release = platform.freedesktop_os_release()
+    except OSError:
+        release = {}
+    family = f"{release.get('ID', '')} {release.get('ID_LIKE', '')}"
+    is_alt = "altlinux" in family
+    for name, parts in _MANAGERS.items():
+        if is_alt if name == "alt" else shutil.which(name):
+            return f"sudo {parts['']} {parts[part]}"
+    return f"менеджер пакетов этой системы не известен: поставьте {part} её средствами"
 
 
 def _missing_libraries() -> list[str]:
@@ -151,7 +184,7 @@ def _loads(file: str) -> bool:
 
 def _office() -> SystemPart:
     program = shutil.which("soffice") or shutil.which("libreoffice")
-    command = "" if program else OFFICE_COMMAND
+    command = "" if program else install_command("LibreOffice")
     detail = program or "нужен только для сверки книги в тестах"
     return SystemPart("LibreOffice", program is not None, detail, command, required=False)
 
@@ -161,7 +194,9 @@ def _uno() -> SystemPart:
     python = "/usr/bin/python3"
     ok = Path(python).exists() and _runs([python, "-c", "import uno"])
     detail = "есть у системного Python" if ok else "нужен только для сверки книги в тестах"
-    return SystemPart("python3-uno", ok, detail, "" if ok else OFFICE_COMMAND, required=False)
+    return SystemPart(
+        "python3-uno", ok, detail, "" if ok else install_command("LibreOffice"), required=False
+    )
 
 
 def _runs(command: list[str]) -> bool:

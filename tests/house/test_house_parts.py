@@ -99,7 +99,7 @@ def test_on_windows_pango_is_what_weasyprint_finds(monkeypatch, tmp_path, capsys
     monkeypatch.delitem(sys.modules, "weasyprint")
     (tmp_path / "weasyprint.py").write_text("print('-----')\nraise OSError('pango')\n")
     monkeypatch.syspath_prepend(tmp_path)
-    with pytest.raises(SystemPartMissing, match=r"pacman -S .*MSYS2"):
+    with pytest.raises(SystemPartMissing, match=r"MSYS2 MINGW64: pacman -S"):
         doctor.need_pango()
     assert capsys.readouterr() == ("", "")
 
@@ -111,7 +111,7 @@ def test_doctor_misses_libreoffice(monkeypatch):
     for name in ("LibreOffice", "python3-uno"):
         assert not parts[name].ok
         assert not parts[name].required
-        assert parts[name].install_command == doctor.OFFICE_COMMAND
+        assert parts[name].install_command == doctor.install_command("LibreOffice")
 
 
 @pytest.mark.parametrize(
@@ -124,3 +124,22 @@ def test_imports_stay_light(module):
     )
     heavy = {"numpy", "matplotlib", "pandas", "weasyprint", "openpyxl", "rich", "tomlkit"}
     assert not heavy & set(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("release", "programs", "command"),
+    [
+        ({"ID": "debian"}, {"apt-get"}, "sudo apt-get install -y libpango-1.0-0 "),
+        ({"ID": "altlinux"}, {"apt-get"}, "sudo apt-get install -y libpango"),
+        ({"ID": "redos"}, {"dnf"}, "sudo dnf install -y pango"),
+        ({"ID": "alpine"}, {"apk"}, "sudo apk add pango fontconfig"),
+        ({}, set(), "менеджер пакетов этой системы не известен: поставьте pango её средствами"),
+    ],
+)
+def test_the_command_is_that_of_the_systems_own_manager(monkeypatch, release, programs, command):
+    monkeypatch.setattr(doctor.platform, "freedesktop_os_release", lambda: release)
+    monkeypatch.setattr(doctor.shutil, "which", lambda name: name if name in programs else None)
+    told = doctor.install_command("pango")
+    assert told.startswith(command)
+    if "ID" in release and release["ID"] != "debian":
+        assert told == command

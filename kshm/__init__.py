@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     )
     from kshm.nomenclature.quantity import Quantity, quantity
     from kshm.results.solution import Solution, solve
+    from kshm.results.study import sweep
 
 __all__ = [
     "Engine",
@@ -44,6 +45,7 @@ __all__ = [
     "quantity",
     "solve",
     "solve_chunks",
+    "sweep",
     "throw",
 ]
 __version__ = "0.1.0"
@@ -57,6 +59,7 @@ _HOMES = {
     ),
     "kshm.nomenclature.quantity": ("Quantity", "quantity"),
     "kshm.results.solution": ("Solution", "solve"),
+    "kshm.results.study": ("sweep",),
 }  # fmt: skip
 
 

@@ -94,6 +94,12 @@ _ALL: dict[str, Quantity] = {
     for key, tex, unit, title, digits in subject.ROWS
 }  # fmt: skip
 
+
+def nomenclature() -> tuple[Quantity, ...]:
+    """All quantities; of families, ``#`` stands for the number."""
+    return tuple(_ALL.values())
+
+
 _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 

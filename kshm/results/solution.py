@@ -26,6 +26,7 @@ from kshm.results.forces import continuous_results, pin_bending, rod_bearing
 from kshm.results.inertia import inertia_results, rod_mass_scalars
 from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
 from kshm.results.motion import neiman_results, segal_results, two_term_errors
+from kshm.results.named import NAMES, Group, html_table
 from kshm.results.reference import reference_results, reference_tables
 from kshm.results.torsion import torsion_results
 
@@ -99,7 +100,20 @@ class Solution:
     >>> table = solve(engine).tables["P4_1"]
     >>> table.columns[0], len(table)
     ('phi_deg', 73)
+
+    Main results have English names too, in groups, and know their symbols, units and titles:
+
+    >>> solve(engine).kinematics.mean_piston_speed.unit
+    'м/с'
     """
+
+    geometry = Group()
+    kinematics = Group()
+    masses = Group()
+    torque = Group()
+    loads = Group()
+    balance = Group()
+    flywheel = Group()
 
     def __init__(
         self, engine: Engine, raw: ChainArrays, index: int = 0, cycle: CycleRun | None = None
@@ -168,6 +182,10 @@ class Solution:
             **({} if self.cycle is None else cycle_scalars(self.cycle)),
             **gas.gas_scalars(case),
         }
+
+    def _repr_html_(self) -> str:
+        """Main results as a notebook shows them."""
+        return html_table({name: getattr(self, name) for name in NAMES})
 
     def column(self, table: str, key: str) -> Array:
         """One column in the unit of its quantity; one of the chain asks for nothing more.

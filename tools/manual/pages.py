@@ -10,6 +10,8 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
+from kshm.nomenclature.quantity import nomenclature
+from kshm.results.named import NAMES
 from reports.formula.excel import compile_formula
 from reports.inputs.load import load_toml
 from reports.inputs.meta import Meta, Strictly, hints
@@ -247,8 +249,35 @@ def _row(title: str, symbol: str, unit: str, source: str, formula: str) -> tuple
     )
 
 
+_NOMENCLATURE = """# Номенклатура
+
+> In English: every quantity of tables and results with its key, symbol, unit and Russian title, and
+> the English name under which main results stand in the API; a `#` stands for a number of journals,
+> pins or orders. Generated from the program.
+
+Ключ — имя столбца в CSV, JSON, `kshm sweep --quantity` и в API; `#` в нём — номер шейки, формы или
+порядка. Английское имя есть у главных результатов: `solution.loads.crankpin_max`
+([расчёт из Python](api.md)).
+
+"""
+
+
+def nomenclature_page() -> str:
+    """Quantities by key."""
+    english = {key: f"{group}.{name}" for group, names in NAMES.items() for name, key in
+               names.items()}  # fmt: skip
+    rows = [
+        (code(about.key), escaped(about.symbol) or "—", escaped(about.unit_label) or "—",
+         escaped(about.title), code(english.get(about.key, "")))
+        for about in nomenclature()
+    ]  # fmt: skip
+    head = ("Ключ", "Обозначение", "Единица", "Величина", "По-английски")
+    return _NOMENCLATURE + table(head, rows) + "\n"
+
+
 GENERATED: Mapping[str, Callable[[], str]] = {
     "input.md": input_page,
+    "nomenclature.md": nomenclature_page,
     "sheets.md": sheets_page,
     "validation.md": lambda: markdown(validate()),
 }

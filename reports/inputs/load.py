@@ -7,6 +7,7 @@ warnings about what is allowed but odd.  Errors come together in one
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -195,6 +196,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     regimes = data.pop("regimes", ())
     if locate is not None:
         data = reader.from_cells(data)
+    reader.order_alone = _has_order_alone(data)
     data, findings = expand(data)
     reader.take(findings)
     if findings:  # what would have followed from the order is not also missing
@@ -253,6 +255,7 @@ class _SectionReader:
         self.values = ValidValues()
         self.empty: set[Path] = set()
         self.uncounted = 0
+        self.order_alone = False  # firing offsets follow from the order that the file has
 
     def key(self, path: Path) -> str:
         if self.regime is not None:
@@ -260,9 +263,13 @@ class _SectionReader:
         return one_line(key_text(path), 100)
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+        if self.order_alone and path[:2] == ("crankshaft", "firing_offsets_deg"):
+            path = ("crankshaft", "firing_order")
         key = self.key(path)
         if self.regime is not None:
             path = inside(self.regime, path)
+        if self.order_alone:
+            what, hint = (_OFFSETS.sub("firing_order", text) for text in (what, hint))
         if self.locate is not None:
             what, hint = in_cells(what), in_cells(hint)
         cell = self.locate(path) if self.locate is not None and path else ""
@@ -414,6 +421,17 @@ class _SectionReader:
             what, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
             if (name, *loc) not in self.empty:
                 self.problems.append(self.problem((name, *loc), what, hint))
+
+
+_OFFSETS = re.compile(r"firing_offsets_deg(\[\d+\])?")
+
+
+def _has_order_alone(data: Mapping[str, Any]) -> bool:
+    """Whether a file gives the firing order and not the offsets that follow from it."""
+    shaft = data.get("crankshaft")
+    return (
+        isinstance(shaft, dict) and "firing_order" in shaft and ("firing_offsets_deg" not in shaft)
+    )
 
 
 def _sizes_are_wanted(data: dict[str, Any]) -> bool:

@@ -13,7 +13,7 @@ from reports.inputs.to_si.engine import to_engine
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
 
-BORES_MM = (20.0, 1000.0)
+BORES_MM = (10.0, 1000.0)
 _STROKE_BORE = (0.8, 1.35)  # S/D that is chosen for a power where one of the two is given
 
 

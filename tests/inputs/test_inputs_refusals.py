@@ -362,3 +362,14 @@ def test_many_errors_are_capped(raw, refused):
     lines = refused(raw)
     assert len(lines) == 201
     assert lines[-1] == "f.toml: и ещё ошибок: 1800"
+
+
+def test_an_order_is_blamed_by_its_own_key(raw, refused):
+    """The file has no firing_offsets_deg: they follow from its order."""
+    shaft = raw["crankshaft"]
+    shaft.pop("firing_offsets_deg", None)
+    shaft["firing_order"] = "1-2-3"
+    shaft["throw_angles_deg"] = [0, 120, 200]
+    lines = refused(raw)
+    assert lines and all("firing_offsets_deg" not in line for line in lines)
+    assert "(firing_order)" in lines[0]

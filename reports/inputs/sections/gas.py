@@ -150,10 +150,10 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     )
     adaptability: float | None = number(title_of("spd_K"), "K", NONE, 1.001, 2, None)
     torque_speed_rpm: float | None = number(
-        title_of("reg_n_M"), "n_M", RPM, 10, 30000, None, solver="omega_torque"
+        title_of("reg_n_M"), "n_M", RPM, 10, 60000, None, solver="omega_torque"
     )
     idle_speed_rpm: float | None = number(
-        title_of("reg_n_idle"), "n_х", RPM, 10, 30000, None, solver="omega_idle"
+        title_of("reg_n_idle"), "n_х", RPM, 10, 60000, None, solver="omega_idle"
     )
 
 

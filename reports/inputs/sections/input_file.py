@@ -110,7 +110,7 @@ class Regime(Strictly):
     """[regime]."""
 
     name: str | None = text("Название режима", None)
-    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 30000, solver="omega")
+    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 60000, solver="omega")
     mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0.1, 1, 1.0)
     indicated_power_kw: float | None = number(
         "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None

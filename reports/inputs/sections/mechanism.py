@@ -16,6 +16,7 @@ from reports.inputs.meta import USUAL, Strictly, choice, number, text, title_of
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.units import DEG, KG, KG_M2, KG_PER_M2, MM, NONE, PER_MIN
 
+LEAST_KG, MOST_KG = 0.0001, 50_000  # from a model of 10 mm to a crosshead engine of a metre
 PISTONS = {"aluminium": "алюминиевый сплав", "iron": "чугун"}
 SHAFTS = {"steel": "стальной кованый", "iron": "чугунный литой"}
 WEIGHED = ("rod_weighed_small_end_kg",)
@@ -39,19 +40,19 @@ class MassesSection(Strictly):
     """[masses]: m_j and m_2, or the piston group, the rod and its centre of mass."""
 
     reciprocating_kg: float | None = number(
-        "Масса возвратно-движущихся деталей", "m_j", KG, 0.001, 5000, None
+        "Масса возвратно-движущихся деталей", "m_j", KG, LEAST_KG, MOST_KG, None
     )
     rod_big_end_kg: float | None = number(
-        "Масса шатуна, отнесённая к кривошипу", "m_2", KG, 0.001, 5000, None
+        "Масса шатуна, отнесённая к кривошипу", "m_2", KG, LEAST_KG, MOST_KG, None
     )
-    piston_group_kg: float | None = number(title_of("m_piston"), "m_п", KG, 0.001, 5000, None)
-    rod_kg: float | None = number(title_of("m_rod"), "m_ш", KG, 0.001, 5000, None)
+    piston_group_kg: float | None = number(title_of("m_piston"), "m_п", KG, LEAST_KG, MOST_KG, None)
+    rod_kg: float | None = number(title_of("m_rod"), "m_ш", KG, LEAST_KG, MOST_KG, None)
     rod_centre_mm: float | None = number(title_of("rod_l1"), "l_1", MM, 1, 6000, None)
     rod_small_end_share: float | None = number(
         "Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8, None
     )
     rod_weighed_small_end_kg: float | None = number(
-        "Показание весов под поршневой головкой", "m_1", KG, 0.001, 5000, None
+        "Показание весов под поршневой головкой", "m_1", KG, LEAST_KG, MOST_KG, None
     )
     swings_small_end_per_min: float | None = number(
         "Качаний в минуту на поршневой головке", "n_A", PER_MIN, 1, 2000, None,
@@ -104,26 +105,26 @@ class ArticulatedSection(Strictly):
         "Прицепной шатун: угол пальца от оси главного шатуна по вращению", "γ_п", DEG, -180, 180
     )
     reciprocating_kg: float = number(
-        "Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, 0.001, 5000
+        "Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, LEAST_KG, MOST_KG
     )
     big_end_kg: float = number(
-        "Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, 5000
+        "Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, MOST_KG
     )
 
 
 class WebSection(Strictly):
     """[[crankshaft.webs]]: a web and its counterweight; masses reduced to the crank radius."""
 
-    mass_kg: float | None = number("Щека {n}: приведённая масса", "m_щ{n}", KG, 0, 5000, None)
+    mass_kg: float | None = number("Щека {n}: приведённая масса", "m_щ{n}", KG, 0, MOST_KG, None)
     actual_mass_kg: float | None = number(
-        "Щека {n}: действительная масса", "m_щ{n}", KG, 0, 5000, None
+        "Щека {n}: действительная масса", "m_щ{n}", KG, 0, MOST_KG, None
     )
     centre_mm: float | None = number("Щека {n}: радиус центра масс", "ρ_{n}", MM, -2000, 2000, None)
     angle_deg: float = number(
         "Щека {n}: угол против вращения от кривошипа", "α_щ{n}", DEG, -360, 360, 0.0
     )
     counterweight_kg: float = number(
-        "Щека {n}: приведённая масса противовеса", "m_пр{n}", KG, 0, 5000, 0.0,
+        "Щека {n}: приведённая масса противовеса", "m_пр{n}", KG, 0, MOST_KG, 0.0,
         solver="counterweight_mass",
     )  # fmt: skip
     counterweight_angle_deg: float = number(
@@ -184,21 +185,21 @@ class CrankshaftSection(Strictly):
         "Коренная шейка {n}: рабочая длина", "l_к.ш{n}", MM, 1, 2000
     )
     pin_mass_kg: float | None = number(
-        "Приведённая масса шатунной шейки", "m_ш.ш", KG, 0, 5000, None
+        "Приведённая масса шатунной шейки", "m_ш.ш", KG, 0, MOST_KG, None
     )
     oil_hole_deg: float | None = number(
         "Масляное отверстие шатунной шейки: угол от колена против вращения", "α_м", DEG, -360, 360,
         None,
     )  # fmt: skip
     nose_mass_kg: float = number(
-        "Внешний противовес на носке: приведённая масса", "m_вп1", KG, 0, 5000, 0.0
+        "Внешний противовес на носке: приведённая масса", "m_вп1", KG, 0, MOST_KG, 0.0
     )
     nose_angle_deg: float = number(
         "Противовес на носке: угол по вращению от колена 1", "α_вп1", DEG, -360, 360, 0.0
     )
     nose_arm_mm: float = number("Плечо противовеса на носке PL1", "l_p1", MM, 0, 5000, 0.0)
     rear_mass_kg: float = number(
-        "Внешний противовес сзади: приведённая масса", "m_вп2", KG, 0, 5000, 0.0
+        "Внешний противовес сзади: приведённая масса", "m_вп2", KG, 0, MOST_KG, 0.0
     )
     rear_angle_deg: float = number(
         "Противовес сзади: угол против вращения от последнего колена", "α_вп2", DEG, -360, 360, 0.0

@@ -38,7 +38,7 @@ class MassSection(Strictly):
 class PeakSection(Strictly):
     """[[torsion.peaks]]: the greatest pressure of the cycle at a speed."""
 
-    speed_rpm: float = number("Точка {n}: частота вращения", "n_{n}", RPM, 10, 30000)
+    speed_rpm: float = number("Точка {n}: частота вращения", "n_{n}", RPM, 10, 60000)
     pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_{n}", MPA, 0.2, 100)
 
 
@@ -82,8 +82,8 @@ class TorsionSection(Strictly, usual=(Torsion,)):
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )
     loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, USUAL)
-    speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 30000, None)
-    speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 30000, None)
+    speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 60000, None)
+    speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 60000, None)
     stress_allowed_mpa: float = number(
         "Допускаемая амплитуда напряжений кручения", "[τ]", MPA, 1, 500, 30.0
     )

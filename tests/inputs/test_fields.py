@@ -80,7 +80,7 @@ def test_a_field_tells_all(raw):
         unit="кг",
         value=0.245,
         minimum=0,
-        maximum=5000,
+        maximum=50000,
         choices=None,
         structural=False,
         optional=True,

@@ -62,7 +62,7 @@ CASES = {
     ),
     "nan": (
         {"regime.speed_rpm": float("nan")},
-        "regime.speed_rpm: нужно конечное число, а не inf или nan; допустимо от 10 до 30000 мин⁻¹",
+        "regime.speed_rpm: нужно конечное число, а не inf или nan; допустимо от 10 до 60000 мин⁻¹",
     ),
     "inf": (
         {"geometry.bore_mm": float("inf")},

@@ -113,7 +113,7 @@ def sinusoid(size: float = 3.0) -> np.ndarray:
     return size * (np.cos(PHI) + 0.4j * np.sin(PHI / 2) + 0.3)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(5, 10), deadline=None)
 @given(st.floats(0.3, 3), st.floats(0, 6.28))
 def test_turning_and_scaling_the_load(scale: float, turn: float) -> None:
     """The orbit turns with the load; load, viscosity and ψ² enter as one number only."""

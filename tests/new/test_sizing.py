@@ -78,7 +78,9 @@ def drawn(number: int) -> Case:
 
 
 # One of each kind, or twenty parts with some of each.
-PARTS = [range(12)] if cover.QUICK else [range(first, first + 10) for first in range(0, 200, 10)]
+# All two hundred with --all; sixty hold every layout, strokes and fuel five times.
+TASKS = 200 if cover.ALL else 60
+PARTS = [range(12)] if cover.QUICK else [range(n, n + 10) for n in range(0, TASKS, 10)]
 
 
 @pytest.mark.parametrize("numbers", PARTS, ids=lambda numbers: f"from {numbers.start}")

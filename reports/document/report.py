@@ -87,6 +87,7 @@ class Report:
         templates: a folder of own templates, see :mod:`reports.document.page.overrides`.
         style: margins, type and what else a department asks for.
         further: chapters from rooms above this one, before the checks.
+        with_sheet: whether the sheet of dynamics is made beside it.
     """
 
     model: Model
@@ -94,6 +95,7 @@ class Report:
     templates: Path | None = None
     style: Style = USUAL
     further: Further = ()
+    with_sheet: bool = False
 
     @classmethod
     def of(
@@ -103,6 +105,8 @@ class Report:
         source: Path,
         style: Path | None = None,
         further: Further = (),
+        *,
+        with_sheet: bool = False,
     ) -> Report:
         """The report of an input file: own templates and a style file are looked for beside it.
 
@@ -112,13 +116,16 @@ class Report:
             source: the input file.
             style: a style file instead of the one that the input names.
             further: chapters from rooms above.
+            with_sheet: whether the sheet of dynamics is made beside it.
 
         Raises:
             InputError: the folder of own templates or the style file is missing or wrong.
         """
         report = model.input.report
         folder = overrides.find(report.templates, source.parent)
-        return cls(model, values, folder, find_style(report, source.parent, style), further)
+        with_sheet = with_sheet or "sheet" in (report.formats or ())
+        style_of = find_style(report, source.parent, style)
+        return cls(model, values, folder, style_of, further, with_sheet)
 
     def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
         """The report as PDF with the input file, the workbook and the diagram's points attached.
@@ -212,7 +219,7 @@ class Report:
             placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(chapter, style))
             body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
         numbering.check()
-        head, start, page = _whole(env, chapter, body).partition("<body>")
+        head, start, page = _whole(env, chapter, body, with_sheet=self.with_sheet).partition("<body>")
         return texts.spaces_inside(head + start + texts.unbroken(page))
 
 
@@ -265,7 +272,7 @@ def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:
     return words
 
 
-def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
+def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool) -> str:
     """The whole page around the chapters."""
     terms, style = chapter.terms, cast(Style, env.globals["style"])
     return env.get_template("report/report.html.j2").render(
@@ -273,7 +280,7 @@ def _whole(env: Environment, chapter: Chapter, body: Markup) -> str:
         input=chapter.input,
         t=terms,
         cover_page=front.title_page(chapter.input, style.title),
-        task=front.assignment(chapter),
+        task=front.assignment(chapter, with_sheet=with_sheet),
         brief=front.abstract(chapter),
         block=front.title_block(chapter.input, style.frame),
         exact=chapter.exact,

@@ -120,7 +120,9 @@ def build(
         checks = failed_checks(model, values)
         wants_html = "html" in kinds
         has_report = wants_html or bool({"pdf", "docx"} & set(kinds))
-        making = _Making(path, folder, model, values, style, further, progress, has_report)
+        making = _Making(
+            path, folder, model, values, style, further, progress, has_report, "sheet" in kinds
+        )
         book = making.workbook(beside="pdf" in kinds) if {"xlsx", "pdf"} & set(kinds) else bytes
         if "pdf" in kinds:
             try:
@@ -167,6 +169,7 @@ class _Making:
     further: Further
     progress: Progress
     has_report: bool
+    with_sheet: bool
     files: list[Path] = field(default_factory=list)
 
     def written(self, ending: str, data: bytes, *, first: bool = False) -> None:
@@ -209,7 +212,10 @@ class _Making:
         """Report shared by all documents."""
         from reports.document.report import Report
 
-        return Report.of(self.model, self.values, self.path, self.style, self.further)
+        return Report.of(
+            self.model, self.values, self.path, self.style, self.further,
+            with_sheet=self.with_sheet,
+        )  # fmt: skip
 
 
 def _workbook(model: Model, values: Values) -> bytes:

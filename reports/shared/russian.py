@@ -150,6 +150,15 @@ def _follows(before: str, after: str) -> bool:
     return stem == other and digits != "" != next_digits and int(next_digits) == int(digits) + 1
 
 
+_WITH = ("одним", "двумя", "тремя", "четырьмя", "пятью", "шестью", "семью", "восемью", "девятью",
+         "десятью", "одиннадцатью", "двенадцатью")  # fmt: skip
+
+
+def instrumental(count: int, one: str, many: str) -> str:
+    """A count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
+    return f"{_WITH[count - 1] if count <= len(_WITH) else count}{NBSP}{one if count == 1 else many}"
+
+
 _INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")
 _PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
 

@@ -37,8 +37,7 @@ _LISTS = {
     "inertia": (
         "Момент инерции и неравномерность хода",
         ("I_crank", "rod_mass", "rod_x", "I_rod", "piston_mass", "I_max", "I_min", "I_mean",
-         "delta_I", "I_error_max", "I_engine_mean", "delta_I_engine", "W_range", "I_flywheel",
-         "delta_work", "delta_speed"),
+         "delta_I", "I_error_max", "I_engine_mean", "delta_I_engine"),
     ),
     "rod": (
         "Шатун по основным размерам",
@@ -83,7 +82,7 @@ def balance(chapter: Chapter) -> Markup:
         "balance",
         formulas=_FORMULAS,
         tables=tables,
-        ranked="firing_orders" in terms.model.tables,
+        ranked=chapter.whole and "firing_orders" in terms.model.tables,
         banks=banks,
         moves=not _is_balanced(terms, "L"),
         pulls=not _is_balanced(terms, "F"),
@@ -96,8 +95,7 @@ def balance(chapter: Chapter) -> Markup:
         devices=joined([word for key, word in _DEVICES.items() if key in busy] or [""]),
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         over_turn=_over_turn(terms, after=after),
-        flywheel=_fine_flywheel(chapter),
-        flywheel_needed=_is_flywheel_needed(terms),
+        flywheel_needed=is_flywheel_needed(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
 
@@ -124,8 +122,8 @@ def concluded(chapter: Chapter) -> Markup:
         if free
         else rich(f"{_MASSES} не дают свободных сил и моментов 1-го и 2-го порядков")
     )
-    needed = _is_flywheel_needed(terms)
-    wheel = chapter.told("I_flywheel") if needed else "не нужен"
+    needed = is_flywheel_needed(chapter)
+    wheel = chapter.by_fine("I_flywheel") if needed else "не нужен"
     return Markup("{}; маховик для неравномерности хода {}{} {}").format(
         forces, terms.val("balance_irregularity"), ":" if needed else "", wheel
     )
@@ -227,20 +225,10 @@ def _devices(chapter: Chapter, devices: set[str]) -> TablePlan | None:
     return chapter.scalars("Противовесы и балансирные валы", keys, size="dense", keep=True)
 
 
-def _is_flywheel_needed(terms: Terms) -> bool:
+def is_flywheel_needed(chapter: Chapter) -> bool:
     """Whether the required evenness asks for a flywheel that can be printed."""
-    return bool(terms.num("I_flywheel").strip(_ZERO))
-
-
-def _fine_flywheel(chapter: Chapter) -> Markup | str:
-    """Inertia of the flywheel by the fine step where the table's own cannot carry it."""
-    off = {error.key: error for error in chapter.terms.grid_errors}
-    if not {"I_flywheel", "W_range", "delta_speed"} & off.keys():
-        return ""
-    error = off.get("I_flywheel")
-    if error is None:
-        return chapter.terms.val("I_flywheel") if _is_flywheel_needed(chapter.terms) else ""
-    return chapter.fine(error)
+    value, digits = chapter.fine_value("I_flywheel"), chapter.terms.quantity("I_flywheel").digits
+    return bool(str(of_digits(value, digits.within(value))).strip(_ZERO))
 
 
 def _firing(chapter: Chapter) -> TableBlock:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+import re
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
 
@@ -18,8 +20,9 @@ from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
-from reports.inputs.solve_input import GridError
+from reports.inputs.solve_input import FINE, GridError, refined, solved
 from reports.model.blocks import Grid, Model
+from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
 from reports.shared.russian import NBSP, fixed, joined, runs
 from reports.tables.cycle_names import section_of
@@ -29,8 +32,8 @@ if TYPE_CHECKING:
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "torsion", "oil", "regimes", "checks", "appendices"}
-_FULL = _COURSE | {"balance", "bearings", "reference", "companions"}
+_COURSE = _SHORT | {"running", "balance", "torsion", "oil", "regimes", "checks", "appendices"}
+_FULL = _COURSE | {"bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 
 
@@ -38,10 +41,8 @@ def chosen(model: InputFile) -> set[str]:
     """Names of the report's chapters: its profile or the person's own list."""
     report = model.report
     wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
-    # Who fills in the section wants to read of it; the short report ends before.
-    has_balance = report.chapters is None and report.detail == "course" and model.balance.asked
     # Both were one chapter: files that name it get what they got.
-    if has_balance or "companions" in wanted:
+    if "companions" in wanted:
         wanted = wanted | {"balance"}
     return wanted | _ALWAYS
 
@@ -58,6 +59,22 @@ def relevant_chapters(model: InputFile) -> set[str]:
 
 _PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+
+
+_NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
+
+
+def after_noun(name: str) -> str:
+    """An engine's name to stand after «двигателя»: the noun is not said twice.
+
+    «Судовой дизель 6Ч 30/38» gives « 6Ч 30/38», «Дизель: рядный» gives « (рядный)».
+    """
+    noun = _NOUN.match(name)
+    if noun is None:
+        return f" «{name}»"
+    head, colon, rest = name[noun.end() :].strip().partition(":")
+    words = f"{head.strip()} ({rest.strip()})" if colon else head
+    return f" {words.strip()}" if words.strip() else ""
 
 
 def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
@@ -92,7 +109,31 @@ def greatest_pressure(terms: Terms) -> tuple[Markup, str, Markup | str]:
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
     """Main journals and crankpins with the greatest range of the running-on torque."""
     mains = leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])  # journal 1 has none
-    return [k + 1 for k in mains], leaders(terms, [f"dM_pin{i}" for i in range(1, throws + 1)])
+    pins = [pin_swing(terms, throws, i) for i in range(1, throws + 1)]
+    most = max(pins, key=lambda text: float(text.replace(",", ".").replace(NBSP, "")))
+    return [k + 1 for k in mains], [i for i, text in enumerate(pins, 1) if text == most]
+
+
+def half_torque_gap(terms: Terms, throws: int) -> float:
+    """How far the rule of half a throw's torque is from statics at most [N·m]."""
+    return max(
+        float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
+        for i in range(1, throws + 1)
+    )
+
+
+def pin_torque(terms: Terms, throws: int, number: int) -> str:
+    """Column of the torque in a crankpin: by statics where the rule of half a torque is off."""
+    digits = terms.quantity("dM_pin1").digits
+    if half_torque_gap(terms, throws) > 0.5 * 10.0**-digits.decimals:
+        return f"P4_5s.Mpins{number}_Nm"
+    return f"P4_5.Mpin{number}_Nm"
+
+
+def pin_swing(terms: Terms, throws: int, number: int) -> str:
+    """Range of the torque in a crankpin, as printed [N·m]."""
+    values = terms.column(pin_torque(terms, throws, number))
+    return of_digits(float(np.ptp(values)), terms.quantity("dM_pin1").digits)
 
 
 def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
@@ -178,9 +219,9 @@ class Chapter:
 
     @property
     def named(self) -> str:
-        """The engine's name in quotes after a space; nothing for an engine without one."""
+        """The engine's name after the word for it; nothing for an engine without one."""
         name = self.input.engine.name
-        return "" if name in ("", EngineSection.model_fields["name"].default) else f" «{name}»"
+        return "" if name in ("", EngineSection.model_fields["name"].default) else after_noun(name)
 
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
@@ -195,7 +236,7 @@ class Chapter:
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "printed_step",
-               "whole", "named")  # fmt: skip
+               "whole", "named", "by_fine")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -275,6 +316,21 @@ class Chapter:
         digits = error.digits.within(error.coarse)
         return with_unit(of_digits(error.fine, digits), self.terms.unit(error.key))
 
+    def fine_value(self, name: str) -> float:
+        """A scalar by the solution with the fine step; on a grid as fine the table's own."""
+        if self.input.calculation.step_deg <= FINE:
+            return self.terms.value(name)
+        return float(solved(refined(self.input)).scalars[name])
+
+    def by_fine(self, name: str, *, symbol: bool = False) -> Markup:
+        """A scalar by the fine step with its unit, after its symbol if asked for."""
+        value, digits = self.fine_value(name), self.terms.quantity(name).digits
+        shown = with_unit(of_digits(value, digits.within(value)), self.terms.unit(name))
+        if not symbol:
+            return shown
+        words = Markup('<span class="nb">{}{}={}{}</span>')
+        return words.format(self.terms.sym(name), NBSP, NBSP, shown)
+
     def worst(self, key: str) -> int:
         """Number of the most loaded journal by a scalar that holds it."""
         return round(self.terms.value(key))
@@ -299,14 +355,18 @@ class Chapter:
         key: str,
         names: Iterable[str],
         size: float,
+        *,
+        series: Mapping[str, tuple[Series, ...]] | None = None,
         **more: Any,  # noqa: ANN401
     ) -> Markup:
-        """Charts of one group in one figure, one above the other."""
+        """Charts of one group in one figure, one above the other; ``series`` instead of theirs."""
         names = tuple(names)
         if self.writer.draft:
             self.figures.update((name, self.figures.get(name, key)) for name in names)
             return self.writer.figure(key, None)
         charts = [self.model.charts_by_id[name] for name in names]
+        own = series or {}
+        charts = [replace(chart, series=own.get(chart.id, chart.series)) for chart in charts]
         return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))
 
     def scalars(self, caption: str, keys: Iterable[str], **manner: Any) -> TablePlan:  # noqa: ANN401

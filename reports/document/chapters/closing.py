@@ -16,6 +16,7 @@ from reports.document.chapters.chapter import (
     greatest_pressure,
     leaders,
     pin_stems,
+    pin_swing,
     relevant_chapters,
     worst_pin,
     worst_running,
@@ -24,9 +25,8 @@ from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
-from reports.inputs.solve_input import flywheel_remark, remark_on
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
 from reports.shared.russian import NBSP, capital, fixed
@@ -54,11 +54,11 @@ SOURCES = {
         "Чудаков, Д. А. Об уравновешивании тракторных четырёхцилиндровых дизелей / "
         f"Д. А. Чудаков, Э. М. Жарнов. {_TEXT}.",
     "segal":
-        "Сегаль, В. Ф. Динамические расчёты двигателей внутреннего сгорания / В. Ф. Сегаль. "
-        f"{_TEXT}.",
+        "Сегаль, В. Ф. Динамические расчёты двигателей внутреннего сгорания / В. Ф. Сегаль. — "
+        f"Ленинград : Машиностроение, 1974. — 248 с. {_TEXT}.",
     "neiman":
         "Нейман, И. Ш. Динамика авиационных двигателей / И. Ш. Нейман. — Москва : Оборонгиз, "
-        f"1940. {_TEXT}.",
+        f"1940. — 489 с. {_TEXT}.",
     "den_hartog":
         "Ден-Гартог, Дж. П. Механические колебания / Дж. П. Ден-Гартог ; перевод с английского. "
         f"— Москва : Физматгиз, 1960. — 580 с. {_TEXT}.",
@@ -92,23 +92,20 @@ def checks(chapter: Chapter) -> Markup:
         plan=plan,
         failed=failed(terms),
         verdict=verdict(terms),
-        remarks=_remarks(chapter),
+        accepted=_accepted(chapter),
         grid=bool(chapter.terms.grid_errors),
         errors=TablePlan(partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик"),
     )
 
 
-def _remarks(chapter: Chapter) -> list[Markup]:
-    """Remarks on the input outside of all chapters."""
-    remarks = [remark_on(chapter.terms.grid_errors, chapter.input)]
-    if "torsion" in chosen(chapter.input):
-        remarks.append(flywheel_remark(chapter.input))
-    if "torque" in chosen(chapter.input):
-        remarks.append(reasons_of(chapter.input).get("power", ""))
+def _accepted(chapter: Chapter) -> list[tuple[Markup, Markup]]:
+    """Failed checks that the author explains, with the reason; that of power has its chapter."""
+    told = {"power"} if "torque" in chosen(chapter.input) else set()
+    titles = {key: scalar.note for key, scalar in chapter.model.scalars.items()}
     return [
-        remark_html(line)
-        for line in chapter.terms.model.remarks
-        if not any(part and line.endswith(part) for part in remarks)
+        (titled_html(titles[f"check_{key}"]), remark_html(reason.rstrip(".")))
+        for key, reason in reasons_of(chapter.input).items()
+        if f"check_{key}" in titles and key not in told
     ]
 
 
@@ -189,6 +186,9 @@ def conclusion(chapter: Chapter) -> Markup:
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
         pz=greatest_pressure(terms),
+        powers=terms.has("cyc_N_gas"),
+        at_pins=with_unit(pin_swing(terms, throws, pins[0]), terms.unit("dM_pin1")),
+        hole=oil.hole(chapter, pin),
     )
 
 

@@ -8,19 +8,28 @@ from itertools import pairwise
 import numpy as np
 from markupsafe import Markup
 
-from reports.document.chapters.chapter import Chapter, greatest_pressure, worst_running
+from reports.document.chapters.chapter import (
+    Chapter,
+    greatest_pressure,
+    half_torque_gap,
+    pin_swing,
+    pin_torque,
+    worst_running,
+)
 from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.charts import Row
 from reports.document.page.numbering import Figure, TablePlan
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
 from reports.document.text.tex import cases
 from reports.document.text.texts import of_digits, rich
+from reports.formula.numeric import evaluate
 from reports.inputs.checks.gas import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import sizes_of
 from reports.model.blocks import NO, YES, Grid, ScalarTable
+from reports.model.charts import Series
 from reports.model.context import diagram_kind
 from reports.model.shape import rods_table
 from reports.shared.russian import NBSP, fixed, short
@@ -121,6 +130,7 @@ def dynamics(chapter: Chapter) -> Markup:
         rounded=partial(_rounded_text, chapter),
         smooth=diagram_kind(chapter.input.gas) == "smooth",
         indicated=_indicated(chapter.input),
+        jump=_jump(terms) if polytropic else None,
         pressure=_pressure_tex(terms) if polytropic else "",
         pressure_at=partial(_pressure_at, terms),
         masses=[key for key in ("m_1", "m_2", "m_j") if _is_computed(chapter, key)],
@@ -129,6 +139,21 @@ def dynamics(chapter: Chapter) -> Markup:
         inertia={"tdc": terms.num("P4_1.Pj_MPa", 360.0), "bdc": terms.num("P4_1.Pj_MPa", 180.0)},
         from_cycle=chapter.input.gas.source == "cycle",
     )
+
+
+_TDC = "(360 + phi_tdc_deg)"
+_BEFORE = "min({pz}, p_start + ({pz} - p_start)*({tdc} - phi_c_deg)/gas_injection_advance_deg)"
+
+
+def _jump(terms: Terms) -> tuple[Markup, Markup] | None:
+    """Pressures before and after the top dead centre where they are printed apart."""
+    name = "cyc_p_z" if terms.has("cyc_p_z") else "gas_max_pressure_mpa"
+    text = _BEFORE.format(pz=name, tdc=_TDC if terms.has("phi_tdc_deg") else "360")
+    before, after = float(evaluate(text, terms.value)), terms.value(name)
+    shown = [fixed(value, 2) for value in (before, after)]
+    if shown[0] == shown[1]:
+        return None
+    return with_unit(shown[0], "МПа"), with_unit(shown[1], "МПа")
 
 
 def _is_computed(chapter: Chapter, key: str) -> bool:
@@ -292,20 +317,23 @@ def _powers(chapter: Chapter) -> TablePlan:
     """From the pressure of the diagram that is not rounded to the effective one, Gots 2.8."""
     terms, step = chapter.terms, fixed(chapter.input.calculation.step_deg, 0)
     steps = (
-        ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", ""),
-        ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas"),
-        (f"Динамический расчёт по той же диаграмме с шагом {step}°", "p_i_calc", "N_i_calc"),
-        ("Индикаторные показатели с коэффициентом полноты", "cyc_p_i", "cyc_N_i"),
-        ("Эффективные показатели", "cyc_p_e", "cyc_N_e"),
+        ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", "", ""),
+        ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas", ""),
+        (f"Динамический расчёт по той же диаграмме с шагом {step}°", "p_i_calc", "N_i_calc", "M_mean"),
+        (f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = {terms.num('cycle_fullness')}", "cyc_p_i", "cyc_N_i", ""),
+        (f"То же с механическим КПД {terms.sym('cyc_eta_m')} = {terms.num('cyc_eta_m')}",
+         "cyc_p_e", "cyc_N_e", "cyc_M_e"),
     )
-    columns = [TableColumn("Ступень", 4.2, text=True), TableColumn("Среднее давление, МПа", 2.0),
-               TableColumn("Мощность, кВт", 1.8)]  # fmt: skip
+    columns = [TableColumn("Ступень", 3.6, text=True), TableColumn("Среднее давление, МПа", 1.9),
+               TableColumn("Мощность, кВт", 1.9), TableColumn("Момент, Н·м", 1.7)]  # fmt: skip
 
     def cell(name: str) -> str:
         return f"{terms.sym(name)} = {terms.num(name)}" if name else "—"
 
     build = partial(
-        table_block, columns, [[title, Markup(cell(p)), Markup(cell(n))] for title, p, n in steps]
+        table_block,
+        columns,
+        [[Markup(title), *(Markup(cell(name)) for name in names)] for title, *names in steps],
     )
     return TablePlan(build, "Мощности расчёта цикла и динамического расчёта", keep=True)
 
@@ -322,10 +350,7 @@ def running(chapter: Chapter) -> Markup:
     terms, count = chapter.terms, chapter.shape.throws
     main = [f"fig56_{k}" for k in range(2, count + 2)]
     pins = [f"fig57_{i}" for i in range(1, count + 1)]
-    gap = max(
-        float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
-        for i in range(1, count + 1)
-    )
+    gap = half_torque_gap(terms, count)
     mains, worst = worst_running(terms, count)
     if not chapter.whole:
         main, pins = [f"fig56_{mains[0]}"], [f"fig57_{worst[0]}"]
@@ -338,10 +363,21 @@ def running(chapter: Chapter) -> Markup:
         last=count + 1,
         count=count,
         gap=of_digits(gap, digits) if gap > 0.5 * 10**-digits.decimals else "",
+        statics=_statics(terms, count),
+        at_pins=with_unit(pin_swing(terms, count, worst[0]), terms.unit("dM_pin1")),
         beside=not (chapter.shape.single_rods or chapter.shape.articulated),
         mains=mains,
         pins=worst,
     )
+
+
+def _statics(terms: Terms, count: int) -> dict[str, tuple[Series, ...]]:
+    """Curves of figure 57 by statics, where they differ from the rule."""
+    columns = {i: pin_torque(terms, count, i) for i in range(1, count + 1)}
+    return {
+        f"fig57_{i}": (Series(f"{name.partition('.')[0]}.phi_deg", name),)
+        for i, name in columns.items()
+    }
 
 
 def _figures(charts: list[str]) -> list[list[str]]:
@@ -358,11 +394,12 @@ def _ranges(terms: Terms, count: int) -> TableBlock:
         *(TableColumn(symbol_head(h, "Н·м")) for h in heads),
     ]
     names = [(f"коренная {k}", f"P4_4.Mmain{k}_Nm", f"dM_main{k}") for k in range(2, count + 2)]
-    names += [(f"шатунная {i}", f"P4_5.Mpin{i}_Nm", f"dM_pin{i}") for i in range(1, count + 1)]
+    names += [(f"шатунная {i}", pin_torque(terms, count, i), "") for i in range(1, count + 1)]
     rows = []
     for title, column, key in names:
         values = terms.column(column)
-        numbers = (float(values.max()), float(values.min()), terms.value(key))
-        digits = terms.quantity(key).digits  # as in the text below the table
+        swing = terms.value(key) if key else float(np.ptp(values))
+        numbers = (float(values.max()), float(values.min()), swing)
+        digits = terms.quantity("dM_pin1").digits  # as in the text below the table
         rows.append([title, *(of_digits(number, digits) for number in numbers)])
     return table_block(columns, rows)

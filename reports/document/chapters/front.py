@@ -11,6 +11,7 @@ from reports.document.chapters.chapter import Chapter, relevant_chapters
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import SheetSection
 from reports.shared.russian import joined, last_bound, surname
 
 Words = dict[str, Any]
@@ -66,11 +67,12 @@ def title_page(model: InputFile, style: TitlePage) -> Words:
 
 def _department(name: str) -> str:
     """«Кафедра …» whether or not the input says the word itself."""
-    return name if not name or name.lower().startswith("кафедра") else f"Кафедра: {name}"
+    return name if not name or name.lower().startswith("кафедра") else f"Кафедра «{name}»"
 
 
-def assignment(chapter: Chapter) -> Words:
-    """The assignment from the report's data and from what the report holds."""
+def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
+    """The assignment from the report's data and from what the report and the sheet hold."""
+    sheet = chapter.input.sheet or SheetSection()
     n, present = chapter.writer.n, chapter.model.fields
     words = _words(chapter.input)
     return words | {
@@ -79,6 +81,7 @@ def assignment(chapter: Chapter) -> Words:
         "data": [(present[k].title, chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),
+        "sheet": sheet.size if with_sheet else "",
     }
 
 

@@ -10,7 +10,14 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import roman
-from reports.document.chapters.chapter import Chapter, are_alike, leaders, pin_stems, worst_pin
+from reports.document.chapters.chapter import (
+    Chapter,
+    are_alike,
+    leaders,
+    pin_stems,
+    relevant_chapters,
+    worst_pin,
+)
 from reports.document.figures.schemes import crank_scheme
 from reports.document.page.blocks import (
     TableBlock,
@@ -22,7 +29,7 @@ from reports.document.page.blocks import (
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms
 from reports.model.shape import pin_figure, pin_table, rays_table
-from reports.shared.russian import capital, fixed, joined
+from reports.shared.russian import capital, fixed, instrumental, joined
 
 _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13",
            "C14", "C15", "C4x", "C5x")  # fmt: skip
@@ -79,6 +86,8 @@ def crankpin(chapter: Chapter) -> Markup:
         rays=rays,
         sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
         best=least_ray(terms, name),
+        film="oil" in relevant_chapters(chapter.input) and terms.has("oil_film1_deg")
+        and chapter.input.crankshaft.oil_hole_deg is None,
         ties=_least_rays(terms, name, rays),
         arc=max(terms.value(f"{name}_arc{i}") for i in range(1, rays + 1)),
     )
@@ -130,7 +139,7 @@ def journals(chapter: Chapter) -> Markup:
             ),
             "Схема коленчатого вала: вид сбоку и с носка" + _HALVES * chapter.shape.split,
         ),
-        throws=throws,
+        throws_text=instrumental(throws, "коленом", "коленами"),
         arms=[name for name in _ARMS if terms.has(name)],
         numbers=numbers,
         tables=[f"P4_3_{n}" for n in numbers],

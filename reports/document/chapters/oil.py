@@ -10,7 +10,7 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.arrays import Array
-from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.chapter import Chapter, relevant_chapters
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
@@ -75,7 +75,7 @@ def oil(chapter: Chapter) -> Markup:
             getattr(section, f"{of}_clearance_{end}_mm") is not None
             for of in ("pin", "main") for end in ("min", "max")
         ),
-        material=MATERIALS[section.material].label,
+        material=_material(section.material),
         reynolds=_REYNOLDS, motion=_MOTION, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
@@ -85,6 +85,10 @@ def oil(chapter: Chapter) -> Markup:
         worst=steady,
         enough=steady.value >= section.reserve_allowed,
         thicker=_times(mean, gaps),
+        sizes=TablePlan(partial(_sizes, terms, cases), "Размеры подшипников и зазоры", keep=True),
+        reserve=fixed(thin.value / critical, 2),
+        carries=thin.value >= section.reserve_allowed * critical,
+        given_hole=chapter.input.crankshaft.oil_hole_deg is not None,
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
         angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),
         open=float(terms.column("oil_orbits.oil_open").max()) > _CLOSED,
@@ -100,6 +104,26 @@ def oil(chapter: Chapter) -> Markup:
     )  # fmt: skip
 
 
+@dataclass(frozen=True, slots=True)
+class Hole:
+    """Where the oil hole of a crankpin goes and why; empty where wear alone tells it."""
+
+    pin: int
+    angle: Markup | str = ""
+    why: str = ""
+
+
+def hole(chapter: Chapter, pin: int) -> Hole:
+    """The one verdict on the oil hole: as given, by the film, or by wear of the pin."""
+    terms, given = chapter.terms, chapter.input.crankshaft.oil_hole_deg
+    if "oil" not in relevant_chapters(chapter.input) or not terms.has("oil_film1_deg"):
+        return Hole(pin)
+    if given is not None:
+        return Hole(1, terms.val("crankshaft_oil_hole_deg"), "как задано")
+    ends = [terms.num(f"oil_film{n}_deg", beside="oil_film1_deg") for n in (1, 2)]
+    return Hole(1, Markup("…".join(dict.fromkeys(ends)) + "°"), "там, где плёнка толще всего")
+
+
 def concluded(chapter: Chapter) -> Markup:
     """The chapter's result in a line of the conclusion."""
     terms, section = chapter.terms, chapter.input.bearings
@@ -107,18 +131,25 @@ def concluded(chapter: Chapter) -> Markup:
         return Markup("")
     gaps = terms.column("oil_orbits.oil_orb_h_um")
     thin = _worst(film_cases(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
-    side = "меньше" if thin.value < terms.value("oil_hcr_um") else "не меньше"
+    reserve = thin.value / terms.value("oil_hcr_um")
+    side = "меньше" if reserve < section.reserve_allowed else "не меньше"
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
     part = _weakest(chapter)
     enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
     line = (
-        "самая тонкая масляная плёнка {} мкм — у {}, она {} критической {}; наименьший запас "
+        "самая тонкая масляная плёнка {} мкм — у {}, её запас {} {} допускаемого {}; наименьший запас "
         "прочности {} — у {}, он {} допускаемого {}"
     )
     return Markup(line).format(
-        thin.text, thin.words, side, terms.val("oil_hcr_um"), fixed(min(pin, main), 2), part,
+        thin.text, thin.words, fixed(reserve, 2), side, terms.num("bearings_reserve_allowed"), fixed(min(pin, main), 2), part,
         enough, terms.num("bearings_safety_allowed"),
     )  # fmt: skip
+
+
+def _material(key: str) -> str:
+    """Name of a material with its noun: «сталь 45», «чугун ВЧ 60»."""
+    label = MATERIALS[key].label
+    return f"{'чугун' if label.startswith(('ВЧ', 'СЧ')) else 'сталь'}{NBSP}{label}"
 
 
 def _times(mean: Sequence[float], gaps: Array) -> str:
@@ -195,6 +226,29 @@ def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
         [titled_html(case.label), *(terms.num(key.format(case.number)) for key in keys)]
         for case in cases
     ]
+    return table_block(heads, rows)
+
+
+def _sizes(terms: Terms, cases: list[FilmCase]) -> TableBlock:
+    """Diameter, width of the carrying part and clearances of every bearing."""
+    heads = [
+        TableColumn("Подшипник", 3.0, text=True),
+        TableColumn(symbol_head("d", "мм")),
+        TableColumn(symbol_head("B", "мм")),
+        TableColumn(symbol_head(r"\Delta_{\min}", "мм")),
+        TableColumn(symbol_head(r"\Delta_{\max}", "мм")),
+    ]
+    rows = []
+    for least, most in zip(cases[::2], cases[1::2], strict=True):
+        n, parts = least.number, round(terms.value(f"oil_lands{least.number}"))
+        width = terms.num(f"oil_land{n}_mm")
+        rows.append([
+            titled_html(least.label.partition(",")[0]),
+            terms.num(f"oil_d{n}_mm"),
+            f"{parts} × {width}" if parts > 1 else width,
+            terms.num(f"oil_gap{n}_mm"),
+            terms.num(f"oil_gap{most.number}_mm"),
+        ])  # fmt: skip
     return table_block(heads, rows)
 
 

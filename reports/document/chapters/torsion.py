@@ -37,6 +37,7 @@ _MOTION = (
     r"\left(-\omega^2 J + i\omega b + c\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
     r"\omega = \nu\,\Omega"
 )
+_NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}
 _DIGITS = 3  # of an energy, which is 4896 J for a ship's engine and 0.0012 J for a model's
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
@@ -87,6 +88,7 @@ def torsion(chapter: Chapter) -> Markup:
     return chapter.page(
         "torsion",
         section=section,
+        formula=_NAMED[section.formula],
         own=bool(section.masses),
         free=section.ground_nm_rad + (section.masses[-1].stiffness_nm_rad
                                       if section.masses else 0) == 0,

@@ -71,7 +71,7 @@ class TorsionSection(Strictly, usual=(Torsion,)):
         "Жёсткость от первой массы до заделки, 0 — конец свободен", "c_0", NM_RAD, 0, HARD, USUAL
     )
     formula: Literal["wilson", "carter", "zimanenko"] = choice(
-        "Формула приведённой длины (по памяти)", FORMULAS, "wilson"
+        "Формула приведённой длины", FORMULAS, "wilson"
     )
     shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, USUAL)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, USUAL)

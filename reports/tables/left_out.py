@@ -24,19 +24,24 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
     return tuple(block for block in blocks if block.id not in known)
 
 
-def left_out_note(model: InputFile) -> str:
-    """What is not calculated and why, in a line that names the sheets; empty where all is."""
-    sheets = list(dict.fromkeys(block.sheet for block in left_out(model)))
-    if not sheets:
-        return ""
+def without_orders(model: InputFile) -> str:
+    """Why there are no series by orders, after «из-за»; empty where there are."""
     shape = Shape.of(model)
     reasons = [
         *(["смещения оси цилиндра или пальца"] if shape.offset else []),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
+    return " и ".join(reasons)
+
+
+def left_out_note(model: InputFile) -> str:
+    """What is not calculated and why, in a line that names the sheets; empty where all is."""
+    sheets = list(dict.fromkeys(block.sheet for block in left_out(model)))
+    if not sheets:
+        return ""
     # «Уравновешивание» stands for «Уравновешивание, итоги» too.
     named = [f"«{s}»" for s in sheets if (base := s.partition(", ")[0]) == s or base not in sheets]
     return (
-        f"Не рассчитано из-за {' и '.join(reasons)} (ряды по порядкам описывают центральный "
+        f"Не рассчитано из-за {without_orders(model)} (ряды по порядкам описывают центральный "
         f"механизм с одинаковыми шатунами), в книге нет листов {', '.join(named)}"
     )

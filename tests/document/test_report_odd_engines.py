@@ -79,8 +79,8 @@ def test_the_energy_of_a_vibration_has_three_digits_for_a_model_engine_too():
 def test_cylinders_that_fire_together_are_told_so():
     text = text_of(in_line([1, 2, 3, 4], offsets=[0, 360, 360, 0]))
     assert "порядок работы (1, 4)–(2, 3) (в скобках — цилиндры, работающие одновременно)" in text
-    assert "Порядок начала рабочих ходов (1, 4)–(2, 3) (в скобках" in text
-    assert "они чередуются через 360°" in text
+    assert "Порядок работы цилиндров (1, 4)–(2, 3) (в скобках" in text
+    assert "рабочие ходы чередуются через 360°" in text
     text = text_of(in_line([1, 2], strokes=2, offsets=[0, 0]))
     assert "рабочие ходы всех цилиндров начинаются одновременно. Схема" in text
     assert "Рабочие ходы всех цилиндров начинаются одновременно. Моменты" in text
@@ -88,7 +88,7 @@ def test_cylinders_that_fire_together_are_told_so():
 
 def test_uneven_intervals_are_named():
     text = text_of(in_line([1, 2], offsets=[0, 540]))
-    assert "чередование неравномерное: через 180° и 540°" in text
+    assert "рабочие ходы чередуются неравномерно: через 180° и 540°" in text
 
 
 def test_a_share_on_the_end_of_its_span_is_within_it():
@@ -111,8 +111,8 @@ def test_angles_beyond_the_dead_centre_are_of_the_right_cycle(offset, said):
 
 def test_clearances_are_called_accepted_only_if_they_are():
     given = {f"{of}_clearance_{end}_mm": 0.05 for of in ("pin", "main") for end in ("min", "max")}
-    assert "Зазоры, которые не заданы" in text_of(in_line([1, 3, 2], bearings={}))
-    assert "Зазоры, которые не заданы" not in text_of(in_line([1, 3, 2], bearings=given))
+    assert "Зазоры по диаметру, которые не заданы" in text_of(in_line([1, 3, 2], bearings={}))
+    assert "Зазоры по диаметру, которые не заданы" not in text_of(in_line([1, 3, 2], bearings=given))
 
 
 def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter():
@@ -281,8 +281,8 @@ def test_units_of_torsion_are_written_as_everywhere():
 
 def test_the_abstract_invites_to_what_the_report_has_not_done():
     done = text_of(in_line([1, 3, 2], bearings={}))
-    assert "повторить и продолжить. " in done
-    assert "продолжить: проверить прочность вала и подшипники" in text_of(in_line([1, 3, 2]))
+    assert "приложены в электронном виде. " in done
+    assert "по ним можно проверить прочность вала и подшипники" in text_of(in_line([1, 3, 2]))
 
 
 def test_sums_of_many_journals_stand_in_tables_of_alike_widths():

@@ -101,7 +101,7 @@ def test_a_course_report_prints_rows_at_thirty_degrees(framed):
     end = re.search(r"Таблица\sБ\.3\s—", text).start()
     rows = [int(a) for a in re.findall(r"(?m)^\s*(\d+)\s+−?\d+,\d+", text[start:end])]
     assert rows == [*range(0, 721, 30)]
-    assert "в отчёте они напечатаны через 30°" in flat(text).replace("\u2010 ", "")
+    assert "в записке они напечатаны через 30°" in flat(text).replace("\u2010 ", "")
 
 
 def own(folder: Path, name: str, text: str) -> str:

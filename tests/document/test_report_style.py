@@ -52,14 +52,15 @@ def test_profiles_hold_one_another():
     assert held["short"] < held["course"] < held["full"] == set(CHAPTERS)
 
 
-def test_who_fills_in_balancing_reads_of_it():
-    """As of torsion and of bearings; the short report ends before."""
-    for detail, more in (("short", set()), ("course", {"balance"}), ("full", set())):
+def test_every_course_note_has_balance_and_flywheel():
+    """Whoever fills in the section or not; the short report ends before."""
+    for detail, more in (("short", set()), ("course", set()), ("full", set())):
         plain, asked = (
             chosen(load_text(with_detail(ONE, detail) + keys, source="f").model)
             for keys in ("\n[balance]\n", "\n[balance]\nirregularity = 0.01\n")
         )
         assert asked - plain == more
+        assert ("balance" in plain) == (detail != "short")
     picked = ONE.replace('detail = "full"', 'chapters = ["companions"]')
     # They were one chapter under that name.
     assert chosen(load_text(picked, source="f").model) >= {"balance", "companions"}

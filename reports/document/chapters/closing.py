@@ -30,6 +30,7 @@ from reports.document.text.texts import of_digits
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
 from reports.shared.russian import NBSP, capital, fixed
+from reports.tables.left_out import without_orders
 from reports.tables.verdicts import check_value, reasons_of
 
 _TEXT = "— Текст : непосредственный"
@@ -93,6 +94,7 @@ def checks(chapter: Chapter) -> Markup:
         failed=failed(terms),
         verdict=verdict(terms),
         accepted=_accepted(chapter),
+        reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
         grid=bool(chapter.terms.grid_errors),
         errors=TablePlan(partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик"),
     )

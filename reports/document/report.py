@@ -24,6 +24,7 @@ from reports.document.chapters import (
     journals,
     oil,
     opening,
+    rationale,
     regimes,
     torsion,
 )
@@ -37,12 +38,14 @@ from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
 from reports.document.text import texts
 from reports.document.text.terms import Terms
+from reports.inputs.load import load_toml
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection
 from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
-from reports.model.evaluation import Values
+from reports.model.evaluation import Values, evaluate_model
+from reports.tables.registry import build_model
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -55,6 +58,7 @@ CHAPTERS: dict[str, Write] = {
     "notation": opening.notation,
     "introduction": opening.introduction,
     "inputs": opening.input_data,
+    "rationale": rationale.rationale,
     "cycle": cycle.cycle,
     "kinematics": dynamics.kinematics,
     "dynamics": dynamics.dynamics,
@@ -88,6 +92,7 @@ class Report:
         style: margins, type and what else a department asks for.
         further: chapters from rooms above this one, before the checks.
         with_sheet: whether the sheet of dynamics is made beside it.
+        prototype: the engine that the report's one is held against.
     """
 
     model: Model
@@ -96,6 +101,7 @@ class Report:
     style: Style = USUAL
     further: Further = ()
     with_sheet: bool = False
+    prototype: Terms | None = None
 
     @classmethod
     def of(
@@ -125,7 +131,8 @@ class Report:
         folder = overrides.find(report.templates, source.parent)
         with_sheet = with_sheet or "sheet" in (report.formats or ())
         style_of = find_style(report, source.parent, style)
-        return cls(model, values, folder, style_of, further, with_sheet)
+        other = prototype_of(report, source.parent)
+        return cls(model, values, folder, style_of, further, with_sheet, other)
 
     def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
         """The report as PDF with the input file, the workbook and the diagram's points attached.
@@ -188,7 +195,7 @@ class Report:
     def _draft(self) -> tuple[Draft, Chapter]:
         """Draft of the chosen chapters: places and numbers."""
         env, draft = self._environment("print", tagged=True), Draft(by_chapter=self._by_chapter)
-        chapter = Chapter(self._terms, Writer(env, draft), env)
+        chapter = Chapter(self._terms, Writer(env, draft), env, self.prototype)
         with overrides.template_errors(self.templates):
             _write(chapter, chosen(self.model.input), self.further)
         return draft, chapter
@@ -198,7 +205,7 @@ class Report:
         """Words for what stands in the chapters that are left out."""
         env, absent = self._environment("print", tagged=True), Draft()
         names = CHAPTERS.keys() - chosen(self.model.input)
-        _write(Chapter(self._terms, Writer(env, absent), env), names)
+        _write(Chapter(self._terms, Writer(env, absent), env, self.prototype), names)
         return _elsewhere(self._terms, absent)
 
     @property
@@ -212,14 +219,16 @@ class Report:
     def _written(self, media: Literal["print", "screen"], tagged: bool) -> str:
         env, style = self._environment(media, tagged=tagged), self.style
         numbering = self._draft[0].numbering(elsewhere=self._absent)
-        chapter = Chapter(self._terms, Writer(env, numbering), env)
+        chapter = Chapter(self._terms, Writer(env, numbering), env, self.prototype)
         body = Markup(texts.unbroken(_write(chapter, chosen(self.model.input), self.further)))
         if media == "print":
             sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
             placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(chapter, style))
             body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
         numbering.check()
-        head, start, page = _whole(env, chapter, body, with_sheet=self.with_sheet).partition("<body>")
+        head, start, page = _whole(env, chapter, body, with_sheet=self.with_sheet).partition(
+            "<body>"
+        )
         return texts.spaces_inside(head + start + texts.unbroken(page))
 
 
@@ -254,6 +263,15 @@ def find_style(report: ReportSection, beside: Path, given: Path | None = None) -
     if given is None and report.style.strip():
         given = beside / report.style
     return USUAL if given is None else read_style(given)
+
+
+def prototype_of(report: ReportSection, beside: Path) -> Terms | None:
+    """The first file of an engine that the input names for comparison, if it names one."""
+    name = report.compare.split(";")[0].strip()
+    if not name.endswith(".toml"):
+        return None
+    model = build_model(load_toml(beside / name).model)
+    return Terms(model, evaluate_model(model))
 
 
 def _run_on(chapter: Chapter, style: Style) -> float:

@@ -21,6 +21,7 @@ from kshm.engine.masses import Estimate
 from kshm.mechanics.masses import PISTON, ROD, THROW, area_masses
 from reports.inputs.load import load_mapping
 from reports.inputs.meta import Strictly, hints
+from reports.inputs.reasons import with_spans
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.template import NUMBER_WORDS
@@ -126,7 +127,8 @@ def generate_engine(
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
-    return NewEngine(data, {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}, head)
+    notes = {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}
+    return NewEngine(data, with_spans(notes, kind), head)
 
 
 def _rod(task: EngineTask, stroke: float, lam: float) -> dict[str, float]:

@@ -156,7 +156,9 @@ _WITH = ("одним", "двумя", "тремя", "четырьмя", "пять
 
 def instrumental(count: int, one: str, many: str) -> str:
     """A count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
-    return f"{_WITH[count - 1] if count <= len(_WITH) else count}{NBSP}{one if count == 1 else many}"
+    return (
+        f"{_WITH[count - 1] if count <= len(_WITH) else count}{NBSP}{one if count == 1 else many}"
+    )
 
 
 _INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")

@@ -112,7 +112,9 @@ def test_angles_beyond_the_dead_centre_are_of_the_right_cycle(offset, said):
 def test_clearances_are_called_accepted_only_if_they_are():
     given = {f"{of}_clearance_{end}_mm": 0.05 for of in ("pin", "main") for end in ("min", "max")}
     assert "Зазоры по диаметру, которые не заданы" in text_of(in_line([1, 3, 2], bearings={}))
-    assert "Зазоры по диаметру, которые не заданы" not in text_of(in_line([1, 3, 2], bearings=given))
+    assert "Зазоры по диаметру, которые не заданы" not in text_of(
+        in_line([1, 3, 2], bearings=given)
+    )
 
 
 def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter():

@@ -138,7 +138,13 @@ def assert_pins_agree(model, text):
         (f"Rpin{pin}_max", 3, r"\. Наибольшая "),
         (f"Rpin{pin}_max_kN", 2, f"наибольшая нагрузка на шатунную шейку{number} — "),
         *(
-            [(f"hole_pin{pin}_deg", 0, f"отверстие шатунной шейки{number} следует сверлить под углом ")]
+            [
+                (
+                    f"hole_pin{pin}_deg",
+                    0,
+                    f"отверстие шатунной шейки{number} следует сверлить под углом ",
+                )
+            ]
             if model.bearings is None
             else []
         ),
@@ -203,7 +209,9 @@ def assert_claims_hold(model, page):
     gaps = np.diff([*offsets, offsets[0] + 180 * model.engine.strokes])
     if order:
         assert np.allclose(gaps, float(order.group(1).replace(",", ".")), atol=0.005)
-    assert ("рабочие ходы чередуются неравномерно" in text) == (not np.allclose(gaps, gaps[0], atol=1e-2))
+    assert ("рабочие ходы чередуются неравномерно" in text) == (
+        not np.allclose(gaps, gaps[0], atol=1e-2)
+    )
     assert ("проверок" not in text) or "Из 7 проверок" not in text
 
 

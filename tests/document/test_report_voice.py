@@ -40,7 +40,9 @@ def test_statics_leads_where_the_rule_of_half_a_torque_is_off():
     model = engine("split", report__detail="course")
     text = text_of(model)
     tables = solved(model).columns["P4_5s"]
-    swings = [float(column.max() - column.min()) for key, column in tables.items() if "Mpins" in key]
+    swings = [
+        float(column.max() - column.min()) for key, column in tables.items() if "Mpins" in key
+    ]
     said = re.search(r"среди шатунных — у ше(?:йки|ек) [^:]*: ([\d\xa0 ]+) Н·м", text)
     assert said, "no range of crankpins"
     assert float(re.sub(r"\D", "", said[1])) == pytest.approx(max(swings), abs=0.6)
@@ -118,5 +120,3 @@ def test_counts_of_throws_are_words():
 def test_a_department_stands_in_quotes():
     raw = {"report__department": "Поршневые двигатели"}
     assert "Кафедра «Поршневые двигатели»" in text_of(engine(**raw))
-
-

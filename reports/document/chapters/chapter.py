@@ -32,7 +32,16 @@ if TYPE_CHECKING:
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "balance", "torsion", "oil", "regimes", "checks", "appendices"}
+_COURSE = _SHORT | {
+    "rationale",
+    "running",
+    "balance",
+    "torsion",
+    "oil",
+    "regimes",
+    "checks",
+    "appendices",
+}
 _FULL = _COURSE | {"bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 
@@ -163,6 +172,7 @@ class Chapter:
     terms: Terms
     writer: Writer
     environment: Environment
+    prototype: Terms | None = None  # the engine that the report's one is held against
     figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
 
     @property

@@ -8,7 +8,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import balance, oil, regimes, torsion
+from reports.document.chapters import balance, oil, rationale, regimes, torsion
 from reports.document.chapters.chapter import (
     BOOK,
     Chapter,
@@ -198,7 +198,7 @@ def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
     names = chosen(chapter.input)
     lines = {
-        "balance": balance.concluded, "torsion": torsion.concluded, "oil": oil.concluded,
+        "rationale": rationale.concluded, "balance": balance.concluded, "torsion": torsion.concluded, "oil": oil.concluded,
         "regimes": regimes.concluded,
     }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]

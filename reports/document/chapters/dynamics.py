@@ -319,10 +319,24 @@ def _powers(chapter: Chapter) -> TablePlan:
     steps = (
         ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", "", ""),
         ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas", ""),
-        (f"Динамический расчёт по той же диаграмме с шагом {step}°", "p_i_calc", "N_i_calc", "M_mean"),
-        (f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = {terms.num('cycle_fullness')}", "cyc_p_i", "cyc_N_i", ""),
-        (f"То же с механическим КПД {terms.sym('cyc_eta_m')} = {terms.num('cyc_eta_m')}",
-         "cyc_p_e", "cyc_N_e", "cyc_M_e"),
+        (
+            f"Динамический расчёт по той же диаграмме с шагом {step}°",
+            "p_i_calc",
+            "N_i_calc",
+            "M_mean",
+        ),
+        (
+            f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = {terms.num('cycle_fullness')}",
+            "cyc_p_i",
+            "cyc_N_i",
+            "",
+        ),
+        (
+            f"То же с механическим КПД {terms.sym('cyc_eta_m')} = {terms.num('cyc_eta_m')}",
+            "cyc_p_e",
+            "cyc_N_e",
+            "cyc_M_e",
+        ),
     )
     columns = [TableColumn("Ступень", 3.6, text=True), TableColumn("Среднее давление, МПа", 1.9),
                TableColumn("Мощность, кВт", 1.9), TableColumn("Момент, Н·м", 1.7)]  # fmt: skip

@@ -86,7 +86,8 @@ def crankpin(chapter: Chapter) -> Markup:
         rays=rays,
         sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
         best=least_ray(terms, name),
-        film="oil" in relevant_chapters(chapter.input) and terms.has("oil_film1_deg")
+        film="oil" in relevant_chapters(chapter.input)
+        and terms.has("oil_film1_deg")
         and chapter.input.crankshaft.oil_hole_deg is None,
         ties=_least_rays(terms, name, rays),
         arc=max(terms.value(f"{name}_arc{i}") for i in range(1, rays + 1)),

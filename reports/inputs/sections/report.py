@@ -18,6 +18,7 @@ DETAILS = {
 # Chapters that a report may do without; the introduction, the input data, the conclusion and
 # the sources always stand.
 CHAPTERS = {
+    "rationale": "обоснование исходных данных",
     "cycle": "рабочий цикл",
     "kinematics": "кинематика",
     "dynamics": "динамика",
@@ -37,8 +38,8 @@ CHAPTERS = {
 }
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
-    "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "balance", "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
+    "rationale", "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings",
+    "running", "balance", "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",

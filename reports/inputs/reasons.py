@@ -1,0 +1,133 @@
+"""Usual values of an engine's main data and what follows outside of them: one place for all.
+
+Comments of `new`, the note's chapter on the data and its conclusion take them from here.  A
+range comes from the textbook where ``place`` names its section; the others are accepted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
+from kshm.mechanics.masses import PISTON, ROD, THROW
+from reports.shared.russian import short
+
+Span = tuple[float, float]
+_BORE = "(2000*sqrt(F_piston/pi))"  # mm
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """A ratio of the data: its formula over the model's nodes and its usual span.
+
+    Attributes:
+        key: its name.
+        title: Russian title.
+        tex: symbol.
+        value: formulas, the first whose nodes the model has is taken.
+        petrol: usual span of spark-ignition engines.
+        diesel: usual span of diesels.
+        unit: unit of the span.
+        digits: decimals in print.
+        place: section of the textbook that prints the span; empty where it is accepted.
+        above: what follows above the span.
+        below: what follows below it.
+        by_size: the span grows with the bore as that of table 4.
+    """
+
+    key: str
+    title: str
+    tex: str
+    value: tuple[str, ...]
+    petrol: Span
+    diesel: Span
+    unit: str
+    digits: int
+    place: str
+    above: str
+    below: str
+    by_size: bool = False
+
+    def span(self, kind: str, heavier: float = 1.0) -> Span:
+        """Usual span of a kind of engine; of an unknown one that of both."""
+        spans = {"petrol": self.petrol, "diesel": self.diesel}
+        both = min(self.petrol[0], self.diesel[0]), max(self.petrol[1], self.diesel[1])
+        low, high = spans.get(kind, both)
+        return (low * heavier, high * heavier) if self.by_size else (low, high)
+
+    def words(self, kind: str) -> str:
+        """The span as a comment has it."""
+        low, high = self.span(kind)
+        return f"пределы {short(low)}…{short(high)}{f' {self.unit}' if self.unit else ''}"
+
+
+_HEAVY = "растут силы инерции и нагрузки на подшипники"
+_LIGHT = "деталь тоньше обычной, её прочность следует проверить отдельно"
+_SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
+REASONS: tuple[Reason, ...] = (
+    Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
+           (f"1000*S_stroke/{_BORE}",), (0.7, 1.1), (0.9, 1.35), "", 2, "",
+           "растут скорость поршня и высота двигателя",
+           "камера сгорания становится плоской, растут потери теплоты"),
+    Reason("lam", "Отношение радиуса кривошипа к длине шатуна", r"\lambda",
+           ("lam",), (0.24, 0.31), (0.24, 0.31), "", 3, "п. 1.1",
+           "растут боковая сила и силы инерции второго порядка",
+           "растут высота и масса двигателя"),
+    Reason("piston_speed", "Средняя скорость поршня", "c_m",
+           ("c_m",), (9, 16), (5, 16), "м/с", 2, "п. 1.2",
+           "растут силы инерции, тепловая напряжённость и износ",
+           "двигатель тихоходный, масса на единицу мощности велика"),
+    Reason("compression", "Степень сжатия", r"\varepsilon",
+           ("geometry_compression_ratio",), (6, 12), (14, 23), "", 1, "",
+           "растут давление сгорания и нагрузки на детали", "снижается экономичность"),
+    Reason("peak", "Наибольшее давление цикла", "p_z",
+           ("cyc_p_z", "gas_max_pressure_mpa"), (3.5, 7.5), (5, 15), "МПа", 2, "",
+           "растут нагрузки на шатун, шейки и подшипники",
+           "диаграмма соответствует малой нагрузке"),
+    Reason("efficiency", "Механический КПД", r"\eta_{\mathrm{м}}",
+           ("cyc_eta_m", "regime_mechanical_efficiency"), (0.75, 0.92), (0.7, 0.9), "", 2, "",
+           "потери на трение приняты малыми", "потери на трение приняты большими"),
+    Reason("piston_mass", "Масса поршневой группы на площадь поршня",
+           r"m_{\mathrm{п}}/F_{\mathrm{п}}", ("masses_piston_group_kg/F_piston",),
+           PISTON["aluminium", "petrol"], PISTON["aluminium", "diesel"], "кг/м²", 0, "табл. 4", _HEAVY, _LIGHT, by_size=True),
+    Reason("rod_mass", "Масса шатуна на площадь поршня", r"m_{\mathrm{ш}}/F_{\mathrm{п}}",
+           ("masses_rod_kg/F_piston",), ROD["petrol"], ROD["diesel"], "кг/м²", 0, "табл. 4",
+           _HEAVY, _LIGHT, by_size=True),
+    Reason("throw_mass", "Масса колена на площадь поршня", r"m_{\mathrm{к}}/F_{\mathrm{п}}",
+           ("m_k/F_piston",), THROW["steel", "petrol"], THROW["steel", "diesel"], "кг/м²", 0, "табл. 4",
+           "растёт центробежная сила, нужны тяжёлые противовесы",
+           "колено легче обычного, его прочность следует проверить отдельно", by_size=True),
+    Reason("rod_share", "Доля массы шатуна у пальца", r"m_1/m_{\mathrm{ш}}",
+           ("m_1/masses_rod_kg",), SHARE, SHARE, "", 3, "п. 2.2",
+           "растут возвратно движущиеся массы", "растут вращающиеся массы"),
+    Reason("pin", "Диаметр шатунной шейки к диаметру цилиндра", r"d_{\mathrm{ш.ш}}/D",
+           (f"crankshaft_pin_diameter_mm/{_BORE}",), (0.45, 0.7), (0.55, 0.8), "", 2, "", *_SHAFT),
+    Reason("main", "Диаметр коренной шейки к диаметру цилиндра", r"d_{\mathrm{к.ш}}/D",
+           (f"crankshaft_main_diameter_mm/{_BORE}",), (0.5, 0.85), (0.6, 0.95), "", 2, "", *_SHAFT),
+    Reason("pin_pressure", "Среднее давление на шатунную шейку", r"q_{\mathrm{ср}}",
+           ("q_pin_mean",), (4, 16), (4, 16), "МПа", 2, "",
+           "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
+    Reason("pin_peak", "Наибольшее давление на шатунную шейку", r"q_{\max}",
+           ("q_pin_max",), (7, 30), (10, 50), "МПа", 2, "",
+           "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
+)  # fmt: skip
+_BY_KEY = {reason.key: reason for reason in REASONS}
+# Keys of the file whose comments tell the span of a reason.
+_COMMENTED = {
+    "geometry.stroke_mm": "stroke_bore", "geometry.rod_length_mm": "lam",
+    "geometry.lambda": "lam", "geometry.compression_ratio": "compression",
+    "regime.speed_rpm": "piston_speed", "regime.mechanical_efficiency": "efficiency",
+    "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
+    "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
+}  # fmt: skip
+
+
+def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:
+    """Notes on keys of a file, «section.key», with the usual spans of a kind of engine."""
+    return {
+        key: "; ".join(filter(None, (words, _BY_KEY[_COMMENTED[key]].words(kind))))
+        if key in _COMMENTED
+        else words
+        for key, words in notes.items()
+    }

@@ -199,6 +199,12 @@ class _Printer:
         match node.op:
             case ast.Add() if _is_tolerance(right):
                 return self._emit(left)
+            case ast.Add() | ast.Sub() if self._is_zero(right):
+                return self._emit(left)
+            case ast.Add() if self._is_zero(left):
+                return self._emit(right)
+            case ast.Sub() if self._is_zero(left):
+                return "-" + self._wrap(right, _PRODUCT), _SUM
             case ast.Add():
                 return f"{self.text(left)} + {self._wrap(right, _SUM)}", _SUM
             case ast.Sub():
@@ -217,6 +223,27 @@ class _Printer:
             case ast.Div():
                 return rf"\dfrac{{{self.text(left)}}}{{{self.text(right)}}}", _PRODUCT
         return self._power(left, right)
+
+    def _is_zero(self, node: ast.expr) -> bool:
+        """Whether a term with numbers put in is a plain zero, which no one writes."""
+        if self.numbers is None:
+            return False
+        match node:
+            case ast.Name(id=name) if name != "pi":
+                return self._name(name)[0] == "0"
+            case ast.Attribute(value=ast.Name(id=table), attr=column):
+                return self._name(f"{table}.{column}")[0] == "0"
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return self._is_zero(operand)
+            case ast.BinOp(left=left, op=ast.Mult(), right=right):
+                return self._is_zero(left) or self._is_zero(right)
+            case ast.BinOp(left=left, op=ast.Div()):
+                return self._is_zero(left)
+            case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
+                return self._is_zero(left) and self._is_zero(right)
+            case ast.Call(func=ast.Name(id=name), args=[arg]) if name in SCALE_FUNCTIONS:
+                return self._is_zero(arg)
+        return False
 
     def _times(self, left: ast.expr, first: str, second: str) -> str:
         if self.numbers is not None or second[:1].isdigit():

@@ -4,9 +4,19 @@ import re
 
 import pytest
 
+from kshm.nomenclature.digits import Digits
 from reports.document.chapters.chapter import after_noun
+from reports.document.chapters.closing import tolerance
+from reports.document.report import Report
+from reports.document.text.texts import of_digits, of_digits_tex
+from reports.formula.tex import to_tex, to_tex_numbers
+from reports.inputs.reasons import REASONS
 from reports.inputs.solve_input import refined, solved
+from reports.model.evaluation import evaluate_model
+from reports.new.generate import file_text, generate_engine
+from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
+from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.test_report_sentences import engine, page_of, plain, printed_rows, text_of
 
@@ -120,3 +130,79 @@ def test_counts_of_throws_are_words():
 def test_a_department_stands_in_quotes():
     raw = {"report__department": "Поршневые двигатели"}
     assert "Кафедра «Поршневые двигатели»" in text_of(engine(**raw))
+
+
+@pytest.mark.parametrize(
+    ("condition", "shown"),
+    [
+        ("value_x <= 0.000001", "0"),
+        ("value_x <= 0.01", "не более 0,01"),
+        ("abs(value_x) <= 5", "±5"),
+        ("abs(value_x - 720) <= 0.000001", "720"),
+        ("value_x >= 0.15 and value_x <= 0.45", "0,15…0,45"),
+        ("value_x > 1", "более 1"),
+    ],
+)
+def test_a_check_says_what_it_allows(condition, shown):
+    assert tolerance(condition) == shown
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "cycle-petrol", "d-240-bearings"])
+def test_every_check_stands_beside_its_tolerance_with_one_number_of_decimals(name):
+    rows = printed_rows(page_of(name, "course"), "Проверки расчёта")
+    assert all(row[2] for row in rows)
+    assert len({len(row[1].partition(",")[2]) for row in rows}) == 1
+
+
+def test_a_number_of_many_zeros_is_a_power_of_ten():
+    digits = Digits(10)
+    assert re.sub("<.*?>", "", of_digits(8.721e-7, digits)) == "8,721·10−7"
+    assert of_digits_tex(8.721e-7, digits) == r"8{,}721\cdot 10^{-7}"
+    assert of_digits(0.0, digits).strip("0") == "," and of_digits(0.01234, Digits(5)) == "0,01234"
+
+
+def test_zero_terms_are_left_out_of_substitutions():
+    numbers = {"a": 2.0, "b": 0.0, "c": 3.0}.__getitem__
+    assert to_tex_numbers("a*c - b*(b + c)/a", lambda name: name, numbers) == r"2 \cdot 3"
+    assert to_tex_numbers("b + a", lambda name: name, numbers) == "2"
+    assert to_tex_numbers("b - a", lambda name: name, numbers) == "-2"
+    assert to_tex("a - b", lambda name: name) == "a - b"
+
+
+def test_equal_tables_stand_once():
+    """Of a symmetric throw statics says what the rule of half a torque says."""
+    assert "Моменты в сечениях шатунных шеек по статике" not in plain(page_of("d-240", "full"))
+    apart = text_of(engine("split", report__detail="course"))
+    assert "Моменты в сечениях шатунных шеек по статике" in apart
+
+
+def test_axes_have_the_symbol_before_the_unit():
+    for name in ("gots-diesel", "two-stroke"):
+        for chart in build_model(sample(name)).charts:
+            assert not re.fullmatch(r"(МПа|кН|Н·м)", chart.y_title or ""), chart.id
+
+
+def test_what_lies_outside_its_usual_span_is_told_with_what_follows():
+    page = page_of("gots-diesel", "course")
+    rows = printed_rows(page, "Принятые данные и обычные пределы")
+    outside = [row[0] for row in rows if row[4] != "в пределах"]
+    text = plain(page)
+    end = text[text.index("Рассчитаны кинематика") :]
+    assert outside and "больше обычного (0,24…0,31): растут боковая сила" in text
+    assert "вне обычных пределов: " in end
+
+
+def test_the_comments_of_a_new_engine_tell_the_same_spans():
+    text = file_text(generate_engine(4, kind="petrol"))
+    for reason in REASONS:
+        if reason.key in ("stroke_bore", "lam", "pin", "main", "piston_speed"):
+            assert reason.words("petrol") in text
+
+
+def test_the_prototype_stands_beside_the_engine(tmp_path):
+    other = samples_dir() / "d-240.toml"
+    (tmp_path / "other.toml").write_bytes(other.read_bytes())
+    model = engine(report__detail="course", report__compare="other.toml")
+    report = Report.of(build_model(model), evaluate_model(build_model(model)), tmp_path / "t.toml")
+    rows = printed_rows(report.page("print"), "Принятые данные и обычные пределы")
+    assert len(rows[0]) == 7 and rows[0][3].replace("\xa0", "").strip() == "1,14"

@@ -17,6 +17,7 @@ from reports.document.chapters.chapter import (
     leaders,
     pin_stems,
     pin_swing,
+    pin_torque,
     relevant_chapters,
     worst_pin,
     worst_running,
@@ -29,7 +30,7 @@ from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
-from reports.shared.russian import NBSP, capital, fixed
+from reports.shared.russian import NBSP, capital, fixed, short
 from reports.tables.left_out import without_orders
 from reports.tables.verdicts import check_value, reasons_of
 
@@ -148,17 +149,40 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
     columns = (
         TableColumn("Проверка", 6, text=True),
         TableColumn("Значение", 1.5),
+        TableColumn("Допуск", 1.6),
         TableColumn("Выполнено", 1.5),
     )
     rows = [
         [
             titled_html(terms.model.scalars[f"check_{key}"].note),
-            check_value(terms.value(f"value_{key}")),
+            fixed(terms.value(f"value_{key}"), _CHECKED),
+            tolerance(str(terms.model.scalars[f"check_{key}"].expr)),
             "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
         ]
         for key in keys
     ]
     return table_block(columns, rows)
+
+
+_CHECKED = 3  # decimals of all checks, in one column
+_BOUND = re.compile(r"(<=|>=|<|>) (-?[\d.e-]+)")
+_SIGNS = {"<=": "не более", ">=": "не менее", "<": "менее", ">": "более"}
+
+
+def tolerance(condition: str) -> str:
+    """What a check allows, from its condition: «±2», «не более 0,01», «0,2…0,3», «720»."""
+    exact = re.search(r"abs\(\w+ - ([\d.]+)\)", condition)
+    if exact is not None:
+        return short(float(exact[1]))
+    bounds = [(sign, float(size)) for sign, size in _BOUND.findall(condition)]
+    if len(bounds) == 2:
+        return "…".join(short(size) for _, size in bounds)
+    ((sign, size),) = bounds
+    if "abs(" in condition:
+        return f"±{short(size)}"
+    if sign == "<=" and size < 10.0**-_CHECKED:
+        return "0"
+    return f"{_SIGNS[sign]} {short(size)}"
 
 
 def conclusion(chapter: Chapter) -> Markup:
@@ -223,6 +247,9 @@ def appendices(chapter: Chapter) -> Markup:
     """All tables over the crank angle: П3 in appendix А, П4 in appendix Б."""
     shape, terms = chapter.shape, chapter.terms
     wide = "dense" if shape.cylinders > 6 else ""
+    # Statics gives a table of its own only where it differs from the rule.
+    apart = pin_torque(terms, shape.throws, 1).startswith("P4_5s")
+    running = ("P4_4", "P4_5", *(("P4_5s",) if apart else ()))
     reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
     kinematic = [
         ("P3_1", None, ""),
@@ -236,7 +263,7 @@ def appendices(chapter: Chapter) -> Markup:
         ("P4_2", None, wide),
         *((key, None, "") for key in _loads(shape)),
         *((f"P4_3_{k}", reactions, "") for k in range(1, shape.throws + 2)),
-        *((key, _moments(terms, key), wide) for key in ("P4_4", "P4_5", "P4_5s")),
+        *((key, _moments(terms, key), wide) for key in running),
         (rays_table(worst_pin(terms)), None, "dense"),
     ]
     return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),

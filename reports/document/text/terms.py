@@ -29,8 +29,8 @@ from reports.shared.russian import NBSP, fixed
 _SYMBOLS = {
     "M_Nm": r"M_{\mathrm{ц}}",
     "volume_ratio": "x",
-    "share": r"\dfrac{a_{\mathrm{п}}}{l}",
-    "share2": r"\dfrac{a_{\mathrm{п}2}}{l}",
+    "share": r"\dfrac{a_{\mathrm{ш}}}{l}",
+    "share2": r"\dfrac{a_{\mathrm{ш}2}}{l}",
     "throw": "",
     TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }

@@ -145,11 +145,28 @@ def of_digits(value: float, digits: Digits) -> str:
             return "0"
         text, exponent = mantissa(value, digits.decimals)
         return Markup("{}·10<sup>{}</sup>").format(text, fixed(exponent, 0)) if exponent else text
+    small = _small(value, digits)
+    if small:
+        return Markup("{}·10<sup>{}</sup>").format(small[0], fixed(small[1], 0))
     return written(value, digits, group=digits.hides == "")
+
+
+_SMALL = 1e-4  # a smaller number is written as a power of ten
+
+
+def _small(value: float, digits: Digits) -> tuple[str, int] | None:
+    """Mantissa and exponent of a number of many zeros, with the digits that it has."""
+    if digits.kind != "fixed" or not 0 < abs(value) < _SMALL:
+        return None
+    plain_text = written(value, digits).lstrip(MINUS).replace(",", "").lstrip("0")
+    return mantissa(value, len(plain_text) - 1) if len(plain_text) > 1 else None
 
 
 def of_digits_tex(value: float, digits: Digits) -> str:
     """TeX of :func:`of_digits`."""
+    small = _small(value, digits)
+    if small:
+        return to_tex(small[0]) + rf"\cdot 10^{{{small[1]}}}"
     if digits.kind == "scientific" and value:
         text, exponent = mantissa(value, digits.decimals)
         return to_tex(text) + (rf"\cdot 10^{{{exponent}}}" if exponent else "")

@@ -297,7 +297,7 @@ def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool
         doc=_info(chapter.input),
         input=chapter.input,
         t=terms,
-        cover_page=front.title_page(chapter.input, style.title),
+        cover_page=front.title_page(chapter.input, style.title, style.frame),
         task=front.assignment(chapter, with_sheet=with_sheet),
         brief=front.abstract(chapter),
         block=front.title_block(chapter.input, style.frame),

@@ -7,6 +7,7 @@ import pytest
 from kshm.nomenclature.digits import Digits
 from reports.document.chapters.chapter import after_noun
 from reports.document.chapters.closing import tolerance
+from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
 from reports.document.text.texts import of_digits, of_digits_tex
 from reports.formula.tex import to_tex, to_tex_numbers
@@ -180,6 +181,25 @@ def test_axes_have_the_symbol_before_the_unit():
     for name in ("gots-diesel", "two-stroke"):
         for chart in build_model(sample(name)).charts:
             assert not re.fullmatch(r"(МПа|кН|Н·м)", chart.y_title or ""), chart.id
+
+
+@pytest.mark.parametrize("review", [True, False])
+def test_the_title_page_has_lines_for_signatures(review):
+    style = Style(title=TitlePage(review=review), heading_before_pt=21, formula_space_pt=9)
+    model = build_model(engine(report__controller="Нормов Н. Н.", report__designation="КП.01 ПЗ"))
+    page = Report(model, evaluate_model(model), style=style).page("print")
+    text = plain(page)
+    assert text.count("подпись, дата") == 3 and "Допущен к защите" in text
+    assert "Нормов Н. Н." in text and "КП.01 ПЗ" in text
+    assert ("ОТЗЫВ РУКОВОДИТЕЛЯ" in text) == review
+    assert "margin: 21.0pt 0 8.0pt" in page and ".eq { margin: 9.0pt 0" in page
+
+
+def test_the_assignment_lists_the_sheet_when_it_is_made():
+    model = build_model(engine())
+    for made in (True, False):
+        page = Report(model, evaluate_model(model), with_sheet=made).page("print")
+        assert ("лист «Динамический расчёт двигателя» формата A1" in plain(page)) == made
 
 
 def test_what_lies_outside_its_usual_span_is_told_with_what_follows():

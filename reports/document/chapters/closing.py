@@ -97,7 +97,9 @@ def checks(chapter: Chapter) -> Markup:
         accepted=_accepted(chapter),
         reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
         grid=bool(chapter.terms.grid_errors),
-        errors=TablePlan(partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик"),
+        errors=TablePlan(
+            partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик", size="dense"
+        ),
     )
 
 

@@ -51,7 +51,7 @@ _TASK = ("engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_str
          "geometry_compression_ratio", "regime_speed_rpm", "regime_indicated_power_kw")  # fmt: skip
 
 
-def title_page(model: InputFile, style: TitlePage) -> Words:
+def title_page(model: InputFile, style: TitlePage, frame: str | None = None) -> Words:
     """Words of the title page, some of them from the department's style file."""
     words = _words(model)
     department = words["department"]
@@ -62,6 +62,9 @@ def title_page(model: InputFile, style: TitlePage) -> Words:
         "ministry": style.ministry,
         "department": _department(department),
         "year": str(model.report.year),
+        # Without a frame the title page alone has room for them.
+        "designation": "" if has_frame(model, frame) else model.report.designation,
+        "controller": "" if has_frame(model, frame) else model.report.controller,
     }
 
 

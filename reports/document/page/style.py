@@ -40,6 +40,7 @@ class TitlePage(_Strict):
     kind: str = "Расчётно-пояснительная записка к курсовому проекту"
     assignment: bool = True
     abstract: bool = True
+    review: bool = False
 
 
 class Style(_Strict):
@@ -48,6 +49,9 @@ class Style(_Strict):
     font_size_pt: Annotated[float, Field(ge=10, le=16)] = 14.0
     line_spacing: Annotated[float, Field(ge=1, le=2)] = 1.5
     indent_cm: Annotated[float, Field(ge=0, le=2)] = 1.25
+    heading_before_pt: Annotated[float, Field(ge=0, le=60)] = 14.0
+    heading_after_pt: Annotated[float, Field(ge=0, le=60)] = 8.0
+    formula_space_pt: Annotated[float, Field(ge=0, le=40)] = 6.0
     numbering: Literal["through", "chapter"] = "through"
     page_number: Literal["bottom-center", "bottom-right"] = "bottom-center"
     frame: Literal["none", "eskd"] | None = None

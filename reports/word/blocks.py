@@ -207,8 +207,13 @@ class Blocks:
             for block in self._block(element, usual):
                 if _is_formula(block) and out and _is_formula(out[-1]):
                     out[-1].append(block[-1])
-                else:
-                    out.append(block)
+                    continue
+                if out and _is_table(out[-1]) and not _is_formula(out[-1]):
+                    if _is_table(block):  # side by side they would be one
+                        out.append(paragraph("AfterTable"))
+                    else:
+                        _moved_down(block)
+                out.append(block)
         return out
 
     def _block(self, element: HtmlElement, usual: str) -> Iterator[Element]:
@@ -225,7 +230,6 @@ class Blocks:
         elif tag == "table":
             words, self._continued = self._continued, []
             yield table_of(self.lines, element, self.width, words)
-            yield paragraph("AfterTable")
         elif tag in ("ul", "ol"):
             style = "Source" if "sources" in names else "ListBullet"
             for item in element.iterfind("li"):
@@ -360,6 +364,21 @@ class Blocks:
             if number == len(items) - 1:
                 content.append(end)
             yield paragraph(f"TOC{item.get('class', 'l1')[1]}", content)
+
+
+def _is_table(element: Element) -> bool:
+    return str(element.tag).endswith("}tbl")
+
+
+_BELOW = {"BodyText": "BodyAfterTable", "Flush": "FlushAfterTable"}
+
+
+def _moved_down(block: Element) -> None:
+    """A paragraph after a table takes the style with room above."""
+    style = block.find(f"{{{block.nsmap['w']}}}pPr/{{{block.nsmap['w']}}}pStyle")
+    if style is not None:
+        key = f"{{{block.nsmap['w']}}}val"
+        style.set(key, _BELOW.get(style.get(key, ""), style.get(key, "")))
 
 
 def _is_formula(element: Element) -> bool:

@@ -49,16 +49,20 @@ def omath(tex: str) -> etree._Element:
     if not is_cases(tex):
         return _element("oMath", *_sequence(tree(tex)))
     lead, rows = case_parts(tex)
-    lines = [_element("e", *_sequence(tree(r"\quad ".join(row)))) for row in rows]
-    return _element("oMath", *_sequence(tree(lead)), _braced(lines))
+    lines = [
+        _element("mr", *(_element("e", *_sequence(tree(part))) for part in row)) for row in rows
+    ]
+    return _element("oMath", *_sequence(tree(lead)), _braced(lines, max(map(len, rows))))
 
 
-def _braced(lines: Math) -> etree._Element:
-    """Lines one above another behind a brace."""
+def _braced(lines: Math, columns: int) -> etree._Element:
+    """Branches one above another behind a brace, their conditions in a column."""
     signs = [_element("begChr"), _element("endChr")]
     for sign, char in zip(signs, ("{", ""), strict=True):
         sign.set(f"{{{NAMESPACE}}}val", char)
-    return _element("d", _element("dPr", *signs), _element("e", _element("eqArr", *lines)))
+    manner = _element("mcPr", _element("count", val=str(columns)), _element("mcJc", val="left"))
+    about = _element("mPr", _element("mcs", _element("mc", manner)))
+    return _element("d", _element("dPr", *signs), _element("e", _element("m", about, *lines)))
 
 
 def displayed(tex: str, end: str = "") -> etree._Element:

@@ -88,6 +88,8 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
         "Figure": ParagraphStyle("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
         "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=3, after=3),
         "FormulaNumber": ParagraphStyle("Номер формулы", jc="right", line=1.0),
+        "BodyAfterTable": ParagraphStyle("Текст после таблицы", "BodyText", before=8),
+        "FlushAfterTable": ParagraphStyle("Текст без отступа после таблицы", "Flush", before=8),
         "AfterTable": ParagraphStyle("После таблицы", line=1.0, size=6),
         "ListBullet": ParagraphStyle("List Bullet", jc="both", left=indent, first=0,
                                      list_number=DASH),

@@ -7,6 +7,7 @@ formulas become those of Word, numbers and references become fields.
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from datetime import datetime
 from typing import TYPE_CHECKING
@@ -179,13 +180,24 @@ def _describe(document: Document, root: HtmlElement) -> None:
     about.revision = 1
 
 
+_THUMBNAIL = "docProps/thumbnail.jpeg"  # of the template
+
+
 def _timeless(data: bytes) -> bytes:
-    """Remove times of packing from the archive."""
+    """Remove times of packing and what tells of the library's own template from the archive."""
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as given,
         zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
         for name in given.namelist():
-            archive.writestr(zipfile.ZipInfo(name), given.read(name), zipfile.ZIP_DEFLATED)
+            if name == _THUMBNAIL:
+                continue
+            part = given.read(name)
+            if name == "_rels/.rels":
+                part = re.sub(rb'<Relationship [^>]*thumbnail[^>]*/>', b"", part)
+            elif name == "docProps/app.xml":
+                part = re.sub(rb"(<Application>)[^<]*", rb"\g<1>kshm", part)
+                part = re.sub(rb"\s*<Template>[^<]*</Template>", b"", part)
+            archive.writestr(zipfile.ZipInfo(name), part, zipfile.ZIP_DEFLATED)
     return stream.getvalue()

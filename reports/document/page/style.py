@@ -57,7 +57,7 @@ class Style(_Strict):
     frame: Literal["none", "eskd"] | None = None
     chapters_on_new_page: bool | None = None
     tagged_tables: bool | None = None
-    table_continuation: bool = False
+    table_continuation: bool = True
     table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30
     margins: Margins = Margins()
     title: TitlePage = TitlePage()

@@ -1,0 +1,33 @@
+"""What a department's controller sees in the file itself: properties, spacing, branches."""
+
+import io
+import re
+import zipfile
+
+import pytest
+
+from tests.word.docx_samples import docx_of
+
+
+@pytest.fixture(scope="module")
+def parts():
+    with zipfile.ZipFile(io.BytesIO(docx_of("gots-diesel"))) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def test_the_file_says_what_wrote_it_and_has_no_picture_of_a_template(parts):
+    assert not [name for name in parts if "thumbnail" in name]
+    assert b"thumbnail" not in parts["_rels/.rels"]
+    assert re.search(rb"<Application>kshm<", parts["docProps/app.xml"])
+
+
+def test_room_after_tables_comes_from_styles(parts):
+    text = parts["word/document.xml"].decode()
+    empty = re.findall(r"<w:p>(?:<w:pPr>(?:(?!</w:pPr>).)*</w:pPr>)?</w:p>", text)
+    assert not [one for one in empty if '"AfterTable"' in one]
+    assert "BodyAfterTable" in text
+
+
+def test_branches_of_a_brace_stand_in_columns(parts):
+    text = parts["word/document.xml"].decode()
+    assert '<m:mcJc m:val="left"/>' in text and "eqArr" not in text

@@ -6,11 +6,14 @@ A word after a stroke below is an index of a drawing: «l_1 = 32».
 from __future__ import annotations
 
 import base64
+import cmath
 import functools
+import math
 import re
 from typing import TYPE_CHECKING
 
 from reports.shared.font_coverage import SECOND_FILE, fonts_dir
+from reports.shared.resources import templates_dir
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -56,7 +59,13 @@ ASCENT, DESCENT = 0.75, 0.25  # of the type: the least that a line takes in STIX
 _SCALE = 100.0  # pt at which texts are measured
 CAPITAL = 0.662  # height of a capital of the face [em]
 WIDER = 1.04  # a drawing program may set another face
-INDEX = 0.7  # size of an index
+INDEX = 0.7  # size of an index: the next smaller height of ГОСТ 2.304
+HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0)  # of letters, ГОСТ 2.304 [mm]
+SLANT = 15.0  # of the letters from the vertical [deg]
+STROKE = 0.1  # width of a line of type Б over the height of the letters
+_UNITS = 9.0  # of the stroke face in the height of a capital
+_GAP, _BLANK = 2.7, 5.4  # between letters and between words [units of the face]
+_FLAT = 12.0  # deg of an arc that one straight stroke stands for
 _SPACE, _ANYWHERE = re.compile("(?<= )"), re.compile(r"(?<= )|(?<=\w-)(?=\w)")  # ends of lines
 _INDEX = re.compile(r"_([^\W_][\w.]*)")
 _LACKING = 0.75  # em: a letter of a drawing that no face has
@@ -155,15 +164,89 @@ def text_box(text: str) -> tuple[float, float, float]:
     return width / unit, height / unit, font.get_descent() / unit
 
 
+Strokes = tuple[tuple[tuple[float, float], ...], ...]
+
+
+@functools.cache
+def glyphs() -> dict[str, Strokes]:
+    """Strokes of every letter of the face of ГОСТ 2.304, type Б, in its units, upright."""
+    letters: dict[str, Strokes] = {}
+    text = (templates_dir() / "fonts" / "gost-b.lff").read_text(encoding="utf-8")
+    for block in text.split("\n[")[1:]:
+        head, _, body = block.partition("\n")
+        strokes: list[tuple[tuple[float, float], ...]] = []
+        for line in body.splitlines():
+            if line.startswith("C"):  # the strokes of another letter
+                strokes += letters.get(chr(int(line[1:5], 16)), ())
+            elif ";" in line:
+                strokes.append(_stroke(line))
+        letters[chr(int(head[:4], 16))] = tuple(strokes)
+    return letters
+
+
+def _stroke(line: str) -> tuple[tuple[float, float], ...]:
+    """Points of a stroke; a third number of a point is the bulge of the arc that ends there."""
+    points: list[tuple[float, float]] = []
+    for item in line.split(";"):
+        x, y, *bulge = item.split(",")
+        end = float(x), float(y)
+        if bulge and points:
+            points += _arc(points[-1], end, float(bulge[0].removeprefix("A")))
+        points.append(end)
+    return tuple(points)
+
+
+def _arc(
+    start: tuple[float, float], end: tuple[float, float], bulge: float
+) -> list[tuple[float, float]]:
+    """Points between the ends of an arc whose bulge is the tangent of a quarter of its angle."""
+    turn = 4 * math.atan(bulge)
+    chord = complex(*end) - complex(*start)
+    centre = complex(*start) + chord / 2 * (1 + 1j / math.tan(turn / 2))
+    count = max(int(abs(math.degrees(turn)) / _FLAT), 1)
+    away = complex(*start) - centre
+    points = (centre + away * cmath.exp(1j * turn * n / count) for n in range(1, count))
+    return [(point.real, point.imag) for point in points]
+
+
+def stroke_advance(char: str) -> float:
+    """Width of a letter of the stroke face with the gap after it [units]."""
+    if char.isspace():
+        return _BLANK
+    strokes = glyphs().get(char)
+    if strokes is None:  # of a name: it is drawn in a face of the report
+        return advance(char, "italic", "normal", _LACKING) * _UNITS / CAPITAL
+    return max((x for stroke in strokes for x, _ in stroke), default=0.0) + _GAP
+
+
+def strokes_of(text: str, height: float) -> list[tuple[tuple[float, float], ...]]:
+    """Slanted strokes of a line of text from its left end on the base line [mm]."""
+    scale, lean, left = height / _UNITS, math.tan(math.radians(SLANT)), 0.0
+    shown = []
+    for char in text:
+        for stroke in glyphs().get(char, ()):
+            shown.append(tuple((scale * (left + x + lean * y), scale * y) for x, y in stroke))
+        left += stroke_advance(char)
+    return shown
+
+
+def is_drawn(text: str) -> bool:
+    """Whether the stroke face has all letters of a text."""
+    return all(char.isspace() or char in glyphs() for char in text)
+
+
 def width_of(text: str, height: float) -> float:
     """Length of a line by the height of its capitals [mm]."""
     parts = enumerate(_INDEX.split(text))
-    ems = sum(
-        sum(advance(char, "italic", "normal", _LACKING) for char in part)
-        * (INDEX if number % 2 else 1.0)
-        for number, part in parts
+    units = sum(
+        sum(map(stroke_advance, part)) * (INDEX if number % 2 else 1.0) for number, part in parts
     )
-    return WIDER * ems * height / CAPITAL
+    return WIDER * units * height / _UNITS
+
+
+def standard(height: float) -> float:
+    """The largest height of ГОСТ 2.304 that is no larger; the least one at last [mm]."""
+    return max((one for one in HEIGHTS if one <= height + 1e-9), default=HEIGHTS[0])
 
 
 def parts_of(text: str) -> list[tuple[str, bool]]:
@@ -180,7 +263,7 @@ def plain(text: str) -> str:
 def fitted(text: str, room: float, height: float, least: float = 1.8) -> float:
     """Height of the letters at which a line fits its room [mm]."""
     wide = width_of(text, height)
-    return height if wide <= room else max(least, height * room / wide)
+    return standard(height if wide <= room else max(least, height * room / wide))
 
 
 def wrapped(text: str, room: float, height: float, *, hyphens: bool = False) -> list[str]:

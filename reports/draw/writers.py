@@ -10,7 +10,18 @@ from dataclasses import replace
 from html import escape
 
 from reports.draw.canvas import LAYERS, Box, Circle, Dash, Item, Line, Words, bounds
-from reports.draw.fonts import CAPITAL, INDEX, OF_DRAWINGS, WIDER, parts_of, plain, width_of
+from reports.draw.fonts import (
+    CAPITAL,
+    INDEX,
+    OF_DRAWINGS,
+    SLANT,
+    STROKE,
+    WIDER,
+    is_drawn,
+    parts_of,
+    strokes_of,
+    width_of,
+)
 
 _SVG_GREY = "#9a9a9a"
 PT_PER_MM = 72 / 25.4
@@ -81,23 +92,29 @@ def _path(item: Line | Circle, left: float, high: float) -> str:
 
 
 def _words(item: Words, left: float, high: float) -> str:
+    return "".join(_svg_text(part, left, high) for part in parts_placed(item))
+
+
+def parts_placed(item: Words) -> Iterable[Words]:
+    """A line of text in parts that stand one after another, indices lower and smaller."""
     parts = parts_of(item.text)
     if len(parts) == 1:
-        return _svg_text(item, left, high)
-    shown, run = [], -item.align * item.width / WIDER
+        yield replace(item, text=parts[0][0])
+        return
+    run = -item.align * item.width / WIDER
     for text, index in parts:
         height = item.height * (INDEX if index else 1.0)
         along, down = run, -0.3 * item.height if index else 0.0
         turn = math.radians(item.angle)
         x = item.place[0] + along * math.cos(turn) - down * math.sin(turn)
         y = item.place[1] + along * math.sin(turn) + down * math.cos(turn)
-        part = replace(item, place=(x, y), text=text, height=height, align=0.0)
-        shown.append(_svg_text(part, left, high))
+        yield replace(item, place=(x, y), text=text, height=height, align=0.0)
         run += width_of(text, height) / WIDER
-    return "".join(shown)
 
 
 def _svg_text(item: Words, left: float, high: float) -> str:
+    if is_drawn(item.text):
+        return _svg_strokes(item, left, high)
     x, y = item.place[0] - left, high - item.place[1]
     anchor = {0.0: "start", 0.5: "middle", 1.0: "end"}[item.align]
     turn = f' transform="rotate({-item.angle:g} {x:.2f} {y:.2f})"' if item.angle else ""
@@ -107,9 +124,29 @@ def _svg_text(item: Words, left: float, high: float) -> str:
     )
 
 
-STYLE = "ЕСКД"
+def _svg_strokes(item: Words, left: float, high: float) -> str:
+    """A line of text in strokes of one width, turned about its place."""
+    turn, start = math.radians(item.angle), -item.align * item.width / WIDER
+    cos, sin = math.cos(turn), math.sin(turn)
+    parts = []
+    for stroke in strokes_of(item.text, item.height):
+        points = (
+            (
+                item.place[0] + (start + x) * cos - y * sin - left,
+                high - item.place[1] - (start + x) * sin - y * cos,
+            )
+            for x, y in stroke
+        )
+        parts.append("M" + "L".join(f"{x:.2f} {y:.2f}" for x, y in points))
+    return (
+        f'<path d="{"".join(parts)}" fill="none" stroke="#000000" stroke-linecap="round" '
+        f'stroke-width="{STROKE * item.height:.2f}"/>'
+    )
+
+
+# LibreCAD takes the face that is called as the style, other programs the file of the style.
+STYLE = "lc_opengost-br"
 _FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
-_SLANT = 15.0
 _BLACK, _DXF_GREY = 7, 8
 
 
@@ -131,7 +168,7 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         document.header["$MEASUREMENT"] = 1
         document.header["$LWDISPLAY"] = 1
         document.header["$LTSCALE"] = dashes
-        document.styles.add(STYLE, font=_FONT).dxf.oblique = _SLANT
+        document.styles.add(STYLE, font=_FONT).dxf.oblique = SLANT
         for layer in LAYERS:
             entry = document.layers.add(layer.name, color=_DXF_GREY if layer.grey else _BLACK)
             entry.dxf.lineweight = round(100 * layer.width)
@@ -156,7 +193,10 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
                     edges = hatch.paths.add_edge_path()
                     edges.add_arc(item.centre, item.radius, 0, 360)
             else:
-                _dxf_text(space, item, aligns[item.align], looks)
+                parts = list(parts_placed(item))
+                for part in parts:
+                    align = aligns[part.align if len(parts) == 1 else 0.0]
+                    _dxf_text(space, part, align, looks)
         left, low, right, high = bounds(shown)
         corners = (left, low, 0), (right, high, 0)
         space.reset_extents(*corners)
@@ -176,17 +216,30 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
 
 def _dxf_text(space: object, item: Words, align: object, looks: dict[str, object]) -> None:
     text = space.add_text(  # type: ignore[attr-defined]
-        plain(item.text), height=item.height, rotation=item.angle,
-        dxfattribs={**looks, "style": STYLE, "oblique": _SLANT},
+        item.text, height=item.height, rotation=item.angle,
+        dxfattribs={**looks, "style": STYLE, "oblique": SLANT},
     )  # fmt: skip
     text.set_placement(item.place, align=align)
+
+
+# Names that drawing programs know, by the kind of the pattern.
+_KNOWN = {2: "DASHED", 4: "CENTER"}
+_SHORT = 3.0  # mm: shorter dashes are dots
+
+
+def _type_name(dash: Dash) -> str:
+    name = "DOT" if len(dash) == 2 and dash[0] < _SHORT else _KNOWN[len(dash)]
+    return name if max(dash[::2]) != _DIVIDE else "DIVIDE"
+
+
+_DIVIDE = 8.0  # mm: the first dash of the fifth pattern
 
 
 def _linetype(document: object, dash: Dash) -> str:
     """Name of a pattern of dashes, made where it is not there yet."""
     if not dash:
         return "Continuous"
-    name = "-".join(f"{part:g}" for part in dash).replace(".", "_")
+    name = _type_name(dash)
     types = document.linetypes  # type: ignore[attr-defined]
     if name not in types:
         pattern = [sum(dash), *(p if n % 2 == 0 else -p for n, p in enumerate(dash))]

@@ -84,7 +84,8 @@ def styled(name: str, **style: object) -> bytes:
 
     They are drawn for programs that show no SVG, hold no text and take half of the time.
     """
-    look = Style(tagged_tables=True, **style)
+    # Without the words over further sheets, which the page has not.
+    look = Style(tagged_tables=True, **{"table_continuation": False} | style)
     with ExitStack() as stack:
         if not (ALL or (name == NAME and not style)):
             dot = picture('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', 1)

@@ -6,6 +6,7 @@ import zipfile
 
 import pytest
 
+from reports.document.page.style import USUAL
 from tests.word.docx_samples import docx_of
 
 
@@ -30,4 +31,5 @@ def test_room_after_tables_comes_from_styles(parts):
 
 def test_branches_of_a_brace_stand_in_columns(parts):
     text = parts["word/document.xml"].decode()
+    assert USUAL.table_continuation
     assert '<m:mcJc m:val="left"/>' in text and "eqArr" not in text

@@ -86,6 +86,7 @@ class Words:
     align: float = 0.0
     angle: float = 0.0
     layer: Layer = LETTERS
+    name: str = ""  # what of the drawing it belongs to
 
     @cached_property
     def width(self) -> float:
@@ -106,7 +107,30 @@ class Words:
         return min(xs), min(ys), max(xs), max(ys)
 
 
-Item = Line | Circle | Words
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """A dimension that drawing programs know as such; its lines are drawn beside it.
+
+    The lines, heads and words of a dimension are named :data:`SIZE`; where it is written as an
+    entity they are left out.
+    """
+
+    start: Point
+    end: Point
+    text: str
+    height: float
+    middle: Point  # of the words
+    layer: Layer = SIZES
+
+    @property
+    def box(self) -> Box:
+        """Bounds on the sheet."""
+        xs, ys = zip(self.start, self.end, strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
+
+SIZE = "size"
+Item = Line | Circle | Words | Dimension
 
 
 def overlap(one: Box, other: Box) -> bool:
@@ -126,6 +150,9 @@ def moved(items: Iterable[Item], dx: float, dy: float, scale: float = 1.0) -> li
             shifted.append(replace(item, points=tuple(map(at, item.points))))
         elif isinstance(item, Circle):
             shifted.append(replace(item, centre=at(item.centre), radius=item.radius * scale))
+        elif isinstance(item, Dimension):
+            ends = {"start": at(item.start), "end": at(item.end), "middle": at(item.middle)}
+            shifted.append(replace(item, **ends))
         else:
             shifted.append(replace(item, place=at(item.place)))
     return shifted
@@ -182,14 +209,27 @@ class Canvas:
         self.items += chosen
         return bool(chosen)
 
-    def arrow(self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES) -> None:
+    def dimension(self, start: Point, end: Point, words: Words) -> None:
+        """Note that the words tell the distance of two points, for programs that know it."""
+        turn = math.radians(words.angle)
+        along = (0.5 - words.align) * words.width
+        up = words.height / 2
+        middle = (
+            words.place[0] + along * math.cos(turn) - up * math.sin(turn),
+            words.place[1] + along * math.sin(turn) + up * math.cos(turn),
+        )
+        self.items.append(Dimension(start, end, words.text, words.height, middle))
+
+    def arrow(
+        self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES, name: str = ""
+    ) -> None:
         """A filled arrow head whose tip points along a unit vector."""
         (x, y), (ux, uy) = tip, along
         back = (x - ux * length, y - uy * length)
         side = 0.16 * length
         points = (tip, (back[0] - uy * side, back[1] + ux * side),
                   (back[0] + uy * side, back[1] - ux * side))  # fmt: skip
-        self.items.append(Line(points, layer, closed=True, filled=True))
+        self.items.append(Line(points, layer, closed=True, filled=True, name=name))
 
 
 def _inside(box: Box, outer: Box) -> bool:
@@ -199,7 +239,7 @@ def _inside(box: Box, outer: Box) -> bool:
 
 
 def _cuts(item: Item, words: Words) -> bool:
-    if isinstance(item, Words) or (
+    if isinstance(item, Words | Dimension) or (
         isinstance(item, Line) and item.layer not in (CONTOUR, CURVES, SIZES)
     ):
         return False

@@ -239,9 +239,17 @@ def width_of(text: str, height: float) -> float:
     """Length of a line by the height of its capitals [mm]."""
     parts = enumerate(_INDEX.split(text))
     units = sum(
-        sum(map(stroke_advance, part)) * (INDEX if number % 2 else 1.0) for number, part in parts
+        sum(map(stroke_advance, part)) * (index_height(height) if number % 2 else height)
+        for number, part in parts
     )
-    return WIDER * units * height / _UNITS
+    return WIDER * units / _UNITS
+
+
+def index_height(height: float) -> float:
+    """Height of an index: the next smaller one of ГОСТ 2.304, else in proportion [mm]."""
+    if height not in HEIGHTS:
+        return INDEX * height
+    return HEIGHTS[max(HEIGHTS.index(height) - 1, 0)]
 
 
 def standard(height: float) -> float:

@@ -5,8 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
-from reports.draw.canvas import AXES, CONTOUR, SIZES, THIN, Canvas, Item, Point, interrupted
+from reports.draw.canvas import (
+    AXES,
+    CONTOUR,
+    SIZE,
+    SIZES,
+    THIN,
+    Canvas,
+    Item,
+    Point,
+    Words,
+    interrupted,
+)
 from reports.draw.fonts import width_of
 from reports.shared.russian import fixed
 
@@ -24,10 +36,11 @@ def along(
     """A dimension from one point to another with its value beside it."""
     length = math.dist(start, end)
     unit = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
+    size = SIZE if heads else ""
     if heads:
-        canvas.line(start, end, layer=SIZES)
-        canvas.arrow(end, unit, letters)
-        canvas.arrow(start, (-unit[0], -unit[1]), letters)
+        canvas.line(start, end, layer=SIZES, name=size)
+        canvas.arrow(end, unit, letters, name=size)
+        canvas.arrow(start, (-unit[0], -unit[1]), letters, name=size)
     turn = math.degrees(math.atan2(unit[1], unit[0]))
     turn = turn - 180 if turn > 90.01 else turn + 180 if turn < -89.99 else turn
     up = (-math.sin(math.radians(turn)), math.cos(math.radians(turn)))
@@ -42,7 +55,11 @@ def along(
         for far in (beyond, -beyond):  # past its end, or past the circle on the other side
             places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
                            start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
-    canvas.words_where_free(places, text, letters, align=0.5, angle=round(turn, 3))
+    found = canvas.words_where_free(
+        places, text, letters, align=0.5, angle=round(turn, 3), name=size
+    )
+    if heads and found:
+        canvas.dimension(start, end, cast(Words, canvas.items[-1]))
 
 
 def across(
@@ -50,17 +67,19 @@ def across(
 ) -> None:
     """A diameter upright within its journal, the value beside the line."""
     low, high = ends
-    canvas.line((x, low), (x, high), layer=SIZES)
-    canvas.arrow((x, high), (0.0, 1.0), min(letters, (high - low) / 3))
-    canvas.arrow((x, low), (0.0, -1.0), min(letters, (high - low) / 3))
+    canvas.line((x, low), (x, high), layer=SIZES, name=SIZE)
+    canvas.arrow((x, high), (0.0, 1.0), min(letters, (high - low) / 3), name=SIZE)
+    canvas.arrow((x, low), (0.0, -1.0), min(letters, (high - low) / 3), name=SIZE)
     text = f"Ø{number(value)}"
     middle, wide = (low + high) / 2, width_of(text, letters)
     if wide < high - low:
         places = [(x - 0.5 * letters, middle)]
-        if canvas.words_where_free(places, text, letters, align=0.5, angle=90.0):
+        if canvas.words_where_free(places, text, letters, align=0.5, angle=90.0, name=SIZE):
+            canvas.dimension((x, low), (x, high), cast(Words, canvas.items[-1]))
             return
     above = [(x, high + (1 + 1.6 * n) * letters) for n in range(6)]
-    canvas.words_where_free(above, text, letters, align=0.5)
+    if canvas.words_where_free(above, text, letters, align=0.5, name=SIZE):
+        canvas.dimension((x, low), (x, high), cast(Words, canvas.items[-1]))
 
 
 def chain(
@@ -72,26 +91,30 @@ def chain(
     Values without room in between stand below, left ones left of their leaders and the lower
     the nearer to the middle, right ones likewise: so no leader runs through a value.
     """
-    below: list[tuple[float, str]] = []
+    below: list[tuple[float, str, Point]] = []
     for start, end, name, value in zip(stations, stations[1:], names, values, strict=False):
         if end - start <= 0:
             continue
-        canvas.line((start, y), (end, y), layer=SIZES)
+        canvas.line((start, y), (end, y), layer=SIZES, name=SIZE)
         head = min(letters, (end - start) / 3)
-        canvas.arrow((end, y), (1.0, 0.0), head)
-        canvas.arrow((start, y), (-1.0, 0.0), head)
+        canvas.arrow((end, y), (1.0, 0.0), head, name=SIZE)
+        canvas.arrow((start, y), (-1.0, 0.0), head, name=SIZE)
         text, middle = f"{name} = {number(value)}", (start + end) / 2
-        if width_of(text, letters) < end - start:
-            canvas.words((middle, y + 0.5 * letters), text, letters, align=0.5)
+        if width_of(text, letters) < end - start - letters:
+            words = canvas.words(
+                (middle, y + 0.5 * letters), text, letters, align=0.5, name=SIZE
+            )
+            canvas.dimension((start, y), (end, y), words)
         else:
-            below.append((middle, text))
+            below.append((middle, text, (start, end)))
     half = -(-len(below) // 2)
-    for place, (middle, text) in enumerate(below):
+    for place, (middle, text, (start, end)) in enumerate(below):
         left = place < half
         level = y - 1.6 * letters * (1 + (place if left else len(below) - 1 - place))
         canvas.line((middle, y), (middle, level - 0.2 * letters), layer=SIZES)
         beside = (middle + (-0.4 if left else 0.4) * letters, level)
-        canvas.words(beside, text, letters, align=1.0 if left else 0.0)
+        words = canvas.words(beside, text, letters, align=1.0 if left else 0.0, name=SIZE)
+        canvas.dimension((start, y), (end, y), words)
     for x in sorted(set(stations)):
         canvas.line((x, y - 0.5 * letters), (x, y + 3 * letters), layer=SIZES)
 

@@ -9,16 +9,28 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from html import escape
 
-from reports.draw.canvas import LAYERS, Box, Circle, Dash, Item, Line, Words, bounds
+from reports.draw.canvas import (
+    LAYERS,
+    SIZE,
+    Box,
+    Circle,
+    Dash,
+    Dimension,
+    Item,
+    Line,
+    Words,
+    bounds,
+)
 from reports.draw.fonts import (
     CAPITAL,
-    INDEX,
     OF_DRAWINGS,
     SLANT,
     STROKE,
     WIDER,
+    index_height,
     is_drawn,
     parts_of,
+    plain,
     strokes_of,
     width_of,
 )
@@ -66,6 +78,8 @@ def _runs(items: Iterable[Item], left: float, high: float) -> Iterable[str]:
         if isinstance(item, Words):
             rest.append(_words(item, left, high))
             continue
+        if isinstance(item, Dimension):
+            continue
         layer = item.layer
         colour = _SVG_GREY if layer.grey else "#000000"
         dash = (item.dash if isinstance(item, Line) else ()) or layer.dash
@@ -103,7 +117,7 @@ def parts_placed(item: Words) -> Iterable[Words]:
         return
     run = -item.align * item.width / WIDER
     for text, index in parts:
-        height = item.height * (INDEX if index else 1.0)
+        height = index_height(item.height) if index else item.height
         along, down = run, -0.3 * item.height if index else 0.0
         turn = math.radians(item.angle)
         x = item.place[0] + along * math.cos(turn) - down * math.sin(turn)
@@ -146,6 +160,7 @@ def _svg_strokes(item: Words, left: float, high: float) -> str:
 
 # LibreCAD takes the face that is called as the style, other programs the file of the style.
 STYLE = "lc_opengost-br"
+DIMSTYLE = "GOST_2_307"
 _FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
 _BLACK, _DXF_GREY = 7, 8
 
@@ -169,6 +184,7 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         document.header["$LWDISPLAY"] = 1
         document.header["$LTSCALE"] = dashes
         document.styles.add(STYLE, font=_FONT).dxf.oblique = SLANT
+        document.dimstyles.add(DIMSTYLE)
         for layer in LAYERS:
             entry = document.layers.add(layer.name, color=_DXF_GREY if layer.grey else _BLACK)
             entry.dxf.lineweight = round(100 * layer.width)
@@ -179,6 +195,11 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         shown = list(items)
         for item in shown:
             looks: dict[str, object] = {"layer": item.layer.name}
+            if isinstance(item, Line | Words) and item.name == SIZE:
+                continue  # of a dimension, which is an entity of its own
+            if isinstance(item, Dimension):
+                _dxf_dimension(space, item, looks)
+                continue
             if isinstance(item, Line):
                 if item.dash:
                     looks["linetype"] = _linetype(document, item.dash)
@@ -212,6 +233,21 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         return stream.getvalue().encode(document.output_encoding, "dxfreplace")
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _dxf_dimension(space: object, item: Dimension, looks: dict[str, object]) -> None:
+    """A dimension by ГОСТ 2.307 with its words where the drawing has them."""
+    turn = math.degrees(math.atan2(item.end[1] - item.start[1], item.end[0] - item.start[0]))
+    head = min(item.height, math.dist(item.start, item.end) / 3)
+    manner = {
+        "dimtxsty": STYLE, "dimtxt": item.height, "dimasz": head, "dimblk": "",
+        "dimexo": 0.0, "dimexe": 0.0, "dimse1": 1, "dimse2": 1, "dimtmove": 2,
+    }  # fmt: skip
+    dimension = space.add_linear_dim(  # type: ignore[attr-defined]
+        base=item.start, p1=item.start, p2=item.end, angle=turn, text=plain(item.text),
+        location=item.middle, dimstyle=DIMSTYLE, override=manner, dxfattribs=looks,
+    )  # fmt: skip
+    dimension.render()
 
 
 def _dxf_text(space: object, item: Words, align: object, looks: dict[str, object]) -> None:

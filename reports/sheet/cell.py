@@ -29,14 +29,13 @@ from reports.draw.canvas import (
     moved,
     polar,
 )
-from reports.draw.fonts import fitted, width_of, wrapped
+from reports.draw.fonts import fitted, standard, width_of, wrapped
 from reports.draw.parts import mechanism_drawing, throw_drawing
 from reports.inputs.firing import order_text
 from reports.model.shape import Shape
 from reports.shared.russian import capital, fixed
 
 TITLE, TEXT = 5.0, 3.5  # height of letters
-_SMALLER = 3.9  # to which a title shrinks before it takes two lines
 _SAMPLE = 12.0  # of a dash beside the name of a curve
 
 
@@ -75,8 +74,7 @@ class Name:
 def headed(canvas: Canvas, room: CellArea, title: str, lines: tuple[str, ...] = ()) -> CellArea:
     """Write a title and lines under it; what is left of the room."""
     y = room.high - TITLE - 1.5
-    one = fitted(title, room.width, TITLE)
-    for text in [title] if one >= _SMALLER else wrapped(title, room.width, TITLE):
+    for text in wrapped(title, room.width, TITLE):
         height = fitted(text, room.width, TITLE)
         canvas.words((room.middle[0], y), text, height, align=0.5)
         y -= 1.6 * TITLE
@@ -125,7 +123,7 @@ def grid(canvas: Canvas, room: CellArea, rows: Sequence[Sequence[str]]) -> None:
     share = (room.width - 2 * _PADDING * len(needs)) / sum(needs)
     wides = [need * share + 2 * _PADDING for need in needs]
     tall = min(ROW, room.height / len(rows))
-    height = min(TEXT, 0.6 * tall, TEXT * share)
+    height = standard(min(TEXT, 0.6 * tall, TEXT * share))
     xs = [room.left + sum(wides[:n]) for n in range(len(wides) + 1)]
     low = room.high - tall * len(rows)
     canvas.box(xs[0], low, xs[-1], room.high, TABLES)
@@ -276,7 +274,7 @@ def balance(canvas: Canvas, room: CellArea, terms: Terms) -> None:
             canvas.box(pin[0] - 4, min(low, y - up * 4), pin[0] + 4, max(low, y - up * 4), THIN)
     masses = sorted(web.counterweight_kg for web in shaft.webs)
     mass = "; ".join(dict.fromkeys(map(plain_number, masses)))
-    said = f"Kr = {terms.num('K_r')} кН; приведённая масса противовеса щеки {mass} кг"
+    said = f"K_r = {terms.num('K_r')} кН; приведённая масса противовеса щеки {mass} кг"
     height = fitted(said, room.width, TEXT)
     canvas.words((room.middle[0], room.low + 1), said, height, align=0.5)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -31,32 +32,14 @@ from reports.draw.canvas import (
     Words,
     polar,
 )
-from reports.draw.fonts import width_of
+from reports.draw.fonts import fitted, width_of
 from reports.formula.numeric import evaluate
 from reports.model.charts import ChartSpec, Series
 from reports.shared.russian import fixed
 from reports.sheet.cell import TEXT, CellArea, Name, headed, legend
 
-_ROUND = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0)
-_ANGLE_STEPS = (
-    0.5,
-    1.0,
-    1.5,
-    2.0,
-    2.5,
-    3.0,
-    4.0,
-    4.5,
-    5.0,
-    6.0,
-    8.0,
-    9.0,
-    10.0,
-    12.0,
-    15.0,
-    18.0,
-    20.0,
-)
+_ROUND = (1.0, 2.0, 2.5, 4.0, 5.0)  # digits of the scales of ГОСТ 2.302
+_ANGLE_STEPS = (0.5, 1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0)
 STEP = 10.0  # mm between the lines of the grid
 
 
@@ -127,14 +110,18 @@ _SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
 Values = NDArray[np.float64]
 
 
+_GROUP = re.compile(r"_\(([^)]*)\)")
+
+
 def symbol(terms: Terms, name: str) -> str:
-    """Symbol of a quantity as plain letters."""
-    return terms.quantity(name).symbol.replace(" ", "") if "." in name else _scalar(terms, name)
+    """Symbol of a quantity with its index behind a stroke below, as drawings take it."""
+    return drawn_symbol(terms.tex(name))
 
 
-def _scalar(terms: Terms, name: str) -> str:
-    return (terms.model.fields[name].symbol.replace("_", "") if name in terms.model.fields
-            else terms.quantity(name).symbol)  # fmt: skip
+def drawn_symbol(tex: str) -> str:
+    """A TeX symbol for a drawing: «R′_ш.ш.ср»."""
+    text = _GROUP.sub(lambda group: "_" + group[1].replace(" ", "."), plain(tex))
+    return text.replace("'", "′").replace(" ", "")
 
 
 def _unit(terms: Terms, name: str) -> str:
@@ -161,7 +148,8 @@ def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, cl
         min(left, 0.0), right, room.width - _SIDE - wide, angle=chart.x_is_angle
     )  # fmt: skip
     up = round_scale(low, high, room.height - _FOOT - 2 * TEXT - 4)
-    said = f"{title} (М {unit_text(up.unit)} в мм; по горизонтали {unit_text(across.unit)} в мм)"
+    of_y, of_x = terms.unit(drawn[0].y), terms.unit(drawn[0].x)
+    said = f"{title} (М {unit_text(up.unit)} {of_y}/мм; по горизонтали {unit_text(across.unit)} {of_x}/мм)"  # noqa: E501
     canvas.words((room.left + 2, room.high - TEXT - 1), said, TEXT)
     base = room.low + _FOOT
     origin = (_whole(room.left + _SIDE), _whole(base))
@@ -225,16 +213,16 @@ def path(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None
     x, y = terms.curves([drawn.x, drawn.y])
     signs = (-1.0 if chart.x_reversed else 1.0, -1.0 if chart.y_reversed else 1.0)
     poles = {"O": 0.0} | {
-        plain(tex).replace("_", ""): signs[1] * float(evaluate(expr, terms.value))
+        drawn_symbol(tex): signs[1] * float(evaluate(expr, terms.value))
         for tex, expr in chart.poles
     }
     room = headed(canvas, room, chart.words)
     xs, ys = signs[0] * x, signs[1] * y
     across, up = _equal(xs, [*poles.values(), *ys], room)
     titles = _unit(terms, drawn.x), _unit(terms, drawn.y)
-    said = f"М {unit_text(up.unit)} {terms.unit(drawn.y)} в мм; вправо {'−' if signs[0] < 0 else ''}{titles[0]}, вверх {'−' if signs[1] < 0 else ''}{titles[1]}"  # noqa: E501
+    said = f"М {unit_text(up.unit)} {terms.unit(drawn.y)}/мм; вправо {'−' if signs[0] < 0 else ''}{titles[0]}, вверх {'−' if signs[1] < 0 else ''}{titles[1]}"  # noqa: E501
     canvas.words((room.middle[0], room.high - TEXT - 1), said,
-                 min(TEXT, TEXT * room.width / width_of(said, TEXT)), align=0.5)  # fmt: skip
+                 fitted(said, room.width, TEXT), align=0.5)  # fmt: skip
     origin = (_whole(room.middle[0] - across.length / 2 + 5), _whole(room.low + _FOOT))
     _square(canvas, origin, across, up, signs)
     points = _points(origin, across, up, xs, ys)
@@ -356,7 +344,7 @@ def wear(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None
     scale = round_scale(0.0, float(sums.max()) or 1.0, 0.62 * radius)
     unit = scale.unit
     hole = terms.value(chart.hole)
-    said = f"М {unit_text(unit)} МПа в мм; отверстие {terms.num(chart.hole)}°"
+    said = f"М {unit_text(unit)} МПа/мм; отверстие {terms.num(chart.hole)}°"
     canvas.words((room.middle[0], room.high - TEXT - 1), said, TEXT, align=0.5)
     centre = (_whole(room.middle[0]), _whole(room.low + radius + 10))
     canvas.circle(centre, radius, layer=CONTOUR)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 import itertools
 import math
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -15,11 +16,11 @@ from reports.document.page.render import render_pdf
 from reports.document.text.terms import Terms
 from reports.draw import fonts
 from reports.draw.canvas import FRAME, THIN, Canvas, Item, Words, bounds, moved
-from reports.draw.fonts import fitted, wrapped
+from reports.draw.fonts import HEIGHTS, fitted, width_of, wrapped
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
 from reports.draw.writers import dxf_bytes, svg_of
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.report import USUAL, SheetSection
+from reports.inputs.sections.report import USUAL, ReportSection, SheetSection
 from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
 from reports.model.evaluation import Values
@@ -35,7 +36,6 @@ MARGINS = (20.0, 5.0, 5.0, 5.0)  # left, right, top, bottom of the frame
 _COLUMNS = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)
 _HEADS = ("Изм.", "Лист", "№ докум.", "Подп.", "Дата")
 _NAME = (65.0, 135.0)
-_LEAST_HEIGHT = 1.0  # height of letters
 _READABLE = 2.0  # of a name; one that would be smaller leaves the surname alone
 
 
@@ -57,15 +57,14 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     def cell(text: str, box: tuple[float, float, float, float], most: float = 2.5) -> None:
         x1, y1, x2, y2 = box
         room = x2 - x1 - 1
-        height = most
-        lines = wrapped(text, room, height, hyphens=True)
-        while (len(lines) * 1.7 * height > y2 - y1) and height > _LEAST_HEIGHT:
-            height -= 0.25
+        for height in (h for h in reversed(HEIGHTS) if h <= most):
             lines = wrapped(text, room, height, hyphens=True)
+            fits = all(width_of(words, height) <= room for words in lines)
+            if fits and len(lines) * 1.7 * height <= y2 - y1:
+                break
         y = (y1 + y2) / 2 + (len(lines) * 1.7 * height) / 2 - 1.4 * height
         for words in lines:
-            size = fitted(words, room, height, 0.5)
-            canvas.words((left + (x1 + x2) / 2, low + y), words, size, align=0.5)
+            canvas.words((left + (x1 + x2) / 2, low + y), words, height, align=0.5)
             y -= 1.7 * height
 
     canvas.box(left, low, left + STAMP_WIDTH, low + STAMP_HEIGHT, FRAME)
@@ -100,12 +99,34 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     cell("Лист", (135, 15, 155, 20))
     cell("Листов 1", (155, 15, STAMP_WIDTH, 20))
     cell("У", (140, 20, 145, 35), 3.5)
-    cell(report.designation, (65, 40, STAMP_WIDTH, 55), 5.0)
+    cell(designation(report), (65, 40, STAMP_WIDTH, 55), 7.0)
     cell(f"Динамический расчёт двигателя. {model.engine.name}", (*_NAME[:1], 15, _NAME[1], 40), 5.0)
     places = (report.institution, report.department, report.group)
     cell(", ".join(filter(None, places)), (135, 0, STAMP_WIDTH, 15), 3.5)
 
 
+_NOTE = re.compile(r"\s*ПЗ$")
+
+
+def designation(report: ReportSection) -> str:
+    """The sheet's own designation: that of the note with the code of diagrams, ГОСТ 2.102."""
+    return _NOTE.sub(" Д", report.designation)
+
+
+def corner(canvas: Canvas, report: ReportSection, width: float, height: float) -> None:
+    """Box 26: the designation turned upside down in the upper left corner of the frame."""
+    left, top = MARGINS[0], height - MARGINS[2]
+    if width < height:  # along the upright edge where the sheet stands
+        canvas.box(left, top - _BOX_26[0], left + _BOX_26[1], top, FRAME)
+        place, turn = (left + _BOX_26[1] / 2 + 2.5, top - _BOX_26[0] / 2), 90.0
+    else:
+        canvas.box(left, top - _BOX_26[1], left + _BOX_26[0], top, FRAME)
+        place, turn = (left + _BOX_26[0] / 2, top - _BOX_26[1] / 2 + 2.5), 180.0
+    text = designation(report)
+    canvas.words(place, text, fitted(text, _BOX_26[0] - 2, 5.0), align=0.5, angle=turn)
+
+
+_BOX_26 = (70.0, 14.0)  # [mm]
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
 _GAP = 6.0
 _LEAST = (120.0, 92.0)  # of a cell [mm]
@@ -125,9 +146,10 @@ def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
     wanted = blocks(terms, section)
     canvas = Canvas()
     frame(canvas, width, height)
-    rooms = cells(width, height, len(wanted), section)
-    for draw, room in zip(wanted, rooms, strict=False):
-        draw(canvas, room, terms)
+    for draw, room in zip(wanted, _rooms(wanted, width, height, section), strict=False):
+        if room is not None:
+            draw(canvas, room, terms)
+    corner(canvas, terms.model.input.report, width, height)
     left, low = width - MARGINS[1] - STAMP_WIDTH, MARGINS[3]
     title_block(canvas, terms.model.input, left, low)
     return canvas, width, height
@@ -142,6 +164,35 @@ def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
         what = f"у этого двигателя нет: {', '.join(missing)}"
         raise InputError(Problem("sheet.diagrams", what, "уберите из списка"))
     return [known[name] for name in picked]
+
+
+def _rooms(
+    wanted: Sequence[Draw], width: float, height: float, section: SheetSection
+) -> list[CellArea | None]:
+    """Room of every block; polar diagrams take two cells, one above the other, where they fit."""
+    tall = [isinstance(draw, partial) and draw.func is diagrams.path for draw in wanted]
+    try:
+        free = cells(width, height, len(wanted) + sum(tall), section)
+    except InputError:
+        free, tall = cells(width, height, len(wanted), section), [False] * len(wanted)
+    rooms: list[CellArea | None] = [None] * len(wanted)
+    order = sorted(range(len(wanted)), key=lambda n: not tall[n])
+    for n in order:
+        room = None
+        if tall[n]:
+            pairs = ((one, two) for one in reversed(free) for two in free if _is_under(two, one))
+            upper, lower = next(pairs, (None, None))
+            if upper is not None and lower is not None:
+                room = CellArea(upper.left, lower.low, upper.width, upper.high - lower.low)
+                free = [cell for cell in free if cell not in (upper, lower)]
+        if room is None and free:
+            room, *free = free
+        rooms[n] = room
+    return rooms
+
+
+def _is_under(low: CellArea, high: CellArea) -> bool:
+    return low.left == high.left and abs(low.high + _GAP - high.low) < 1e-6
 
 
 def available(terms: Terms) -> dict[str, Draw]:
@@ -185,20 +236,21 @@ def cells(width: float, height: float, count: int, section: SheetSection) -> lis
         hint = "уберите лишнее" + ("" if section.size == "A1" else ' или выберите size = "A1"')
         raise InputError(Problem("sheet.diagrams", what, hint))
     fitting = [g for g in grids if len(g) >= min(count, most)]
-    return max(fitting, key=lambda g: min(g[0].width / 1.4, g[0].height))
+    return max(fitting, key=lambda g: min(g[0].width / 1.6, g[0].height))
 
 
 def _grids(width: float, height: float) -> Iterator[list[CellArea]]:
     """Free cells of every division of the sheet into columns and rows."""
     left, right, top, bottom = MARGINS
-    wide, tall = width - left - right - _GAP, height - top - bottom - _GAP
+    head = _BOX_26[1] if width > height else 0.0  # under the box in the corner
+    wide, tall = width - left - right - _GAP, height - top - bottom - _GAP - head
     for columns, rows in itertools.product(range(1, 9), repeat=2):
         across, down = wide / columns, tall / rows
         if across < _LEAST[0] or down < _LEAST[1]:
             continue
         taken = math.ceil((STAMP_WIDTH + _GAP) / across), math.ceil((STAMP_HEIGHT + _GAP) / down)
         yield [
-            CellArea(left + _GAP + c * across, height - top - (r + 1) * down, across - _GAP,
+            CellArea(left + _GAP + c * across, height - top - head - (r + 1) * down, across - _GAP,
                  down - _GAP)
             for r in range(rows) for c in range(columns)
             if not (c >= columns - taken[0] and r >= rows - taken[1])

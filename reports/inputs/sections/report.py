@@ -112,7 +112,7 @@ Diagram = Literal[
     "throw", "mechanism",
 ]  # fmt: skip
 USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
-         "main_wear", "shaft", "balance", "running", "results", "throw")  # fmt: skip
+         "main_wear", "shaft", "balance", "running", "results", "throw", "main_polar")  # fmt: skip
 SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
 WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 

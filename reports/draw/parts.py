@@ -101,9 +101,7 @@ def chain(
         canvas.arrow((start, y), (-1.0, 0.0), head, name=SIZE)
         text, middle = f"{name} = {number(value)}", (start + end) / 2
         if width_of(text, letters) < end - start - letters:
-            words = canvas.words(
-                (middle, y + 0.5 * letters), text, letters, align=0.5, name=SIZE
-            )
+            words = canvas.words((middle, y + 0.5 * letters), text, letters, align=0.5, name=SIZE)
             canvas.dimension((start, y), (end, y), words)
         else:
             below.append((middle, text, (start, end)))

@@ -64,7 +64,9 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
                 break
         y = (y1 + y2) / 2 + (len(lines) * 1.7 * height) / 2 - 1.4 * height
         for words in lines:
-            canvas.words((left + (x1 + x2) / 2, low + y), words, height, align=0.5)
+            wide = width_of(words, height)  # at last smaller than the standard allows
+            size = height if wide <= room else max(0.5, height * room / wide)
+            canvas.words((left + (x1 + x2) / 2, low + y), words, size, align=0.5)
             y -= 1.7 * height
 
     canvas.box(left, low, left + STAMP_WIDTH, low + STAMP_HEIGHT, FRAME)

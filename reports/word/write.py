@@ -195,7 +195,7 @@ def _timeless(data: bytes) -> bytes:
                 continue
             part = given.read(name)
             if name == "_rels/.rels":
-                part = re.sub(rb'<Relationship [^>]*thumbnail[^>]*/>', b"", part)
+                part = re.sub(rb"<Relationship [^>]*thumbnail[^>]*/>", b"", part)
             elif name == "docProps/app.xml":
                 part = re.sub(rb"(<Application>)[^<]*", rb"\g<1>kshm", part)
                 part = re.sub(rb"\s*<Template>[^<]*</Template>", b"", part)

@@ -16,10 +16,10 @@ from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reports.draw.canvas import LAYERS, Line, Words
-from reports.draw.fonts import plain
+from reports.draw.canvas import CURVES, LAYERS, SIZE, Line, Words
+from reports.draw.fonts import HEIGHTS
 from reports.draw.parts import ThrowSizes
-from reports.draw.writers import dxf_bytes
+from reports.draw.writers import DIMSTYLE, STYLE, dxf_bytes, parts_placed
 from reports.inputs.load import load_text
 from reports.new.generate import file_text, generate_engine
 from reports.sheet.write import _throws, sheet_files, sheet_items
@@ -85,7 +85,7 @@ def check_curves(t) -> int:
     document = read(dxf_bytes(canvas.items))
     lines = [np.array([p[:2] for p in e.get_points("xy")])
              for e in document.modelspace().query('LWPOLYLINE[layer=="Кривые"]')]  # fmt: skip
-    named = [item for item in canvas.items if isinstance(item, Line) and item.name]
+    named = [item for item in canvas.items if isinstance(item, Line) and item.layer is CURVES]
     texts = [item for item in canvas.items if isinstance(item, Words)]
     assert len(lines) == len(named)
     fields = {}  # the first curve of a diagram finds its marks, the others share them
@@ -115,7 +115,7 @@ def check_curves(t) -> int:
 
 def _says(text: str, unit: float) -> bool:
     """Whether a line of the sheet names this scale."""
-    if " в мм" not in text:
+    if "/мм" not in text:
         return False
     named = re.findall(r"(?:М|горизонтали) ([\d,]+)", text)
     return any(abs(number(n) - unit) < 1e-6 * unit for n in named)
@@ -178,14 +178,42 @@ def test_layers_texts_and_closed_lines():
     assert corners == [(0, 0), (841, 594), (841, 594)]
 
 
+def words_of(file: str) -> list[str]:
+    """Texts of a drawing, those of its dimensions too."""
+    return [e.dxf.text for e in read(files()[file]).modelspace().query("TEXT DIMENSION")]
+
+
+def test_dimensions_measure_what_they_say():
+    dimensions = read(files()["-throw.dxf"]).modelspace().query("DIMENSION")
+    assert len(dimensions) == 4 * 10
+    for entity in dimensions:
+        said = float(re.search(r"[\d,]+$", entity.dxf.text)[0].replace(",", "."))
+        assert entity.get_measurement() == pytest.approx(said, abs=0.01)
+        assert entity.dxf.dimstyle == DIMSTYLE
+
+
+def test_lettering_is_that_of_the_standard():
+    """ГОСТ 2.304: heights 1.8 to 10 alone, one style, which a drawing program finds by name."""
+    space = read(files()["-sheet.dxf"]).modelspace()
+    texts = space.query("TEXT")
+    assert {round(text.dxf.height, 3) for text in texts} <= set(HEIGHTS)
+    assert {text.dxf.style for text in texts} == {STYLE}
+    assert any(text.dxf.height == 2.5 and text.dxf.text == "г" for text in texts)  # an index
+
+
+def test_line_types_have_names_that_programs_know():
+    names = {kind.dxf.name for kind in read(files()["-sheet.dxf"]).linetypes}
+    assert names <= {"ByBlock", "ByLayer", "Continuous", "CENTER", "DASHED", "DOT", "DIVIDE"}
+
+
 def test_parts_are_true_to_size():
     t = terms("d-240")
     circles = read(files()["-mechanism.dxf"]).modelspace().query("CIRCLE")
     radius = max(circle.dxf.radius for circle in circles)
     assert radius == pytest.approx(1000 * t.value("r_crank"))
-    said = {e.dxf.text for e in read(files()["-mechanism.dxf"]).modelspace().query("TEXT")}
+    said = set(words_of("-mechanism.dxf"))
     assert said == {"ØD = 110", "S = 125", "L = 230", "r = 62,5"}
-    texts = [e.dxf.text for e in read(files()["-throw.dxf"]).modelspace().query("TEXT")]
+    texts = words_of("-throw.dxf")
     for size in ("l1 = 18", "hЛ = 26", "l2 = 25", "l5 = 25", "l6 = 18", "r = 62,5", "Ø68,25"):
         assert texts.count(size) == 4
     assert [f"Колено {n}" for n in range(1, 5)] == [x for x in texts if x.startswith("Колено")]
@@ -214,11 +242,12 @@ def test_the_same_bytes_in_another_process():
 
 def test_words_stand_in_the_file_where_the_list_has_them():
     canvas, _, _ = sheet_items(terms("d-240"))
-    words = [item for item in canvas.items if isinstance(item, Words)]
+    words = [part for item in canvas.items if isinstance(item, Words) and item.name != SIZE
+             for part in parts_placed(item)]  # fmt: skip
     texts = list(read(dxf_bytes(canvas.items)).modelspace().query("TEXT"))
     assert len(words) == len(texts)
     for item, text in zip(words, texts, strict=True):
-        assert text.dxf.text == plain(item.text) and text.dxf.height == pytest.approx(item.height)
+        assert text.dxf.text == item.text and text.dxf.height == pytest.approx(item.height)
         assert tuple(text.get_placement()[1])[:2] == pytest.approx(item.place)
 
 
@@ -231,7 +260,7 @@ def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
         (71 * size, 71 * size), (37 * size, 37 * size),
     )  # fmt: skip
     document = read(_throws([throw]))
-    letters = min(text.dxf.height for text in document.modelspace().query("TEXT"))
+    letters = min(text.dxf.height for text in document.modelspace().query("TEXT")) / 1.4
     assert document.header["$LTSCALE"] == pytest.approx(letters / 3.5)
 
 
@@ -240,9 +269,9 @@ def test_on_paper_dashes_are_as_long_as_they_say() -> None:
 
 
 def test_a_pattern_begins_with_its_dash_and_gaps_are_negative() -> None:
-    types = read(dxf_bytes([Line(((0, 0), (99, 0)), dash=(12, 3, 1, 2))])).linetypes
-    lengths = [tag.value for tag in types.get("12-3-1-2").pattern_tags.tags if tag.code in (40, 49)]
-    assert lengths == [18, 12, -3, 1, -2]
+    types = read(dxf_bytes([Line(((0, 0), (99, 0)), dash=(12, 2, 1, 2))])).linetypes
+    lengths = [tag.value for tag in types.get("CENTER").pattern_tags.tags if tag.code in (40, 49)]
+    assert lengths == [17, 12, -2, 1, -2]
 
 
 def test_letters_of_the_mechanism_are_read_where_all_of_it_is_seen() -> None:

@@ -1,0 +1,73 @@
+"""The sheet as norm control reads it: lettering, scales, the box in the corner, polar diagrams."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reports.draw.canvas import Line, Words
+from reports.draw.fonts import HEIGHTS, glyphs, is_drawn, strokes_of, width_of
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.sheet.write import designation, sheet_items
+from tests.conftest import sample
+from tests.sheet.sheet_samples import drawn, terms, terms_of
+
+RUSSIAN = "абвгдеёжзийклмнопрстуфхцчшщъыьэюя"
+NAMES = ["gots-diesel", "yamz-236", "two-stroke"]
+
+
+def test_every_letter_of_russian_and_of_symbols_is_drawn():
+    assert is_drawn(RUSSIAN + RUSSIAN.upper() + "αβγθλμνπρφψωΔΣ0123456789.,;:()°′×·±−–—«»№Ø%/")
+    assert len(glyphs()) > 600
+
+
+def test_letters_are_as_high_as_they_say_and_lean():
+    (stem,) = [s for s in strokes_of("І", 10.0) if len(s) == 2]
+    (x1, y1), (x2, y2) = sorted(stem, key=lambda point: point[1])
+    assert y2 - y1 == pytest.approx(9.0) and x2 > x1  # the line itself is one more high
+    assert width_of("Щ", 5.0) > width_of("г", 5.0) > 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_heights_of_the_sheet_are_of_the_standard(name):
+    canvas, _, _ = drawn(terms(name))
+    assert {w.height for w in canvas.items if isinstance(w, Words)} <= set(HEIGHTS)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_scales_are_of_the_series_and_have_units(name):
+    canvas, _, _ = drawn(terms(name))
+    texts = [w.text for w in canvas.items if isinstance(w, Words) and "/мм" in w.text]
+    scales = [s for t in texts for s in re.findall(r"(?:М|горизонтали) ([\d,]+) [^ ]+/мм", t)]
+    assert len(scales) >= 10
+    for scale in scales:
+        digits = scale.replace(",", "").strip("0")
+        assert digits in ("1", "2", "25", "4", "5"), scale
+
+
+def test_a_polar_diagram_takes_two_cells():
+    """30 × 60 mm it was, and its labels lay on one another."""
+    canvas, _, _ = drawn(terms("gots-diesel"))
+    curve = next(i for i in canvas.items if isinstance(i, Line) and i.name.startswith("fig50"))
+    left, low, right, high = curve.box
+    assert right - left > 40 and high - low > 100
+
+
+def test_the_designation_is_the_drawings_own_and_stands_in_the_corner():
+    raw = to_mapping(sample("gots-diesel"))
+    raw["report"]["designation"] = "КП.01.00.000 ПЗ"
+    model = load_mapping(raw, source="d").model
+    assert designation(model.report) == "КП.01.00.000 Д"
+    canvas, _, height = sheet_items(terms_of(model))
+    words = [w for w in canvas.items if isinstance(w, Words) and w.text == "КП.01.00.000 Д"]
+    (corner,) = [w for w in words if w.angle == 180.0]
+    assert len(words) == 2 and corner.place[1] > height - 20 and corner.place[0] < 90
+    assert not [w for w in canvas.items if isinstance(w, Words) and w.text.endswith("ПЗ")]
+
+
+def test_symbols_have_their_indices():
+    canvas, _, _ = drawn(terms("gots-diesel"))
+    texts = " ".join(w.text for w in canvas.items if isinstance(w, Words))
+    assert "p_г, МПа" in texts and "R′_ш.ш" in texts and "M_кр" in texts

@@ -259,13 +259,13 @@ def _dxf_text(space: object, item: Words, align: object, looks: dict[str, object
 
 
 # Names that drawing programs know, by the kind of the pattern.
-_KNOWN = {2: "DASHED", 4: "CENTER"}
+_KNOWN = {2: "DASHED2", 4: "CENTER2"}
 _SHORT = 3.0  # mm: shorter dashes are dots
 
 
 def _type_name(dash: Dash) -> str:
-    name = "DOT" if len(dash) == 2 and dash[0] < _SHORT else _KNOWN[len(dash)]
-    return name if max(dash[::2]) != _DIVIDE else "DIVIDE"
+    name = "DOT2" if len(dash) == 2 and dash[0] < _SHORT else _KNOWN[len(dash)]
+    return name if max(dash[::2]) != _DIVIDE else "DIVIDE2"
 
 
 _DIVIDE = 8.0  # mm: the first dash of the fifth pattern

@@ -151,8 +151,8 @@ def moved(items: Iterable[Item], dx: float, dy: float, scale: float = 1.0) -> li
         elif isinstance(item, Circle):
             shifted.append(replace(item, centre=at(item.centre), radius=item.radius * scale))
         elif isinstance(item, Dimension):
-            ends = {"start": at(item.start), "end": at(item.end), "middle": at(item.middle)}
-            shifted.append(replace(item, **ends))
+            start, end, middle = (at(point) for point in (item.start, item.end, item.middle))
+            shifted.append(replace(item, start=start, end=end, middle=middle))
         else:
             shifted.append(replace(item, place=at(item.place)))
     return shifted

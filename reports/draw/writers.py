@@ -199,25 +199,19 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
                 continue  # of a dimension, which is an entity of its own
             if isinstance(item, Dimension):
                 _dxf_dimension(space, item, looks)
-                continue
-            if isinstance(item, Line):
+            elif isinstance(item, Line):
                 if item.dash:
                     looks["linetype"] = _linetype(document, item.dash)
                 space.add_lwpolyline(item.points, close=item.closed, dxfattribs=looks)
-                if item.filled:
-                    hatch = space.add_hatch(color=_BLACK, dxfattribs={"layer": item.layer.name})
-                    hatch.paths.add_polyline_path(item.points, is_closed=True)
             elif isinstance(item, Circle):
                 space.add_circle(item.centre, item.radius, dxfattribs=looks)
-                if item.filled:
-                    hatch = space.add_hatch(color=_BLACK, dxfattribs={"layer": item.layer.name})
-                    edges = hatch.paths.add_edge_path()
-                    edges.add_arc(item.centre, item.radius, 0, 360)
             else:
                 parts = list(parts_placed(item))
                 for part in parts:
                     align = aligns[part.align if len(parts) == 1 else 0.0]
                     _dxf_text(space, part, align, looks)
+            if isinstance(item, Line | Circle) and item.filled:
+                _dxf_fill(space, item)
         left, low, right, high = bounds(shown)
         corners = (left, low, 0), (right, high, 0)
         space.reset_extents(*corners)
@@ -233,6 +227,16 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         return stream.getvalue().encode(document.output_encoding, "dxfreplace")
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _dxf_fill(space: object, item: Line | Circle) -> None:
+    """The black inside of a closed line or of a circle."""
+    looks = {"layer": item.layer.name}
+    hatch = space.add_hatch(color=_BLACK, dxfattribs=looks)  # type: ignore[attr-defined]
+    if isinstance(item, Circle):
+        hatch.paths.add_edge_path().add_arc(item.centre, item.radius, 0, 360)
+    else:
+        hatch.paths.add_polyline_path(item.points, is_closed=True)
 
 
 def _dxf_dimension(space: object, item: Dimension, looks: dict[str, object]) -> None:

@@ -1,4 +1,4 @@
-"""What a supervisor sends back: sentences that are not true, numbers told twice, words of no one."""
+"""What a supervisor sends back: sentences that are not true, numbers told twice."""
 
 import re
 

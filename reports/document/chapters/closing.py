@@ -224,8 +224,8 @@ def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
     names = chosen(chapter.input)
     lines = {
-        "rationale": rationale.concluded, "balance": balance.concluded, "torsion": torsion.concluded, "oil": oil.concluded,
-        "regimes": regimes.concluded,
+        "rationale": rationale.concluded, "balance": balance.concluded,
+        "torsion": torsion.concluded, "oil": oil.concluded, "regimes": regimes.concluded,
     }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 

@@ -326,7 +326,8 @@ def _powers(chapter: Chapter) -> TablePlan:
             "M_mean",
         ),
         (
-            f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = {terms.num('cycle_fullness')}",
+            f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = "
+            f"{terms.num('cycle_fullness')}",
             "cyc_p_i",
             "cyc_N_i",
             "",

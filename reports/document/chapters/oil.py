@@ -137,12 +137,12 @@ def concluded(chapter: Chapter) -> Markup:
     part = _weakest(chapter)
     enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
     line = (
-        "самая тонкая масляная плёнка {} мкм — у {}, её запас {} {} допускаемого {}; наименьший запас "
-        "прочности {} — у {}, он {} допускаемого {}"
+        "самая тонкая масляная плёнка {} мкм — у {}, её запас {} {} допускаемого {}; "
+        "наименьший запас прочности {} — у {}, он {} допускаемого {}"
     )
     return Markup(line).format(
-        thin.text, thin.words, fixed(reserve, 2), side, terms.num("bearings_reserve_allowed"), fixed(min(pin, main), 2), part,
-        enough, terms.num("bearings_safety_allowed"),
+        thin.text, thin.words, fixed(reserve, 2), side, terms.num("bearings_reserve_allowed"),
+        fixed(min(pin, main), 2), part, enough, terms.num("bearings_safety_allowed"),
     )  # fmt: skip
 
 

@@ -93,9 +93,9 @@ def concluded(chapter: Chapter) -> Markup:
 def judge(chapter: Chapter) -> Iterator[Judged]:
     """Every reason that the engine's data allow to judge."""
     model, prototype = chapter.input, chapter.prototype
-    value = chapter.terms.value
-    bore = 2000 * float(evaluate("sqrt(F_piston/pi)", value))
-    sizes = Sizes(bore, 1000 * value("r_crank"), 1000 * value("L_rod"))
+    number = chapter.terms.value
+    bore = 2000 * float(evaluate("sqrt(F_piston/pi)", number))
+    sizes = Sizes(bore, 1000 * number("r_crank"), 1000 * number("L_rod"))
     kind, times = stated_kind(model), sizes.heavier
     for reason in REASONS:
         value = _value(reason, chapter.terms)

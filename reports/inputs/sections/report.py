@@ -39,7 +39,8 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "rationale", "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings",
-    "running", "balance", "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
+    "running", "balance", "torsion", "oil", "regimes", "reference", "companions", "checks",
+    "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",

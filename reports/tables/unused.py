@@ -14,7 +14,15 @@ def unused(model: InputFile) -> set[str]:
     devices = set(_DEVICES)
     if model.masses.rod_kg is not None:
         devices.add("rod_small_end_share")
-    return given_by_cycle(model) | {f"balance_{key}" for key in devices - model.balance.asked}
+    unused_keys = given_by_cycle(model) | {
+        f"balance_{key}" for key in devices - model.balance.asked
+    }
+    if model.regime.indicated_power_kw is None:
+        unused_keys.add("regime_fullness")
+    for end in ("nose", "rear"):  # no such counterweight: neither its angle nor its arm counts
+        if not getattr(model.crankshaft, f"{end}_mass_kg"):
+            unused_keys |= {f"crankshaft_{end}_{key}" for key in ("mass_kg", "angle_deg", "arm_mm")}
+    return unused_keys
 
 
 def given_by_cycle(model: InputFile) -> set[str]:

@@ -3,6 +3,8 @@
 import re
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from kshm.nomenclature.digits import Digits
 from reports.document.chapters.chapter import after_noun
@@ -18,8 +20,17 @@ from reports.new.generate import file_text, generate_engine
 from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
 from reports.tables.registry import build_model
+from tests import layouts
 from tests.conftest import sample
-from tests.document.test_report_sentences import engine, page_of, plain, printed_rows, text_of
+from tests.document.bare_pages import bare_page
+from tests.document.test_report_sentences import (
+    assert_symbols_mean_one_number,
+    engine,
+    page_of,
+    plain,
+    printed_rows,
+    text_of,
+)
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
@@ -226,3 +237,38 @@ def test_the_prototype_stands_beside_the_engine(tmp_path):
     report = Report.of(build_model(model), evaluate_model(build_model(model)), tmp_path / "t.toml")
     rows = printed_rows(report.page("print"), "Принятые данные и обычные пределы")
     assert len(rows[0]) == 7 and rows[0][3].replace("\xa0", "").strip() == "1,14"
+
+
+@pytest.mark.parametrize("detail", ["short", "course"])
+@pytest.mark.parametrize("name", ["gots-diesel", "mwm-6", "d-240-bearings"])
+def test_the_table_of_data_holds_what_the_chapters_read(name, detail):
+    """Zero counterweights, the fullness of no power, sections of chapters that are not there."""
+    rows = printed_rows(page_of(name, detail), "Исходные данные для расчёта")
+    titles = " ".join(row[0] for row in rows)
+    model = sample(name)
+    assert ("Внешний противовес" in titles) == bool(
+        model.crankshaft.nose_mass_kg or model.crankshaft.rear_mass_kg
+    )
+    short = detail == "short"
+    assert ("Толщина щеки к диаметру" in titles) == (not short)
+    assert ("Плотность масла" in titles) == (model.bearings is not None and not short)
+    assert ("Модуль сдвига" in titles) == (model.torsion is not None and not short)
+
+
+@settings(max_examples=6)
+@given(
+    layout=st.sampled_from(sorted(layouts.MAKERS)), speed=st.floats(0.4, 1.2),
+    step=st.sampled_from([10.0, 30.0]),
+)  # fmt: skip
+def test_a_number_told_twice_is_one_number(layout, speed, step):
+    """Values of a symbol in the text, the conclusion's torque, flywheel and running-on torque."""
+    model = engine(layout, calculation__step_deg=step, regime__times_speed_rpm=speed,
+                   report__detail="course")  # fmt: skip
+    page = bare_page(model)
+    assert_symbols_mean_one_number(page)
+    text = plain(page)
+    end = text[text.index("Рассчитаны кинематика") :]
+    for said in (r"эффективный момент ([\d,]+\d)", r"маховик для [^:]*: ([\d,]+\d)",
+                 r"у шатунн[а-я]+ ше[а-я]+ [^—]*— ([\d ]+) Н·м"):  # fmt: skip
+        for number in re.findall(said, end):
+            assert text.count(number.strip()) > 1, (said, number)

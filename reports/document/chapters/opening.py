@@ -116,7 +116,9 @@ def input_data(chapter: Chapter) -> Markup:
     shown, step = printed(model, chapter.printed_step or model.calculation.step_deg)
     plans = {
         "inputs": TablePlan(
-            partial(_general, fields, unused(model)), "Исходные данные для расчёта", size="dense"
+            partial(_general, fields, unused(model) | _elsewhere(chapter)),
+            "Исходные данные для расчёта",
+            size="dense",
         ),
         "phases": TablePlan(partial(_phases, fields, model), "Фазы работы цилиндров и углы колен"),
         "webs": TablePlan(partial(_webs, fields), "Щёки и их противовесы", keep=True),
@@ -136,6 +138,21 @@ def input_data(chapter: Chapter) -> Markup:
         points_step=step,
         points_file=POINTS_FILE,
     )
+
+
+# Sections that one chapter alone reads.
+_READERS = {"balance": "balance", "torsion": "torsion", "bearings": "oil",
+            "reference": "reference"}  # fmt: skip
+
+
+def _elsewhere(chapter: Chapter) -> set[str]:
+    """Names of the fields that only chapters read which this report has not."""
+    names = relevant_chapters(chapter.input)
+    return {
+        field.name
+        for field in chapter.model.inputs
+        if _READERS.get(str(field.path[0]), "inputs") not in names
+    }
 
 
 def _is_listed(field: Field) -> bool:

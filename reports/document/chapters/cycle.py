@@ -23,7 +23,6 @@ from reports.document.text.texts import of_digits
 from reports.model.blocks import ScalarTable
 from reports.shared.russian import MINUS, capital, fixed
 from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
-from reports.tables.cycle_ranges import UNCHECKED
 
 _MOST_DECIMALS = 8  # of values in passes
 
@@ -71,7 +70,6 @@ def cycle(chapter: Chapter) -> Markup:
         tables=_tables(chapter),
         corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
         speed_step=500.0 if float(terms.column("speed.speed_n")[-1]) <= 5000 else 1000.0,
-        sourced=_are_sourced(terms),
         outside=_outside(terms),
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
         residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
@@ -174,9 +172,6 @@ def _ranges(terms: Terms) -> TableBlock:
         TableColumn("Обычно", 1.5),
         TableColumn("Вывод", 1.6),
     ]
-    sourced = _are_sourced(terms)
-    if sourced:
-        columns.append(TableColumn("Откуда предел", 2.8, text=True))
     rows = []
     for key in _range_keys(terms):
         scalar = terms.model.scalars[f"range_value_{key}"]
@@ -184,14 +179,7 @@ def _ranges(terms: Terms) -> TableBlock:
         value = terms.value(f"range_value_{key}")
         shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
         verdict = str(terms.values.scalars[f"range_{key}"])
-        source = ("—" if scalar.source == UNCHECKED else scalar.source,) if sourced else ()
         low, _, high = usual.partition("…")
         limits = (low if low == high else usual).replace("-", MINUS)
-        rows.append([titled_html(title), shown, limits, verdict, *source])
+        rows.append([titled_html(title), shown, limits, verdict])
     return table_block(columns, rows)
-
-
-def _are_sourced(terms: Terms) -> bool:
-    """Whether any usual limit comes from a printed source."""
-    keys = (f"range_value_{key}" for key in _range_keys(terms))
-    return any(terms.model.scalars[key].source != UNCHECKED for key in keys)

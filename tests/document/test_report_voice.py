@@ -1,5 +1,7 @@
 """What a supervisor sends back: sentences that are not true, numbers told twice."""
 
+import ast
+import html
 import re
 
 import pytest
@@ -7,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kshm.nomenclature.digits import Digits
-from reports.document.chapters.chapter import after_noun
+from reports.document.chapters.chapter import Chapter, after_noun
 from reports.document.chapters.closing import tolerance
 from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
+from reports.document.text.symbols import inline_html
 from reports.document.text.texts import of_digits, of_digits_tex
+from reports.formula.parse import parse
 from reports.formula.tex import to_tex, to_tex_numbers
 from reports.inputs.reasons import REASONS
 from reports.inputs.solve_input import refined, solved
@@ -272,3 +276,47 @@ def test_a_number_told_twice_is_one_number(layout, speed, step):
                  r"у шатунн[а-я]+ ше[а-я]+ [^—]*— ([\d ]+) Н·м"):  # fmt: skip
         for number in re.findall(said, end):
             assert text.count(number.strip()) > 1, (said, number)
+
+
+def _bare(text):
+    return re.sub(r"<[^>]+>|[\s\u200b]", "", html.unescape(text)).replace("−", "-")
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "cycle-turbo-diesel", "yamz-236"])
+def test_a_symbol_of_a_formula_is_defined(name, monkeypatch):
+    """On the left of a formula, in a table, in a «где» list or in the text beside it.
+
+    T_Σ of a split pin stood under a root and nowhere else.
+    """
+    _assert_defined(engine(source=name, report__detail="course"), monkeypatch)
+
+
+def test_a_symbol_of_a_split_pin_is_defined(monkeypatch):
+    _assert_defined(engine("split", report__detail="course"), monkeypatch)
+
+
+def _assert_defined(model, monkeypatch):
+    placed = []
+
+    def noting(known):
+        def noted(self, key, *more, **named):
+            placed.append((self, key, more[0] if more and not isinstance(more[0], str) else None))
+            return known(self, key, *more, **named)
+
+        return noted
+
+    for way in ("eq", "full"):
+        monkeypatch.setattr(Chapter, way, noting(getattr(Chapter, way)))
+    page = bare_page(model)
+    text = _bare(re.sub(r'<div class="eq.*?</div>', "", page, flags=re.DOTALL))
+    formulas = [(c.terms.tex(n), c, n, at) for c, n, at in placed if not c.writer.draft]
+    left = {tex for tex, *_ in formulas}
+    for _, chapter, name, at in formulas:
+        terms, symbol = chapter.terms, chapter.terms._symbols(name)
+        for node in ast.walk(parse(terms._expr(name, at))):
+            inner = ast.unparse(node) if isinstance(node, ast.Name | ast.Attribute) else "pi"
+            known = terms.has(inner) or terms.has(f"{name.rpartition('.')[0]}.{inner}")
+            tex = symbol(inner) if known else ""
+            if not tex or tex in left or re.search(r"dfrac|\\(sin|cos)|\+", tex):
+                continue
+            assert _bare(str(inline_html(tex))) in text, (name, tex)

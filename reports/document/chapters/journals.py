@@ -36,6 +36,7 @@ _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "
 _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _ARMS = tuple(f"throw1_{key}" for key in ("arm_left", "arm_rod", "arm_rod2", "arm_pin",
                                           "arm_right", "length"))  # fmt: skip
+_OUTER = ("crankshaft_nose_arm_mm", "crankshaft_rear_arm_mm")  # of the ends' counterweights
 _HALVES = "; половины шеек: л — левого ряда, п — правого"
 _SUM_DIGITS = 2
 _SUM_COLUMNS = 7  # the most journals in one table of sums
@@ -141,7 +142,7 @@ def journals(chapter: Chapter) -> Markup:
             "Схема коленчатого вала: вид сбоку и с носка" + _HALVES * chapter.shape.split,
         ),
         throws_text=instrumental(throws, "коленом", "коленами"),
-        arms=[name for name in _ARMS if terms.has(name)],
+        arms=[name for name in (*_ARMS, *_OUTER) if terms.has(name)],
         numbers=numbers,
         tables=[f"P4_3_{n}" for n in numbers],
         drawn=drawn,

@@ -98,7 +98,7 @@ def test_a_share_on_the_end_of_its_span_is_within_it():
     assert not [p for p in load_mapping(raw, source="t").warnings if "доля" in p.line()]
     text = text_of(load_mapping(raw, source="t").model)
     assert "Вне пределов" not in text
-    assert re.search(r"на поршневом пальце 0,2…0,3\s*0,3000\s*да", text)
+    assert re.search(r"на поршневом пальце 0,2…0,3\s*0,300\s*0,2…0,3\s*да", text)
 
 
 @pytest.mark.parametrize(

@@ -258,7 +258,7 @@ def test_what_the_browser_prints_reads_as_the_report_does(tmp_path):
     """The year is at the foot of the title page, and no number is missing in the abstract."""
     pdf = print_out(html_page("one"), tmp_path / "p.pdf", tmp_path / "w").read_bytes()
     title, *others = (" ".join(page.split()) for page in pages_of(pdf, tmp_path))
-    assert re.search(r"Проверил:? .*20\d\d( 1)?$", title), title
+    assert re.search(r"Допущен к защите .*20\d\d( 1)?$", title), title
     (abstract,) = (page for page in others if "РЕФЕРАТ" in page and "записка" in page)
     assert re.search(r"записка \d+ рис\.", abstract), abstract
 

@@ -150,7 +150,8 @@ def test_a_bad_style_file_is_refused_before_anything_is_written(tmp_path):
 def test_the_formats_of_the_input_are_made_and_are_the_same_bytes(tmp_path):
     text = (samples_dir() / f"{NAME}.toml").read_text(encoding="utf-8")
     source = tmp_path / f"{NAME}.toml"
-    formats = '[report]\nformats = ["xlsx", "docx"]\n'
+    (tmp_path / "plain.toml").write_text("table_continuation = false", encoding="utf-8")
+    formats = '[report]\nformats = ["xlsx", "docx"]\nstyle = "plain.toml"\n'
     source.write_text(text.replace("[report]\n", formats), encoding="utf-8")
     done = CliRunner().invoke(main, ["build", str(source), "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output

@@ -98,7 +98,7 @@ def checks(chapter: Chapter) -> Markup:
         reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
         grid=bool(chapter.terms.grid_errors),
         errors=TablePlan(
-            partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик", size="dense"
+            partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик", size="tiny"
         ),
     )
 

@@ -280,7 +280,7 @@ def grid_remark(model: InputFile) -> str:
     others = f"; других таких результатов: {len(errors) - 1}" if len(errors) > 1 else ""
     step = fixed(model.calculation.step_deg, 0)
     return (
-        f"Шаг таблиц {step}°: {first.title} {coarse}{unit}, с шагом 1° {fine}{unit}{others}; "
+        f"Шаг таблиц {step}°: {first.title}: {coarse}{unit}, с шагом 1° {fine}{unit}{others}; "
         "шаг задаёт calculation.step_deg"
     )
 

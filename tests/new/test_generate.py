@@ -179,7 +179,7 @@ def test_a_bore_that_cannot_be_is_refused(options):
     code, output = run("new", "--cylinders", 4, *options)
     assert code == 2
     assert output.startswith(f"{options[0]}: получается диаметр цилиндра ")
-    assert "возможно от 20 до 1000 мм" in output
+    assert "возможно от 10 до 1000 мм" in output
 
 
 @pytest.mark.parametrize("sample", ["d-240", "ecoboost-10", "vw-1600", "two-stroke", "yamz-238"])

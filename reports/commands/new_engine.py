@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reports.shared.errors import KshmError
@@ -17,6 +18,22 @@ _NUMBERS = (
     "efficiency",
 )  # fmt: skip
 Base = tuple[str, Callable[[], "InputFile"]]
+
+
+def new_book(target: Path, others: Iterable[object]) -> str:
+    """The text of a commented book of a department.
+
+    Raises:
+        KshmError: its name has another ending, or further options are given.
+    """
+    from reports.inputs.own_books import SUFFIX
+    from reports.shared.resources import templates_dir
+
+    if target.suffix != SUFFIX:
+        raise KshmError(f"--book {target}: нужно окончание {SUFFIX}")
+    if any(value is not None for value in others):
+        raise KshmError("--book: других ключей не нужно; уберите их")
+    return (templates_dir() / "own.book").read_text(encoding="utf-8")
 
 
 def new_text(

@@ -24,6 +24,7 @@ from reports.document.chapters import (
     journals,
     oil,
     opening,
+    own,
     regimes,
     torsion,
 )
@@ -66,6 +67,7 @@ CHAPTERS: dict[str, Write] = {
     "balance": balance.balance,
     "torsion": torsion.torsion,
     "oil": oil.oil,
+    "own": own.own,
     "regimes": regimes.regimes,
     "reference": dynamics.reference,
     "companions": balance.companions,

@@ -26,7 +26,19 @@ from reports.inputs.fields import Path, from_cells, in_cells, key_text
 from reports.inputs.findings import Finding, ValidValues, accepted_keys, check_signs, explained
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints
-from reports.inputs.normalise import normalise, read_text, refuse_bomb, refused
+from reports.inputs.normalise import in_types, normalise, read_text, refuse_bomb, refused
+from reports.inputs.own_books import (
+    MOST_BOOKS,
+    DeclarationError,
+    Texts,
+    allowed_texts,
+    book_name,
+    declared,
+    named,
+    own_model,
+    sections_of,
+    with_books,
+)
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.gas import SOURCES, CycleGasSection, PolytropicGasSection
@@ -141,13 +153,14 @@ def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loade
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    filled = with_points(normalise(raw, source), folder, source)
+    raw, books = with_books(normalise(raw, source), folder, source)
+    filled = with_points(raw, folder, source)
     try:
         loaded = load_mapping(filled.raw, source=source)
     except InputError as error:
         likely = [Problem(one_line(source, 120), *words) for words in decimal_commas(text)]
         raise InputError([*likely, *error.problems]) from None
-    return replace(loaded, beside=filled.files, notes=filled.notes)
+    return replace(loaded, beside=(*filled.files, *books), notes=filled.notes)
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:
@@ -193,10 +206,12 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     """
     reader = _SectionReader(source, locate)
     data = normalise(raw, source)
-    regimes = data.pop("regimes", ())
+    regimes, books, own = data.pop("regimes", ()), data.pop("books", {}), data.pop("own", {})
     if locate is not None:
         data = reader.from_cells(data)
     reader.order_alone = _has_order_alone(data)
+    texts = reader.books(books, named(data))
+    own_sections = reader.own(own, texts)
     data, findings = expand(data)
     reader.take(findings)
     if findings:  # what would have followed from the order is not also missing
@@ -207,7 +222,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
-    model = InputFile(**parts, regimes=further)
+    model = InputFile(**parts, regimes=further, books=texts, own=own_sections)
     design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
@@ -256,11 +271,12 @@ class _SectionReader:
         self.empty: set[Path] = set()
         self.uncounted = 0
         self.order_alone = False  # firing offsets follow from the order that the file has
+        self.home: Path = ()  # before the paths of its sections
 
     def key(self, path: Path) -> str:
         if self.regime is not None:
             path = inside(self.regime, path)
-        return one_line(key_text(path), 100)
+        return one_line(key_text((*self.home, *path)), 100)
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
         if self.order_alone and path[:2] == ("crankshaft", "firing_offsets_deg"):
@@ -272,7 +288,8 @@ class _SectionReader:
             what, hint = (_OFFSETS.sub("firing_order", text) for text in (what, hint))
         if self.locate is not None:
             what, hint = in_cells(what), in_cells(hint)
-        cell = self.locate(path) if self.locate is not None and path else ""
+        home = (*self.home, *path)
+        cell = self.locate(home) if self.locate is not None and path else ""
         address = f"{cell} ({key})" if cell else key
         return Problem(": ".join(part for part in (self.source, address) if part), what, hint)
 
@@ -330,6 +347,74 @@ class _SectionReader:
                 if section is not None:
                     models[name] = section
         return models
+
+    def books(self, raw: object, names: list[str]) -> Texts:
+        """Names and texts of own books; all of them are named in [report]."""
+        pairs = raw.items() if isinstance(raw, dict) else raw
+        texts: dict[str, str] = {}
+        for pair in pairs if isinstance(pairs, Iterable) and not isinstance(pairs, str) else ():
+            match pair:
+                case [str(name), str(text)]:
+                    texts[name] = text
+        path = ("report", "books")
+        if len(names) > MOST_BOOKS:
+            self.problems.append(self.problem(path, f"книг больше {MOST_BOOKS}", "уберите лишние"))
+            return ()
+        try:
+            texts = allowed_texts(texts, names)
+        except InputError as error:
+            self.problems += error.problems
+            return ()
+        missing = [name for name in names if name not in texts]
+        repeated = len(set(map(book_name, names))) < len(names)
+        if missing or repeated:
+            what = f"книга {one_line(missing[0], 60)} не прочитана" if missing else "имена книг повторяются"
+            hint = "здесь книг с диска не читают" if missing else "назовите каждую книгу один раз"
+            self.problems.append(self.problem(path, what, hint))
+            return ()
+        for name in names:
+            try:
+                declared(texts[name])
+            except DeclarationError as error:
+                at = f"{one_line(name, 60)}: строка {error.line}, столбец {error.column}"
+                self.problems.append(Problem(at, one_line(error.what, 200), error.hint))
+        return () if self.problems else tuple((name, texts[name]) for name in names)
+
+    def own(self, raw: object, books: Texts) -> Strictly | None:
+        """The sections of own books, [own.SECTION] in the file."""
+        known = sections_of(books)
+        reader = _SectionReader(self.source, self.locate)
+        reader.home = ("own",)
+        given = raw if isinstance(raw, dict) else {}
+        if not isinstance(raw, dict):
+            self.problems.append(self.problem(("own",), "нужны разделы [own.ИМЯ]"))
+        for name in list(given)[:MAX_PROBLEMS]:
+            if name not in known and not self.problems:
+                what, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
+                self.problems.append(reader.problem((name,), what, hint))
+        sections = {}
+        for name, about in known.items():
+            part = given.get(name, {})
+            assert about.model is not None
+            if not isinstance(part, dict):
+                what = f"нужен раздел, а задано: {messages.kind(part)}"
+                self.problems.append(reader.problem((name,), what))
+                continue
+            part = in_types(part, about.model)
+            if self.locate is not None:
+                cells, empty = from_cells({name: part}, {name: about.model})
+                part, reader.empty = cells[name], reader.empty | set(empty)
+                reader.problems += [
+                    reader.problem(at, "ячейка пуста", "впишите значение") for at in empty
+                ]
+            section = reader._section(name, about.model, part)
+            if section is not None:
+                sections[name] = section
+        self.problems += reader.problems
+        if not sections:
+            return None
+        model = own_model(books)
+        return model.model_construct(**sections)
 
     def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
         """The further regimes; each is read like a file with the same engine."""

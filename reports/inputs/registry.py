@@ -82,6 +82,7 @@ _ALL = (
         lists={
             "chapters": ListKey("Главы отчёта", "report_chapter_{n}"),
             "formats": ListKey("Документы", "report_format_{n}"),
+            "books": ListKey("Свои книги расчётов", "report_book_{n}"),
         },
     ),
     InputSection("engine", "Двигатель", EngineSection),

@@ -306,6 +306,11 @@ def file_text(engine: NewEngine) -> str:
     lines += ["", f"# {LINE}"]
     for name in rest:
         lines += ["", *_section(name, engine.data[name], engine.notes)]
+    books = dict(engine.data.get("books", ()))
+    lines += ["", "[books] # тексты своих книг"] if books else []
+    lines += [f"{tomlkit.key(name).as_string()} = {_text(text)}" for name, text in books.items()]
+    for name, values in (engine.data.get("own") or {}).items():
+        lines += ["", *_keys(f"own.{name}", values, {}, {}, f"[own.{name}]")]
     if "report" not in engine.data:
         lines += ["", "[report] # фамилия, группа и вуз для титульного листа"]
         lines += ['student = ""', 'group = ""', 'institution = ""']
@@ -316,6 +321,11 @@ def file_text(engine: NewEngine) -> str:
         lines += ["", *_keys("regimes", plain, {}, {}, "[[regimes]]")]
         lines += ["", *_keys("gas", gas["gas"], {}, {}, "[regimes.gas]")]
     return "\n".join(lines) + "\n"
+
+
+def _text(text: str) -> str:
+    """A text of many lines as TOML writes it."""
+    return tomlkit.string(text, literal="'''" not in text, multiline=True).as_string()
 
 
 def _section(name: str, values: Mapping[str, Any], notes: Notes) -> Iterator[str]:

@@ -29,8 +29,10 @@ from reports.grading.issuing.register import (
 )
 from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric
+from reports.exports.own_books import refuse_faults
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import iter_fields, set_value, tables_shape
+from reports.inputs.own_books import with_books
 from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
 from reports.inputs.normalise import read_text
 from reports.inputs.ranges import SECTION, ParameterRange, read_ranges, split_ranges
@@ -76,7 +78,9 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     text = read_text(path)
     loaded = load_text(text, source=path.name, folder=path.parent)
     raw, section = split_ranges(tables_of(text, source=path.name))
+    raw, _ = with_books(raw, path.parent, path.name)
     raw = with_points(raw, path.parent, path.name).raw
+    refuse_faults(loaded.model)
     source = path.name
     if beside is not None:
         if section is not None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, SerializeAsAny
 
 from reports.inputs.meta import Strictly, choice, number, text, title_of
 from reports.inputs.sections.bearings import BearingsSection
@@ -152,3 +152,5 @@ class InputFile(Strictly):
     sheet: SheetSection | None = None
     checks: ChecksSection | None = None
     regimes: tuple[RegimeSection, ...] = ()
+    books: tuple[tuple[str, str], ...] = ()  # names and texts of own books
+    own: SerializeAsAny[Strictly] | None = None  # their sections

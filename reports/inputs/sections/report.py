@@ -29,6 +29,7 @@ CHAPTERS = {
     "balance": "уравновешенность и маховик",
     "torsion": "крутильные колебания",
     "oil": "масляная плёнка и прочность шеек",
+    "own": "расчёты из своих книг",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
     "companions": "гармоники момента, точное движение поршня",
@@ -38,7 +39,7 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "balance", "torsion", "oil", "regimes", "reference", "companions", "checks", "appendices",
+    "balance", "torsion", "oil", "own", "regimes", "reference", "companions", "checks", "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",
@@ -83,6 +84,7 @@ class ReportSection(Strictly):
     formats: tuple[Format, ...] | None = choice("Документ {n}", FORMATS, None)
     style: str = text("Файл оформления кафедры", "")
     templates: str = text("Папка со своими шаблонами отчёта", "")
+    books: tuple[str, ...] | None = text("Своя книга {n}", None)
 
 
 DIAGRAMS = {

@@ -202,7 +202,9 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
         refuse_own([Path(target)], own)
     solution, theirs = solved(loaded.model), own_numbers(loaded.model)
     if folder is not None:
-        tables = {folder / f"{name}.csv": data for name, data in export_tables(solution, theirs).items()}
+        tables = {
+            folder / f"{name}.csv": data for name, data in export_tables(solution, theirs).items()
+        }
         refuse_own(tables, own)
         make_dir(folder)
         for path, columns in tables.items():

@@ -31,8 +31,8 @@ def export_tables(
     by_file: dict[str, Mapping[str, Any]] = {
         **solution.columns, **solution.wear_sums, **reference_tables(),
     }  # fmt: skip
-    for name, columns in own.tables.items() if own else ():
-        by_file[name] = {key: values for key, (_, values) in columns.items()}
+    for name, theirs in own.tables.items() if own else ():
+        by_file[name] = {key: values for key, (_, values) in theirs.items()}
     for name, columns in by_file.items():
         tables[name] = {
             key: [_plain(value, blank_zero=key in _BLANK) for value in values]
@@ -85,11 +85,11 @@ def json_text(
         }
         for key, value in solution.scalars.items()
     }
-    quantities = {}
+    quantities: dict[tuple[str, str], Quantity] = {}
     for key, (about, value) in own.scalars.items() if own else ():
         summary[key] = {"value": value, **_described(about)}
-    for name, columns in own.tables.items() if own else ():
-        quantities |= {(name, key): about for key, (about, _) in columns.items()}
+    for name, theirs in own.tables.items() if own else ():
+        quantities |= {(name, key): about for key, (about, _) in theirs.items()}
     tables = {
         name: {
             "columns": [_describe(key, quantities.get((name, key))) for key in columns],

@@ -20,8 +20,8 @@ from reports.inputs.own_books import declared, read_text
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Block, Column, Grid, Model, nodes_in
 from reports.model.book_text import BookError, BookLine, Shelf, at_fragment, book_faults, shelf_of
-from reports.model.context import MARK
 from reports.model.contents import contents_of
+from reports.model.context import MARK
 from reports.model.evaluation import Evaluation
 from reports.model.shape import Scope
 from reports.shared.errors import InputError, Problem, one_line
@@ -87,7 +87,8 @@ def _repeated(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Ite
     for block in model.blocks:
         if block.id in ids:
             yield at_fragment(_line_of(block, places, first), shelf,
-                              f"блок «{block.id}» есть дважды", "назовите его иначе", block.id)  # fmt: skip
+                              f"блок «{block.id}» есть дважды", "назовите его иначе",
+                              block.id)  # fmt: skip
         ids.add(block.id)
         for key, _ in nodes_in(block):
             line = places.get(key)
@@ -100,8 +101,8 @@ def _repeated(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Ite
             seen.setdefault(key.casefold(), key)
     charts = [chart.id for chart in model.charts]
     for name in sorted({name for name in charts if charts.count(name) > 1}):
-        yield at_fragment(_mentioned(name, shelf) or first, shelf, f"диаграмма «{name}» есть дважды",
-                          "назовите её иначе", name)  # fmt: skip
+        yield at_fragment(_mentioned(name, shelf) or first, shelf,
+                          f"диаграмма «{name}» есть дважды", "назовите её иначе", name)  # fmt: skip
 
 
 def _line_of(block: Block, places: Mapping[str, BookLine], usual: BookLine) -> BookLine:
@@ -149,10 +150,14 @@ def _odd(texts: list[str], shelf: Shelf) -> Iterator[BookError]:
                               "оставьте обычные слова", tag[0] if tag else text)  # fmt: skip
 
 
-def _unknown_refs(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
+def _unknown_refs(model: Model, _: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
     """What charts and chapters name and the model has not."""
-    runs, blocks = model.grid_runs, {block.id for block in model.blocks}
-    known = model.nodes.keys() | runs.keys()
+    yield from _unknown_in_charts(model, shelf)
+    yield from _unknown_in_chapters(model, shelf)
+
+
+def _unknown_in_charts(model: Model, shelf: Shelf) -> Iterator[BookError]:
+    known = model.nodes.keys() | model.grid_runs.keys()
     for chart in model.charts:
         line = _mentioned(chart.id, shelf)
         if line is None:
@@ -162,12 +167,17 @@ def _unknown_refs(model: Model, places: Mapping[str, BookLine], shelf: Shelf) ->
             yield at_fragment(_mentioned(name, shelf) or line, shelf,
                               f"диаграмма «{chart.id}»: нет «{name}»",
                               "назовите столбец ТАБЛИЦА.КЛЮЧ", name)  # fmt: skip
+
+
+def _unknown_in_chapters(model: Model, shelf: Shelf) -> Iterator[BookError]:
+    blocks = {block.id for block in model.blocks}
     for chapter in model.chapters:
         for at in chapter.lines:
             line = BookLine(at.book, at.number, at.text)
             if at.kind == "show" and at.text not in blocks | model.charts_by_id.keys():
                 yield at_fragment(line, shelf, f"показывать нечего: нет «{at.text}»",
-                                  "назовите список, таблицу, сетку или диаграмму", at.text)  # fmt: skip
+                                  "назовите список, таблицу, сетку или диаграмму",
+                                  at.text)  # fmt: skip
             if at.kind == "formula" and getattr(model.nodes.get(at.text), "expr", None) is None:
                 yield at_fragment(line, shelf, f"формулы «{at.text}» нет",
                                   "назовите величину или ТАБЛИЦА.СТОЛБЕЦ", at.text)  # fmt: skip
@@ -195,7 +205,7 @@ def _unfit(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterat
         try:
             table = model.tables.get(key.partition(".")[0])
             formula = compile_formula(node.expr, RowReferences(layout, table))
-        except Exception as error:  # noqa: BLE001 - whatever a formula of a stranger raises
+        except Exception as error:
             yield at_fragment(line, shelf, f"формула «{short}» не для ячейки: {_reason(error)}",
                               "проверьте, где имя столбца, а где число", short)  # fmt: skip
             continue
@@ -223,7 +233,7 @@ def _infinite(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Ite
                 fine = bool(np.isfinite(np.asarray(value, dtype=float)).all())
             else:
                 fine = isinstance(value, str) or bool(np.isfinite(float(value)))
-        except Exception as error:  # noqa: BLE001 - as above
+        except Exception as error:
             yield at_fragment(line, shelf, f"«{short}» не вычисляется: {_reason(error)}",
                               "проверьте формулу и то, от чего она зависит", short)  # fmt: skip
             return
@@ -276,7 +286,7 @@ def own_numbers(model: InputFile) -> OwnNumbers:
     scalars = {
         key: (node.quantity, run.value(key))
         for key, node in built.scalars.items()
-        if key in built.own_nodes
+        if key in built.own_nodes and not node.of.startswith("check")
     }
     tables = {
         table.id: {

@@ -28,12 +28,8 @@ from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.normalise import in_types, normalise, read_text, refuse_bomb, refused
 from reports.inputs.own_books import (
-    MOST_BOOKS,
-    DeclarationError,
     Texts,
-    allowed_texts,
-    book_name,
-    declared,
+    checked_texts,
     named,
     own_model,
     sections_of,
@@ -349,72 +345,37 @@ class _SectionReader:
         return models
 
     def books(self, raw: object, names: list[str]) -> Texts:
-        """Names and texts of own books; all of them are named in [report]."""
-        pairs = raw.items() if isinstance(raw, dict) else raw
-        texts: dict[str, str] = {}
-        for pair in pairs if isinstance(pairs, Iterable) and not isinstance(pairs, str) else ():
-            match pair:
-                case [str(name), str(text)]:
-                    texts[name] = text
-        path = ("report", "books")
-        if len(names) > MOST_BOOKS:
-            self.problems.append(self.problem(path, f"книг больше {MOST_BOOKS}", "уберите лишние"))
-            return ()
+        """Names and texts of own books."""
         try:
-            texts = allowed_texts(texts, names)
+            return checked_texts(raw, names)
         except InputError as error:
             self.problems += error.problems
             return ()
-        missing = [name for name in names if name not in texts]
-        repeated = len(set(map(book_name, names))) < len(names)
-        if missing or repeated:
-            what = f"книга {one_line(missing[0], 60)} не прочитана" if missing else "имена книг повторяются"
-            hint = "здесь книг с диска не читают" if missing else "назовите каждую книгу один раз"
-            self.problems.append(self.problem(path, what, hint))
-            return ()
-        for name in names:
-            try:
-                declared(texts[name])
-            except DeclarationError as error:
-                at = f"{one_line(name, 60)}: строка {error.line}, столбец {error.column}"
-                self.problems.append(Problem(at, one_line(error.what, 200), error.hint))
-        return () if self.problems else tuple((name, texts[name]) for name in names)
 
     def own(self, raw: object, books: Texts) -> Strictly | None:
         """The sections of own books, [own.SECTION] in the file."""
-        known = sections_of(books)
-        reader = _SectionReader(self.source, self.locate)
+        known, reader = sections_of(books), _SectionReader(self.source, self.locate)
         reader.home = ("own",)
-        given = raw if isinstance(raw, dict) else {}
-        if not isinstance(raw, dict):
-            self.problems.append(self.problem(("own",), "нужны разделы [own.ИМЯ]"))
-        for name in list(given)[:MAX_PROBLEMS]:
-            if name not in known and not self.problems:
-                what, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
-                self.problems.append(reader.problem((name,), what, hint))
-        sections = {}
+        given, sections = raw if isinstance(raw, dict) else {}, {}
+        for name in [name for name in given if name not in known and not self.problems][:1]:
+            what, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
+            reader.problems.append(reader.problem((name,), what, hint))
         for name, about in known.items():
-            part = given.get(name, {})
             assert about.model is not None
+            part = given.get(name, {})
             if not isinstance(part, dict):
                 what = f"нужен раздел, а задано: {messages.kind(part)}"
-                self.problems.append(reader.problem((name,), what))
+                reader.problems.append(reader.problem((name,), what))
                 continue
             part = in_types(part, about.model)
             if self.locate is not None:
                 cells, empty = from_cells({name: part}, {name: about.model})
                 part, reader.empty = cells[name], reader.empty | set(empty)
-                reader.problems += [
-                    reader.problem(at, "ячейка пуста", "впишите значение") for at in empty
-                ]
-            section = reader._section(name, about.model, part)
-            if section is not None:
-                sections[name] = section
+                what, hint = "ячейка пуста", "впишите значение"
+                reader.problems += [reader.problem(at, what, hint) for at in empty]
+            sections[name] = reader._section(name, about.model, part)
         self.problems += reader.problems
-        if not sections:
-            return None
-        model = own_model(books)
-        return model.model_construct(**sections)
+        return own_model(books).model_construct(None, **sections) if sections else None
 
     def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
         """The further regimes; each is read like a file with the same engine."""

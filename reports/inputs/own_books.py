@@ -74,7 +74,7 @@ class Declared:
 
 
 @dataclass
-class _Reader:
+class Declarations:
     """Declarations of a book as far as they are read."""
 
     text: str
@@ -129,8 +129,8 @@ class _Reader:
             raise ValueError(f"величина «{key}» объявлена дважды")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
             raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
-        if len(tex) > MOST_SYMBOL or not plain_symbol(tex):
-            raise ValueError(f"обозначение «{tex}» не годится")
+        if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
+            raise ValueError(f"обозначение «{one_line(tex, 60)}» не годится")
         label = _unit(unit)
         known = next((name for name, unit in UNITS.items() if unit.label == label), label)
         self.quantities[key] = Quantity(key, tex, known, safe_text(title), Digits(int(digits)))
@@ -167,7 +167,7 @@ def declared(text: str) -> Declared:
         raise DeclarationError(1, 1, f"книга больше {MOST_BYTES // 1000} КБ", "разделите её")
     if len(lines) > MOST_LINES:
         raise DeclarationError(MOST_LINES + 1, 1, f"строк больше {MOST_LINES}", "разделите книгу")
-    reader = _Reader(text)
+    reader = Declarations(text)
     for at, line in enumerate(lines, 1):
         if len(line) > MOST_LETTERS:
             raise DeclarationError(at, MOST_LETTERS + 1, f"в строке больше {MOST_LETTERS} знаков",
@@ -263,6 +263,49 @@ def with_books(
     return ({**raw, "books": texts} if texts else dict(raw)), files
 
 
+def checked_texts(raw: object, names: Sequence[str]) -> Texts:
+    """Names and texts of the books that [report] names, in its order.
+
+    Args:
+        raw: texts by name, or pairs of both.
+        names: the names.
+
+    Raises:
+        InputError: a text is missing, names are repeated, a declaration is wrong.
+    """
+    pairs = raw.items() if isinstance(raw, Mapping) else raw
+    texts: dict[str, str] = {}
+    for pair in pairs if isinstance(pairs, Iterable) and not isinstance(pairs, str) else ():
+        match pair:
+            case [str(name), str(text)]:
+                texts[name] = text
+    if len(names) > MOST_BOOKS:
+        raise InputError(Problem("report.books", f"книг больше {MOST_BOOKS}", "уберите лишние"))
+    texts = allowed_texts(texts, names)
+    for name in names:
+        if name not in texts:
+            what = f"книга {one_line(name, 60)} не прочитана"
+            raise InputError(Problem("report.books", what, "здесь книг с диска не читают"))
+    if len(set(map(book_name, names))) < len(names):
+        what = "имена книг повторяются"
+        raise InputError(Problem("report.books", what, "назовите каждую книгу один раз"))
+    problems = []
+    for name in names:
+        try:
+            declared(texts[name])
+        except DeclarationError as error:
+            at = f"{one_line(name, 60)}: строка {error.line}, столбец {error.column}"
+            problems.append(Problem(at, one_line(error.what, 200), error.hint))
+    if problems:
+        raise InputError(problems)
+    books = tuple((name, texts[name]) for name in names)
+    sections = [each for each in (declared(text).section for _, text in books) if each]
+    if len(set(sections)) < len(sections):
+        what = "у двух книг один раздел исходных данных"
+        raise InputError(Problem("report.books", what, "назовите разделы по-разному"))
+    return books
+
+
 def allowed_texts(texts: Mapping[str, str], names: Sequence[str]) -> dict[str, str]:
     """The texts to take: what was given, on a server those of its owner alone.
 
@@ -292,7 +335,9 @@ def read_text(folder: Path, name: str, source: str) -> str:
     data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
     kind = kind_of(data)
     if kind != TEXT:
-        raise InputError(Problem(where, f"{CALLED[kind]}, а нужна книга текстом", "сохраните UTF-8"))
+        raise InputError(
+            Problem(where, f"{CALLED[kind]}, а нужна книга текстом", "сохраните UTF-8")
+        )
     try:
         return data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:
@@ -320,6 +365,13 @@ def safe_text(text: str, *, empty: bool = False) -> str:
     if text.startswith(("=", "+", "@")) or _TAG.search(text):
         raise ValueError(f"текст «{one_line(text, 40)}» похож на формулу или код")
     return text
+
+
+def _is_symbol(tex: str) -> bool:
+    try:
+        return bool(plain_symbol(tex))
+    except (ValueError, IndexError):
+        return False
 
 
 def _unit(label: str) -> str:

@@ -13,8 +13,8 @@ from typing import Any
 import jinja2
 
 from reports.formula.parse import names
-from reports.model.blocks import Model
 from reports.inputs.own_books import Texts, book_name
+from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of
 from reports.model.sandbox import StrictEnvironment, rendered
 from reports.shared.errors import InputError, Problem, one_line
@@ -22,6 +22,7 @@ from reports.shared.resources import templates_dir
 
 _MARK = "\x1f"
 _MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
+_NAME = re.compile(r"[\w-]+\.book")  # never a path
 _STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
 
 
@@ -60,7 +61,7 @@ class Shelf:
         for given, text in self.own:
             if book_name(given) == Path(name).stem:
                 return text, Path(name)
-        for folder in self.folders:
+        for folder in self.folders if _NAME.fullmatch(name) else ():
             path = folder / name
             if path.is_file():
                 return path.read_text(encoding="utf-8"), path
@@ -180,7 +181,7 @@ def _printed(value: object) -> object:
 def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
     try:
         environment = environment_of(shelf)
-        return rendered(environment.get_template(name), names, environment)
+        return rendered(name, names, environment)
     except RecursionError:
         raise BookError(shelf.called(name), 1, 1, "слишком глубокая вложенность",
                         "уберите вызов себя через себя") from None  # fmt: skip
@@ -188,6 +189,10 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
         book = shelf.called(error.name or name)
         raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
                         "проверьте % if, % for и скобки") from error  # fmt: skip
+    except jinja2.TemplateNotFound as error:
+        book, number = _raised_at(error, name)
+        raise BookError(shelf.called(book), number, 1, f"нет книги «{error.message}»",
+                        "include и from берут книги по имени") from error  # fmt: skip
     except (jinja2.TemplateError, TypeError, ValueError, ArithmeticError) as error:
         book, number = _raised_at(error, name)
         book = shelf.called(book)

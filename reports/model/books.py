@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any, TypeVar
@@ -124,14 +125,21 @@ class _BookReader:
 
     def part(self) -> Part:
         """What was read."""
-        self._close()
+        with self._told():
+            self._close()
         return Part(tuple(self._blocks), tuple(self._charts), tuple(self._chapters))
 
     def take(self, line: BookLine) -> None:
         """One line: a heading, or a line of the block that is open."""
         self._line = line
-        try:
+        with self._told():
             self._take(line.text)
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Tell of a mistake where it stands."""
+        try:
+            yield
         except BookError:
             raise
         except FormulaError as error:
@@ -148,7 +156,7 @@ class _BookReader:
     def _take(self, text: str) -> None:
         word, _, rest = text.partition(" ")
         if DECLARATION.fullmatch(text):
-            self._close()  # read before any engine, see reports.inputs.own_books
+            pass  # read before any engine, see reports.inputs.own_books
         elif word in _HEADS and not rest.startswith(("=", "of ", "every ")):
             self._close()
             self._head(word, rest)
@@ -329,8 +337,9 @@ def _column(text: str, own: Texts) -> Column | None:
     if found is None:
         return None
     expr = found["expr"] and found["expr"].strip()
-    return _known(Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
-                         every=found["every"] or TURN, helper=bool(found["helper"])), own)  # fmt: skip
+    column = Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
+                    every=found["every"] or TURN, helper=bool(found["helper"]))  # fmt: skip
+    return _known(column, own)
 
 
 def _known(node: Kind, books: Texts) -> Kind:

@@ -336,7 +336,11 @@ class StudyBook:
                 title += f"; кривые: {uncapital(self.plan.axes[1].title)}"
             ends = (float(min(x.values)), float(max(x.values)))
             chart = curves_chart(
-                title, _headed(x.title, x.unit), _headed(symbol_of(name, self.wanted), unit), curves, ends
+                title,
+                _headed(x.title, x.unit),
+                _headed(symbol_of(name, self.wanted), unit),
+                curves,
+                ends,
             )
             level = _level(values)
             if level is not None:  # else the axis would show rounding

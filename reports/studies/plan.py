@@ -18,8 +18,8 @@ from reports.inputs.fields import Field, Path, iter_fields, to_mapping
 from reports.inputs.revisions import Revisions
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.units import number_text
-from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.model.evaluation import Evaluation
+from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.studies.quantities import ChosenQuantities, of_batch
 from reports.tables.registry import kept_model
 

@@ -118,7 +118,8 @@ OFFERED = {  # titles of files and what makes them
 class Queue:
     """Commands in folders of one folder, ``at_once`` together.
 
-    ``secret`` makes names unguessable; ``more`` are variables of the commands' environment; a cluster at ``dask`` does what commands leave to it.
+    ``secret`` makes names unguessable; ``more`` are variables of the commands' environment; a
+    cluster at ``dask`` does what commands leave to it.
     """
 
     timeout_s: ClassVar[float]  # that a command may take

@@ -156,10 +156,11 @@ def write_texts(book: Workbook, model: Model) -> None:
     row = FIRST_ROW
     for name, text in model.input.books:
         styles.as_text(sheet.cell(row, 1, f"{BOOK_MARK}{name}")).style = styles.SUBTITLE
-        for row, line in enumerate(text.splitlines(), row + 1):
+        lines = text.splitlines()
+        for number, line in enumerate(lines, row + 1):
             if line:
-                styles.as_text(sheet.cell(row, 1, line)).style = styles.LINE
-        row += 2
+                styles.as_text(sheet.cell(number, 1, line)).style = styles.LINE
+        row += len(lines) + 2
     sheet.sheet_properties.tabColor = chapter_of(OWN_SHEET, contents).colour
     set_page(sheet, ())
 
@@ -191,7 +192,9 @@ def assemble(
     boxes = _charts(book, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):
-            _heading(book.create_sheet(title, _index(book, title, contents)), heading(title, contents))
+            _heading(
+                book.create_sheet(title, _index(book, title, contents)), heading(title, contents)
+            )
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
         cockpit.write_what_if(book, model, writer)
     verdict = write_verdict(book, model, writer)

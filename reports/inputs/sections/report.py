@@ -39,7 +39,8 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "balance", "torsion", "oil", "own", "regimes", "reference", "companions", "checks", "appendices",
+    "balance", "torsion", "oil", "own", "regimes", "reference", "companions", "checks",
+    "appendices",
 ]  # fmt: skip
 FORMATS = {
     "xlsx": "книга Excel",

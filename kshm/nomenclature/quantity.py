@@ -20,6 +20,7 @@ from kshm.nomenclature import (
     inertia,
     layouts,
     series,
+    strength,
     textbook,
     torsion,
 )
@@ -27,7 +28,7 @@ from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.symbols import WORDS, plain_symbol
 
 _SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
-            bearings)  # fmt: skip
+            bearings, strength)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

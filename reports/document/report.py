@@ -26,6 +26,7 @@ from reports.document.chapters import (
     opening,
     own,
     regimes,
+    strength,
     torsion,
 )
 from reports.document.chapters.chapter import ELSEWHERE, Chapter, chosen, pin_stems, worst_pin
@@ -67,6 +68,7 @@ CHAPTERS: dict[str, Write] = {
     "balance": balance.balance,
     "torsion": torsion.torsion,
     "oil": oil.oil,
+    "strength": strength.strength,
     "own": own.own,
     "regimes": regimes.regimes,
     "reference": dynamics.reference,

@@ -278,8 +278,8 @@ class OwnNumbers:
 
 
 def own_numbers(model: InputFile) -> OwnNumbers:
-    """What own books give for an engine; nothing where there are none."""
-    if not model.books:
+    """What books alone give for an engine, those of a department and of strength."""
+    if not model.books and model.strength is None:
         return OwnNumbers({}, {})
     built = kept_model(model)
     run = Evaluation(built)

@@ -27,6 +27,7 @@ from reports.tables.cycle_names import section_of, sizes_are_found
 from reports.tables.cycle_ranges import ranges_of
 from reports.tables.oil_members import oil_names, safety_names
 from reports.tables.rod_share import USUAL_SHARE, is_usual_share
+from reports.tables.strength_members import strength_names
 from reports.tables.torsion_members import torsion_names
 
 Bounds = tuple[float, float]
@@ -167,6 +168,8 @@ def _rounded(scope: Scope) -> dict[str, Any]:
     return {"usual_share": share, "usual_peak": peak, "usual_join": join}
 
 
+BY_FORMULAS = ("strength",)  # books whose numbers no solver gives: they are those of the formulas
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
@@ -178,6 +181,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "oil": oil_names,
     "rod_masses": _table_4,
     "safety": safety_names,
+    "strength": strength_names,
     "summary": _summary,
     "torque_orders": _torque_orders,
     "torsion": torsion_names,
@@ -199,7 +203,7 @@ def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
     names, theirs = tuple(names), shelf_of(scope.input.books).names
     parts = [book_part(name, scope) for name in names]
-    own = (part for name, part in zip(names, parts, strict=True) if name in theirs)
+    own = (part for name, part in zip(names, parts, strict=True) if name in (*theirs, *BY_FORMULAS))
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "torsion", "oil", "own", "regimes", "checks", "appendices"}
+_COURSE = _SHORT | {"running", "torsion", "oil", "strength", "own", "regimes", "checks", "appendices"}
 _FULL = _COURSE | {"balance", "bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 
@@ -50,6 +50,7 @@ def relevant_chapters(model: InputFile) -> set[str]:
     """Chosen chapters that apply to the engine."""
     lacking = {"torsion"} if model.torsion is None else set()
     lacking |= {"oil"} if model.bearings is None else set()
+    lacking |= {"strength"} if model.strength is None else set()
     lacking |= set() if model.books else {"own"}
     lacking |= {"cycle"} if section_of(model) is None else set()
     shape = Shape.of(model)

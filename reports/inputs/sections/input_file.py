@@ -26,6 +26,7 @@ from reports.inputs.sections.report import (
     ReportSection,
     SheetSection,
 )
+from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.units import KW, MM, NONE, RPM
 
@@ -148,6 +149,7 @@ class InputFile(Strictly):
     balance: BalanceSection = Field(default_factory=BalanceSection)
     torsion: TorsionSection | None = None
     bearings: BearingsSection | None = None
+    strength: StrengthSection | None = None
     reference: ReferenceSection | None = None
     sheet: SheetSection | None = None
     checks: ChecksSection | None = None

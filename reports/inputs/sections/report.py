@@ -29,6 +29,7 @@ CHAPTERS = {
     "balance": "уравновешенность и маховик",
     "torsion": "крутильные колебания",
     "oil": "масляная плёнка и прочность шеек",
+    "strength": "прочность поршня, пальца, шатуна и щёк",
     "own": "расчёты из своих книг",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
@@ -39,7 +40,7 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings", "running",
-    "balance", "torsion", "oil", "own", "regimes", "reference", "companions", "checks",
+    "balance", "torsion", "oil", "strength", "own", "regimes", "reference", "companions", "checks",
     "appendices",
 ]  # fmt: skip
 FORMATS = {

@@ -131,7 +131,13 @@ ROWS: tuple[Row, ...] = (
     ("st_web_n_sig#", r"n_{\sigma}", "", "запас щеки по нормальным", 2),
     ("st_web_n#", r"n_{\mathrm{щ}}", "", "запас щеки", 2),
     ("st_web_n", r"n_{\mathrm{щ}\,\min}", "", "наименьший запас щёк", 2),
-    ("st_web_twist#_Nm", r"M_{\mathrm{кр}.\mathrm{щ}#}", "Nm", "момент, скручивающий щёку колена #", 2),
+    (
+        "st_web_twist#_Nm",
+        r"M_{\mathrm{кр}.\mathrm{щ}#}",
+        "Nm",
+        "момент, скручивающий щёку колена #",
+        2,
+    ),
     ("st_web_bend#_MPa", r"\sigma_{\mathrm{щ}#}", "MPa", "нормальное напряжение щеки колена #", 2),
     # Materials.
     ("st_mat_tensile_MPa", r"\sigma_{\mathrm{в}}", "MPa", "предел прочности", 0),

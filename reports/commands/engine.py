@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
 @click.option("--fuel", "--kind", "kind", type=click.Choice(["diesel", "petrol"]),
               help="Дизель или с искровым зажиганием.")  # fmt: skip
+@click.option("--strength", is_flag=True, help="Добавить прочность деталей с обычными размерами.")
 @number_option("--power", "power_kw", "кВт", "Эффективная мощность, кВт.")
 @number_option("--speed", "speed_rpm", "МИН⁻¹", "Частота вращения, мин⁻¹.")
 @number_option("--bore", "bore_mm", "ММ", "Диаметр цилиндра, мм.")
@@ -56,7 +57,12 @@ if TYPE_CHECKING:
 @number_option("--compression", "compression", "ЧИСЛО", "Степень сжатия.")
 @number_option("--efficiency", "efficiency", "ЧИСЛО", "Механический КПД.")
 @verbose_option
-def new(output: Path | None, base: Path | None, book: Path | None, **wanted: Any) -> int:  # noqa: ANN401
+def new(
+    output: Path | None,
+    base: Path | None,
+    book: Path | None,
+    **wanted: Any,  # noqa: ANN401
+) -> int:
     """Дать файл исходных данных с пояснениями.
 
     С ключом --cylinders — свой двигатель: что задано ключами, то в нём и стоит, остальное из

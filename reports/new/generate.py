@@ -17,6 +17,7 @@ from typing import Any
 
 import tomlkit
 
+from kshm.defaults import PART_SHARES
 from kshm.engine.masses import Estimate
 from kshm.mechanics.masses import PISTON, ROD, THROW, area_masses
 from reports.inputs.load import load_mapping
@@ -87,9 +88,12 @@ def generate_engine(
     layout: str = "inline",
     strokes: int = 4,
     kind: str = "petrol",
+    strength: bool = False,
     **given: float | None,
 ) -> NewEngine:
     """Engine for a task, ``given`` as fields of `EngineTask`; usual values elsewhere.
+
+    ``strength`` adds usual sizes of piston, pin and rod.
 
     Raises:
         InputError: there is no such engine.
@@ -126,6 +130,9 @@ def generate_engine(
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
+    if strength:
+        data["strength"], parts = usual_parts(kind, bore, sizes.pin)
+        notes |= parts
     return NewEngine(data, {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}, head)
 
 
@@ -279,6 +286,21 @@ def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
     }  # fmt: skip
 
 
+def usual_parts(kind: str, bore: float, crankpin: float) -> tuple[dict[str, Any], Notes]:
+    """Section [strength]: usual sizes [mm], each with the ratio that it follows from."""
+    section: dict[str, Any] = {"kind": kind}
+    notes, sizes = dict[str, str](), {"bore": bore, "crankpin": crankpin}
+    for key, (base, petrol, diesel) in PART_SHARES.items():
+        low, high = diesel if kind == "diesel" else petrol
+        share = (low + high) / 2
+        value = round(share * sizes[base], 1 if share * sizes[base] > _FINE_SIZE else 2)
+        sizes[key] = section[f"{key}_mm"] = value
+        of = {"bore": "D", "crankpin": "диаметра шейки"}.get(base, f"{base}_mm")
+        span = f"{number_text(low)}…{number_text(high)}"
+        notes[f"strength.{key}_mm"] = f"{number_text(round(share, 4))} {of} (обычно {span})"
+    return section, notes
+
+
 def timing_notes(timing: Phases) -> Notes:
     """Notes on the phases."""
     bank = "угол из обычных для такого числа цилиндров; впишите свой вместе с фазами"
@@ -293,6 +315,7 @@ def timing_notes(timing: Phases) -> Notes:
     }
 
 
+_FINE_SIZE = 10.0  # mm, from which tenths are enough
 FIRST = ("engine", "geometry", "regime", "gas")
 LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from kshm.defaults import CAP_SHARE, GROOVE_SHARE, PART_SHARES, PISTON_SHARE
 from reports.inputs.sections.strength import PART_MATERIALS
@@ -28,8 +29,7 @@ TORSION = ((1.0, 0.208), (1.5, 0.231), (1.75, 0.239), (2.0, 0.246), (2.5, 0.258)
 
 @dataclass(frozen=True, slots=True)
 class PartSize:
-    """A size and its usual share of another: ``of`` in print, ``base`` in formulas, of the bore none.
-    """
+    """A size and its usual share of another: ``of`` in print, ``base`` in formulas."""
 
     key: str
     base: str
@@ -68,4 +68,4 @@ def strength_names(scope: Scope) -> dict[str, object]:
 
 
 def _pairs(points: Sequence[Point]) -> list[tuple[Point, Point]]:
-    return list(zip(points[:-1], points[1:], strict=True))
+    return list(pairwise(points))

@@ -67,9 +67,9 @@ def test_the_ovality_is_that_of_a_ring_in_size(run: Evaluation):
 
 
 def test_the_shank_is_a_column(run: Evaluation):
-    length = 1000 * run.value("L_rod")
-    found = first.column_factor(run.value("rod_tensile"), 100 * run.value("st_shank_cm2"),
-                                run.value("st_shank_Jx"), length, run.value("rod_modulus"))  # fmt: skip
+    limit, area = run.value("rod_tensile"), 100 * run.value("st_shank_cm2")
+    second, modulus = run.value("st_shank_Jx"), run.value("rod_modulus")
+    found = first.column_factor(limit, area, second, 1000 * run.value("L_rod"), modulus)
     assert run.value("st_shank_Kx") == pytest.approx(found, rel=1e-9)
 
 
@@ -98,7 +98,9 @@ def test_the_eye_by_statics_and_how_far_the_books_fits_are(angle: int):
 
 def test_the_beam_of_the_notes():
     """Four numbers of statics, to the digits they were given with."""
-    assert first.eye_forces(np.radians(110), drawn=True) == pytest.approx((0.4922, 0.00213), abs=5e-5)
+    assert first.eye_forces(np.radians(110), drawn=True) == pytest.approx(
+        (0.4922, 0.00213), abs=5e-5
+    )
     assert first.eye_forces(np.radians(120), drawn=False) == pytest.approx(
         (0.00339, -0.00105), abs=5e-6
     )
@@ -125,7 +127,7 @@ def test_numbers_of_a_land_and_a_crown():
 
 @pytest.mark.parametrize("form", ["curved", "program"])
 def test_numbers_of_a_pin(form: str):
-    """The inner stresses of the numbers are those of the program's form; a curved bar has others."""
+    """Inner stresses of the numbers are the program's; those of a curved bar are others."""
     run = known({"st_pin_N": 169678.3, "st_pin_mm": 48, "st_pin_bore_mm": 26.4,
                  "st_pin_length_mm": 110.5, "st_bosses_mm": 50, "st_eye_length_mm": 58,
                  "strength_pin_modulus_mpa": 2.1e5}, oval_form=form)  # fmt: skip
@@ -142,7 +144,8 @@ def test_numbers_of_a_pin(form: str):
 @pytest.mark.parametrize(("form", "stress"), [("each", 261.3), ("all", 249.4)])
 def test_two_readings_of_the_bolts(form: str, stress: float):
     run = known({"st_bolt_mm": 10, "strength_bolt_pitch_mm": 1, "st_Pj_rod_N": 13800,
-                 "strength_bolt_preload": 2, "strength_bolt_share": 0.2}, bolt_form=form)  # fmt: skip
+                 "strength_bolt_preload": 2, "strength_bolt_share": 0.2},
+                bolt_form=form)  # fmt: skip
     assert run.value("st_bolt_max_MPa") == pytest.approx(stress, abs=0.06)
 
 

@@ -29,7 +29,16 @@ if TYPE_CHECKING:
 
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
-_COURSE = _SHORT | {"running", "torsion", "oil", "strength", "own", "regimes", "checks", "appendices"}
+_COURSE = _SHORT | {
+    "running",
+    "torsion",
+    "oil",
+    "strength",
+    "own",
+    "regimes",
+    "checks",
+    "appendices",
+}
 _FULL = _COURSE | {"balance", "bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 from markupsafe import Markup
@@ -120,5 +121,6 @@ def _drawn(chapter: Chapter) -> dict[str, float]:
     """Sizes for the sketch."""
     values = chapter.terms.values.scalars
     sizes = {key: float(values[f"st_{key}_mm"]) for key in PART_SHARES}
-    bore = (4 * float(values["F_piston"]) / 3.141592653589793) ** 0.5 * 1000
-    return sizes | {"bore": bore, "crankpin": 2 * (sizes["bolts_apart"] / 2 - float(values["st_cap_wall_mm"]) - sizes["shell"])}
+    bore = (4 * float(values["F_piston"]) / math.pi) ** 0.5 * 1000
+    crankpin = 2 * (sizes["bolts_apart"] / 2 - float(values["st_cap_wall_mm"]) - sizes["shell"])
+    return sizes | {"bore": bore, "crankpin": crankpin}

@@ -21,7 +21,7 @@ def parts_sketch(sizes: Sizes) -> str:
     pen = Pen(page)
     width, top = page.width, page.height
     scale = 0.27 * width / sizes["bore"]
-    _piston(pen, (0.05 * width, top - 26), scale, sizes)
+    _piston(pen, (0.05 * width, top - 36), scale, sizes)
     _pin(pen, (0.53 * width, top - 70), 0.24 * width / sizes["pin_length"], sizes)
     _rod(pen, (0.86 * width, top - 60), 0.12 * width / sizes["eye_outer"], sizes)
     for share, letter in ((0.19, "а)"), (0.53, "б)"), (0.86, "в)")):
@@ -32,7 +32,7 @@ def parts_sketch(sizes: Sizes) -> str:
 def _piston(pen: Pen, corner: Point, k: float, s: Sizes) -> None:
     """Section along the axis: crown, wall, first land, ring, skirt, bosses."""
     x, y = corner
-    bore, height, crown = s["bore"] * k, min(s["height"] * k, 190.0), s["crown"] * k
+    bore, height, crown = s["bore"] * k, min(s["height"] * k, 180.0), s["crown"] * k
     wall, ring = s["head_wall"] * k, s["ring_radial"] * k
     inner = wall + ring
     outline = [(x, y), (x + bore, y), (x + bore, y - height), (x + bore - wall, y - height),
@@ -84,7 +84,11 @@ def _pin(pen: Pen, middle: Point, k: float, s: Sizes) -> None:
 def _rod(pen: Pen, top: Point, k: float, s: Sizes) -> None:
     """The eye with its bush, the shank, the big end; the big end is drawn nearer than it is."""
     x, y = top
-    outer, bush, pin = s["eye_outer"] * k / 2, s["pin"] * k / 2 + s["bush_wall"] * k, s["pin"] * k / 2
+    outer, bush, pin = (
+        s["eye_outer"] * k / 2,
+        s["pin"] * k / 2 + s["bush_wall"] * k,
+        s["pin"] * k / 2,
+    )
     big, half = s["bolts_apart"] * k / 2, s["crankpin"] * k / 2
     shank, low = s["shank_height"] * k / 2, y - 3.4 * outer
     pen.shape([(x - shank, y - 0.8 * outer), (x + shank, y - 0.8 * outer), (x + 1.2 * shank, low),
@@ -92,14 +96,14 @@ def _rod(pen: Pen, top: Point, k: float, s: Sizes) -> None:
     scale = min(1.0, 34.0 / big)
     big, half = big * scale, half * scale
     centre = (x, low - half)
-    pen.shape([(x - 1.25 * big, centre[1] + 0.9 * half), (x + 1.25 * big, centre[1] + 0.9 * half),
-               (x + 1.25 * big, centre[1] - 1.35 * half), (x - 1.25 * big, centre[1] - 1.35 * half)],
-              fill=_GREY, width=_BOLD, order=1.6)  # fmt: skip
+    wide, above, below = 1.25 * big, centre[1] + 0.9 * half, centre[1] - 1.35 * half
+    corners = [(x - wide, above), (x + wide, above), (x + wide, below), (x - wide, below)]
+    pen.shape(corners, fill=_GREY, width=_BOLD, order=1.6)
     pen.circle(centre, half, fill="#ffffff", width=_BOLD)
     pen.line([(x - 1.4 * big, centre[1]), (x + 1.4 * big, centre[1])], THIN)
     for side in (-1, 1):
-        pen.line([(x + side * big, centre[1] + 1.1 * half), (x + side * big, centre[1] - 1.6 * half)],
-                 HAIR, CENTRE)  # fmt: skip
+        bolt = x + side * big
+        pen.line([(bolt, centre[1] + 1.1 * half), (bolt, centre[1] - 1.6 * half)], HAIR, CENTRE)
     pen.circle((x, y), outer, fill=_GREY, width=_BOLD, order=1.8)
     pen.circle((x, y), bush, fill="#ffffff", width=THIN, order=1.9)
     pen.circle((x, y), pin, fill="#ffffff", width=THIN, order=2.0)

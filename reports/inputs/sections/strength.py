@@ -7,7 +7,7 @@ from typing import Literal
 
 from kshm import defaults
 from reports.inputs.meta import Strictly, choice, number, title_of
-from reports.inputs.units import CELSIUS, DEG, KG, KELVIN, MM, MPA, NONE, UM
+from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,9 @@ class StrengthSection(Strictly):
     pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, "minus")
     oval_form: Literal["curved", "program"] = choice("Овализация пальца", OVALS, "curved")
     bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, "each")
-    speed_factor: float = number("Наибольшая частота к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1)
+    speed_factor: float = number(
+        "Наибольшая частота к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1
+    )
     piston_material: Literal["aluminium", "iron"] = choice("Материал поршня", PISTONS, "aluminium")
     piston_kg: float | None = number(title_of("st_m_piston"), "m_п", KG, 0.001, 5000, None)
     crown_mm: float | None = _size("crown", "Толщина днища поршня", "δ")
@@ -109,7 +111,7 @@ class StrengthSection(Strictly):
     bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, 2)
     bolt_mm: float | None = _size("bolt", "Диаметр болта", "d_б")
     bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, 1.0)
-    bolt_preload: float = number("Затяжка к нагрузке болта", "P_пр/P_j", NONE, 1, 6, 2.0)
+    bolt_preload: float = number("Затяжка к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
     bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, 0.2)
     web_width_mm: float | None = _size("web_width", "Ширина щеки", "b_щ")
     web_thickness_mm: float | None = _size("web_thickness", "Толщина щеки", "h_щ")

@@ -270,11 +270,12 @@ _FITS = """
 ## Прочность деталей: формулы и статика
 
 Печатного примера расчёта прочности деталей нет, формулы записаны по памяти (Колчин, Демидов) и с
-изданием не сверены. Второй записью служит статика: `kshm/mechanics/strength.py`. Втулка (кольца Ламе),
-стержень (Эйлер) и запасы прочности с ней совпадают; изгиб пальца — до округления 12π/32 ≈ 1,2 (1,8 %),
-срез — до 0,85 вместо 0,8488 в пределе тонкого кольца (0,2 %); днище лежит между заделанной (0,75) и
-опёртой (1,24) пластинами; овализация тонкого кольца — того же порядка. Знак M₀ сжатой головки взят
-по статике. Коэффициенты верхней головки — приближения, прямая для M₀ завышает его почти впятеро у 105°:
+изданием не сверены. Вторая запись — статика, `kshm/mechanics/strength.py`. Втулка (кольца Ламе),
+стержень (Эйлер) и запасы прочности с ней совпадают; изгиб пальца — до округления 12π/32 до 1,2
+(1,8 %), срез — до 0,85 вместо 8/(3π) (0,2 %); днище лежит между заделанной (0,75) и опёртой
+(1,24) пластинами; овализация тонкого кольца — того же порядка. Знак M₀ сжатой головки взят по
+статике. Коэффициенты верхней головки — приближения: прямая для M₀ завышает его вдесятеро у 100°,
+впятеро у 105° и сходится с брусом только у 90° и 130°.
 """
 _ANGLES = (90, 100, 105, 110, 115, 120, 125, 130)
 
@@ -284,16 +285,20 @@ def _strength() -> Iterator[str]:
     yield _FITS
     rows = []
     for angle in _ANGLES:
-        drawn = eye_forces(math.radians(angle), drawn=True)
-        pressed = eye_forces(math.radians(angle), drawn=False)
-        fits = (0.572 - 0.0008 * angle, 0.00033 * angle - 0.0297,
-                np.interp(angle, *zip(*EYE_N0, strict=True)),
-                -np.interp(angle, *zip(*EYE_M0, strict=True)))  # fmt: skip
-        beams = zip((*drawn, *pressed), fits, (4, 5, 5, 5), strict=True)
-        rows.append([f"{angle}°", *(f"{fixed(beam + 0.0, n)} ({fixed(float(fit) + 0.0, n)})"
-                                    for beam, fit, n in beams)])  # fmt: skip
+        beams = [*eye_forces(math.radians(angle), drawn=True),
+                 *eye_forces(math.radians(angle), drawn=False)]  # fmt: skip
+        fits = [0.572 - 0.0008 * angle, 0.00033 * angle - 0.0297,
+                _between(angle, EYE_N0), -_between(angle, EYE_M0)]  # fmt: skip
+        pairs = zip(beams, fits, (4, 5, 5, 5), strict=True)
+        rows.append([f"{angle}°", *(f"{fixed(beam + 0.0, n)} ({fixed(fit + 0.0, n)})"
+                                    for beam, fit, n in pairs)])  # fmt: skip
     heads = ("φз", "растяжение N₀/P: брус (формула)", "M₀/(Pr)", "сжатие N₀/P", "M₀/(Pr)")
     yield from _table(heads, rows)
+
+
+def _between(x: float, points: Sequence[tuple[float, float]]) -> float:
+    known, values = np.array(points, dtype=float).T
+    return float(np.interp(x, known, values))
 
 
 def _section(checked: Checked) -> Iterator[str]:

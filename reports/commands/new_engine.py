@@ -31,7 +31,7 @@ def new_book(target: Path, others: Iterable[object]) -> str:
 
     if target.suffix != SUFFIX:
         raise KshmError(f"--book {target}: нужно окончание {SUFFIX}")
-    if any(value is not None for value in others):
+    if any(value not in (None, False) for value in others):
         raise KshmError("--book: других ключей не нужно; уберите их")
     return (templates_dir() / "own.book").read_text(encoding="utf-8")
 

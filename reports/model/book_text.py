@@ -122,7 +122,6 @@ def _libraries(shelf: Shelf) -> frozenset[str]:
     return frozenset(re.findall(r'^% (?:from|include) "([^"]+)"', whole, re.MULTILINE))
 
 
-@lru_cache(maxsize=8)
 def shelf_of(books: Texts) -> Shelf:
     """The books of the house behind the own books of an input."""
     return Shelf(house_shelf().folders, own=books) if books else house_shelf()

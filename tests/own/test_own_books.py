@@ -62,7 +62,7 @@ def engine(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_the_page_is_done(engine: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(engine.parent)
-    for block in blocks(PAGE, "sh"):
+    for block in blocks(PAGE, "console"):
         for line in block.splitlines():
             more = " --only xlsx --only html" if line.startswith("kshm build") else ""
             run(*f"{line}{more}".split()[1:])

@@ -41,7 +41,7 @@ def test_the_crown_lies_between_a_clamped_and_a_resting_plate(run: Evaluation):
 def test_the_bush_is_two_thick_rings(run: Evaluation):
     inner, common, outer = (run.value(f"st_{key}_mm") / 2000
                             for key in ("pin", "eye_bore", "eye_outer"))  # fmt: skip
-    alpha = 1.8e-5 - run.value("rod_expansion") * 1e-5
+    alpha = 1.8e-5 - run.value("rod_expansion") * 1e-6
     gap = run.value("strength_bush_fit_um") * 1e-6
     gap += 2 * common * alpha * run.value("strength_bush_warming_k")
     moduli = (run.value("strength_bush_modulus_mpa"), run.value("rod_modulus"))

@@ -8,13 +8,19 @@ import numpy as np
 import pytest
 
 from kshm.mechanics import strength as first
+from reports.commands.new_engine import new_text
+from reports.document.report import Report
+from reports.exports.own_books import own_numbers
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.blocks import Model
-from reports.model.evaluation import Evaluation
+from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.strength_members import EYE_M0, EYE_N0, TORSION, usual_sizes
+from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
+from tests.referee.compare import differences_from_caches, errors_in
+from tools.referees.by_formualizer import Formualizer
 
 SAMPLES = {"vw-1600": "petrol", "gots-diesel": "diesel", "yamz-236": "diesel",
            "two-stroke": "diesel", "cycle-petrol": "petrol"}  # fmt: skip
@@ -165,3 +171,22 @@ def test_a_given_size_takes_the_place_of_the_usual_one():
 def test_usual_sizes_lie_within_their_spans(kind: str):
     for size in usual_sizes(kind):
         assert size.low < size.share < size.high
+
+
+def test_the_workbook_is_recalculated_and_the_chapter_says_its_results():
+    model = model_of(pin_form="plus", oval_form="program")
+    values = evaluate_model(model)
+    book = workbook_bytes(model, values)
+    (recalculated,) = Formualizer().recalculate([book])
+    assert errors_in(recalculated) == [] and differences_from_caches(book, recalculated) == []
+    page = Report(model, values).page("screen")
+    assert "Прочность деталей кривошипно-шатунного механизма</h1>" in page
+    for key in ("st_crown_MPa", "st_pin_bend_MPa", "st_shank_Kx", "st_cap_MPa", "st_bolt_max_MPa"):
+        assert f'id="eq-n.3a.{key}"' in page, key
+    told = own_numbers(model.input).scalars
+    assert told["st_crown_MPa"][1] == values.scalars["st_crown_MPa"]
+
+
+def test_new_gives_usual_sizes_with_their_ratio():
+    text = new_text(None, sample=None, cylinders=4, strength=True, kind="petrol", bore_mm=80.0)
+    assert "crown_mm = 6 # Толщина днища поршня: 0,075 D (обычно 0,05…0,1)" in text

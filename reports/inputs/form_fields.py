@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.fields import Path, key_text
-from reports.inputs.load import MOST_REGIMES
+from reports.inputs.findings import MOST_REGIMES
 from reports.inputs.meta import Key, Meta, hints
 from reports.inputs.own_books import sections_of, texts_of
 from reports.inputs.registry import GAS_MODELS, SECTIONS

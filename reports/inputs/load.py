@@ -23,7 +23,14 @@ from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, from_cells, in_cells, key_text
-from reports.inputs.findings import Finding, ValidValues, accepted_keys, check_signs, explained
+from reports.inputs.findings import (
+    Finding,
+    ValidValues,
+    accepted_keys,
+    check_signs,
+    explained,
+    regime_data,
+)
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.normalise import in_types, normalise, read_text, refuse_bomb, refused
@@ -49,41 +56,12 @@ from reports.inputs.to_si.masses import sizes_of
 from reports.inputs.toml_errors import decimal_commas, toml_error
 from reports.shared.errors import InputError, Problem, one_line
 
-MOST_REGIMES = 4
-
 
 def inside(index: int, path: Path) -> Path:
     """Path in the file of a path within a regime."""
     if path and path[0] == "regime":
         return ("regimes", index, *path[1:])
     return ("regimes", index, *path)
-
-
-def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
-    """Numbered entries of the list, or findings about it."""
-    if not isinstance(raw, list | tuple):
-        yield Finding(("regimes",), f"нужен список разделов, а задано: {messages.kind(raw)}",
-                      "запишите [[regimes]]")  # fmt: skip
-        return
-    if len(raw) > MOST_REGIMES:
-        what = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
-        yield Finding(("regimes",), what, "уберите лишние")
-        return
-    for index, entry in enumerate(raw):
-        if not isinstance(entry, dict):
-            what = f"нужен раздел, а задано: {messages.kind(entry)}"
-            yield Finding(("regimes", index), what, "запишите [[regimes]]")
-        elif "gas" not in entry:
-            what = "у режима нет данных о газах"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
-        elif not isinstance(entry["gas"], dict):
-            what = f"нужен раздел, а задано: {messages.kind(entry['gas'])}"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
-        elif entry["gas"].get("source") == "cycle":
-            what = "расчёт цикла есть только у основного режима"
-            yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
-        else:
-            yield index, entry
 
 
 def check_regime(values: ValidValues, own: ValidValues) -> Iterator[Finding]:

@@ -20,6 +20,7 @@ from kshm.nomenclature import (
     inertia,
     layouts,
     series,
+    strength,
     textbook,
     torsion,
 )
@@ -27,7 +28,7 @@ from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.symbols import WORDS, plain_symbol
 
 _SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
-            bearings)  # fmt: skip
+            bearings, strength)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +50,8 @@ UNITS: dict[str, Unit] = {
 class Quantity:
     """A physical quantity as people see it.
 
-    ``tex`` is the formula symbol, ``unit`` a key of ``UNITS``, ``title`` the Russian name,
+    ``tex`` is the formula symbol, ``unit`` a key of ``UNITS`` or, of a department's own quantity,
+    a label that has none, ``title`` the Russian name,
     ``digits`` how values are written; number formats of sheets and texts are derived from
     them.  ``word`` stands for the symbol in plain text where the TeX gives none.
 
@@ -72,12 +74,12 @@ class Quantity:
     @property
     def unit_label(self) -> str:
         """Unit as printed, empty for a pure number."""
-        return UNITS[self.unit].label
+        return UNITS[self.unit].label if self.unit in UNITS else self.unit
 
     @property
     def si(self) -> float:
         """SI value of one unit of the tables."""
-        return UNITS[self.unit].si
+        return UNITS[self.unit].si if self.unit in UNITS else 1.0
 
     @property
     def header(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,6 +31,7 @@ from reports.commands.common import (
 from reports.shared.errors import KshmError
 
 if TYPE_CHECKING:
+    from kshm.nomenclature.quantity import Quantity
     from reports.grading.reading.selfcheck import BookFinding
     from reports.inputs.load import Loaded
 
@@ -39,12 +40,14 @@ if TYPE_CHECKING:
 @path_option("-o", "--output", help="Куда записать (иначе на экран).")
 @click.option("--sample", metavar="ИМЯ", help="Взять за основу образец, например gots-diesel.")
 @path_option("--from", "base", metavar="ФАЙЛ", help="Вариант этого двигателя по подобию.")
+@path_option("--book", metavar="ФАЙЛ", help="Заготовка своей книги расчёта, насос.book.")
 @click.option("--cylinders", type=int, metavar="ЧИСЛО", help="Число цилиндров, от 1 до 12.")
 @click.option("--layout", type=click.Choice(["inline", "v", "opposed"]),
               help="Рядный, V-образный или оппозитный.")  # fmt: skip
 @click.option("--strokes", type=click.Choice(["4", "2"]), help="Тактность.")
 @click.option("--fuel", "--kind", "kind", type=click.Choice(["diesel", "petrol"]),
               help="Дизель или с искровым зажиганием.")  # fmt: skip
+@click.option("--strength", is_flag=True, help="Добавить прочность деталей с обычными размерами.")
 @number_option("--power", "power_kw", "кВт", "Эффективная мощность, кВт.")
 @number_option("--speed", "speed_rpm", "МИН⁻¹", "Частота вращения, мин⁻¹.")
 @number_option("--bore", "bore_mm", "ММ", "Диаметр цилиндра, мм.")
@@ -54,18 +57,26 @@ if TYPE_CHECKING:
 @number_option("--compression", "compression", "ЧИСЛО", "Степень сжатия.")
 @number_option("--efficiency", "efficiency", "ЧИСЛО", "Механический КПД.")
 @verbose_option
-def new(output: Path | None, base: Path | None, **wanted: Any) -> int:  # noqa: ANN401
+def new(
+    output: Path | None,
+    base: Path | None,
+    book: Path | None,
+    **wanted: Any,  # noqa: ANN401
+) -> int:
     """Дать файл исходных данных с пояснениями.
 
     С ключом --cylinders — свой двигатель: что задано ключами, то в нём и стоит, остальное из
     обычных значений, давления подобраны по мощности. Вместе с --from — вариант данного
     двигателя с другим числом цилиндров.
     """
-    from reports.commands.new_engine import new_text
+    from reports.commands.new_engine import new_book, new_text
     from reports.shared.files import is_stream, write_text
 
     given = None if base is None else (str(base), lambda: load(base).model)
-    text = new_text(given, **wanted)
+    if book is None:
+        text = new_text(given, **wanted)
+    else:
+        text, output = new_book(book, [*wanted.values(), base, output]), book
     if output is None:
         click.echo(text, nl=False)
         return DONE
@@ -105,12 +116,21 @@ def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:
 @click.option("--json", "as_json", is_flag=True, help="Результат проверки в JSON.")
 @verbose_option
 def check(source: Path, as_json: bool) -> int:
-    """Проверить исходные данные, не делая документов; рабочую книгу — перед сдачей."""
+    """Проверить исходные данные, не делая документов; рабочую книгу — перед сдачей.
+
+    Свою книгу расчёта (.book) проверяет на образцах.
+    """
     import json
 
     from reports.exports.build import BOOKS, load_input
     from reports.shared.errors import InputError
 
+    if source.suffix.lower() == ".book":
+        from reports.exports.own_books import check_alone
+
+        for about in check_alone(source):
+            click.echo(about)
+        return DONE
     if source.suffix.lower() in BOOKS:
         from reports.grading.reading.selfcheck import findings, is_work_book
 
@@ -175,7 +195,9 @@ def _tell_findings(source: Path, findings: Sequence[BookFinding], *, as_json: bo
 @verbose_option
 def solve(source: Path, folder: Path | None, target: str | None) -> int:
     """Посчитать числа без документов."""
+    from kshm.nomenclature.quantity import quantity
     from reports.exports.numbers import csv_text, export_tables, json_text
+    from reports.exports.own_books import own_numbers
     from reports.inputs.solve_input import solved
     from reports.inputs.to_si.engine import smallness_of
     from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
@@ -184,38 +206,40 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
     own = (source, *loaded.beside)
     if target is not None and target != "-":
         refuse_own([Path(target)], own)
-    solution = solved(loaded.model)
+    solution, theirs = solved(loaded.model), own_numbers(loaded.model)
     if folder is not None:
-        tables = {folder / f"{name}.csv": data for name, data in export_tables(solution).items()}
+        tables = {
+            folder / f"{name}.csv": data for name, data in export_tables(solution, theirs).items()
+        }
         refuse_own(tables, own)
         make_dir(folder)
         for path, columns in tables.items():
             write_text(path, csv_text(columns))
         click.echo(folder)
     if target == "-":
-        click.echo(json_text(loaded.model, solution, notes_of(loaded)), nl=False)
+        click.echo(json_text(loaded.model, solution, notes_of(loaded), theirs), nl=False)
     elif target is not None:
         with atomic_path(Path(target)) as temporary:
             temporary.write_text(
-                json_text(loaded.model, solution, notes_of(loaded)), encoding="utf-8"
+                json_text(loaded.model, solution, notes_of(loaded), theirs), encoding="utf-8"
             )
         tell_written(Path(target))
     wordless = folder is not None or target is not None
     if not wordless:
-        _print_summary(solution.scalars, smallness_of(loaded.model))
+        small = smallness_of(loaded.model)
+        known = {key: (quantity(key, small), each) for key, each in solution.scalars.items()}
+        _print_summary({**known, **theirs.scalars})
     tell_solved(loaded, aside=wordless)
     return DONE
 
 
-def _print_summary(scalars: dict[str, float], small: int) -> None:
-    from kshm.nomenclature.quantity import quantity
+def _print_summary(scalars: Mapping[str, tuple[Quantity, float | str]]) -> None:
     from reports.shared.russian import written
 
-    for key, value in scalars.items():
+    for key, (about, value) in scalars.items():
         if key.startswith("throw"):
             continue
-        about = quantity(key, small)
-        text = written(value, about.digits)
+        text = value if isinstance(value, str) else written(value, about.digits)
         gap = "" if about.unit_label == "°" else " "
         click.echo(f"{about.title}: {about.symbol} = {text}{gap}{about.unit_label}".rstrip())
 

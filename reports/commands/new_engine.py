@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reports.shared.errors import KshmError
@@ -19,11 +20,28 @@ _NUMBERS = (
 Base = tuple[str, Callable[[], "InputFile"]]
 
 
+def new_book(target: Path, others: Iterable[object]) -> str:
+    """The text of a commented book of a department.
+
+    Raises:
+        KshmError: its name has another ending, or further options are given.
+    """
+    from reports.inputs.own_books import SUFFIX
+    from reports.shared.resources import templates_dir
+
+    if target.suffix != SUFFIX:
+        raise KshmError(f"--book {target}: нужно окончание {SUFFIX}")
+    if any(value not in (None, False) for value in others):
+        raise KshmError("--book: других ключей не нужно; уберите их")
+    return (templates_dir() / "own.book").read_text(encoding="utf-8")
+
+
 def new_text(
     base: Base | None,
     *,
     sample: str | None,
     cylinders: int | None,
+    strength: bool = False,
     **wanted: Any,  # noqa: ANN401
 ) -> str:
     """The file of a sample, of an own engine, or of an alternative to ``base``.
@@ -32,6 +50,7 @@ def new_text(
         base: Name of the engine of --from, and what reads it.
         sample: Value of --sample, which does not go with the other two.
         cylinders: Value of --cylinders.
+        strength: Value of --strength, for an own engine.
         wanted: ``layout``, ``strokes``, ``kind`` and the numbers of a task; None is not given.
 
     Raises:
@@ -39,6 +58,7 @@ def new_text(
     """
     if cylinders is None and base is None:
         extra = [key for key, value in wanted.items() if value is not None]
+        extra += ["strength"] * strength
         if extra:
             raise KshmError(f"{_option(extra[0])}: ключ для своего двигателя; добавьте --cylinders")
         from reports.inputs.template import new_file
@@ -53,6 +73,8 @@ def new_text(
         value = wanted.get(key)
         if value is not None and not (math.isfinite(value) and value > 0):
             raise KshmError(f"{_option(key)}: значение должно быть больше нуля")
+    if base is not None and strength:
+        raise KshmError("--strength: у варианта раздел тот же, что в основе; уберите ключ")
     if base is not None:
         return _alternative(base, cylinders, wanted)
     from reports.new.generate import file_text, generate_engine
@@ -62,7 +84,9 @@ def new_text(
     kinds = {key: wanted[key] for key in ("layout", "kind") if wanted.get(key) is not None}
     numbers: dict[str, Any] = {key: wanted.get(key) for key in _NUMBERS}
     strokes = int(wanted.get("strokes") or 4)
-    return file_text(generate_engine(cylinders, **kinds, strokes=strokes, **numbers))
+    return file_text(
+        generate_engine(cylinders, **kinds, strokes=strokes, strength=strength, **numbers)
+    )
 
 
 def _option(key: str) -> str:

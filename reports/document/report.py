@@ -24,8 +24,10 @@ from reports.document.chapters import (
     journals,
     oil,
     opening,
+    own,
     rationale,
     regimes,
+    strength,
     torsion,
 )
 from reports.document.chapters.chapter import ELSEWHERE, Chapter, chosen, pin_stems, worst_pin
@@ -70,6 +72,8 @@ CHAPTERS: dict[str, Write] = {
     "balance": balance.balance,
     "torsion": torsion.torsion,
     "oil": oil.oil,
+    "strength": strength.strength,
+    "own": own.own,
     "regimes": regimes.regimes,
     "reference": dynamics.reference,
     "companions": balance.companions,

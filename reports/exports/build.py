@@ -60,6 +60,10 @@ def load_input(path: Path) -> Loaded:
         loaded = load_workbook_input(path)
     else:
         loaded = load_toml(path)
+    if loaded.model.books:
+        from reports.exports.own_books import refuse_faults
+
+        refuse_faults(loaded.model)
     if loaded.model.bearings is not None:
         from reports.inputs.solve_input import solved
 

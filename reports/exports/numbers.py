@@ -9,9 +9,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kshm.nomenclature.quantity import quantity, ray_key
+from kshm.nomenclature.quantity import Quantity, quantity, ray_key
 from kshm.results.reference import reference_tables
 from kshm.results.solution import Solution
+from reports.exports.own_books import OwnNumbers
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 
@@ -19,12 +20,19 @@ _BLANK = {ray_key(number) for number in range(1, 19)}  # a force that a ray does
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
-def export_tables(solution: Solution) -> dict[str, dict[str, list[float | str | None]]]:
-    """All tables by id, columns by key; cells that the table leaves blank are None."""
+def export_tables(
+    solution: Solution, own: OwnNumbers | None = None
+) -> dict[str, dict[str, list[float | str | None]]]:
+    """All tables by id, columns by key; cells that the table leaves blank are None.
+
+    ``own`` are the numbers of own books.
+    """
     tables: dict[str, dict[str, list[float | str | None]]] = {}
     by_file: dict[str, Mapping[str, Any]] = {
         **solution.columns, **solution.wear_sums, **reference_tables(),
     }  # fmt: skip
+    for name, theirs in own.tables.items() if own else ():
+        by_file[name] = {key: values for key, (_, values) in theirs.items()}
     for name, columns in by_file.items():
         tables[name] = {
             key: [_plain(value, blank_zero=key in _BLANK) for value in values]
@@ -65,24 +73,29 @@ def neutralised(text: str) -> str:
     return "'" + text if text.startswith(_FORMULA_STARTS) else text
 
 
-def json_text(model: InputFile, solution: Solution, notes: Sequence[str] = ()) -> str:
+def json_text(
+    model: InputFile, solution: Solution, notes: Sequence[str] = (), own: OwnNumbers | None = None
+) -> str:
     """Engine, summary, tables as JSON with symbols, units, titles; notes where there are any."""
     engine = {field.name: field.value for field in iter_fields(model)}
-    summary = {
+    summary: dict[str, dict[str, Any]] = {
         key: {
             "value": value,
-            "symbol": quantity(key).symbol,
-            "unit": quantity(key).unit_label,
-            "title": quantity(key).title,
+            **_described(quantity(key)),
         }
         for key, value in solution.scalars.items()
     }
+    quantities: dict[tuple[str, str], Quantity] = {}
+    for key, (about, value) in own.scalars.items() if own else ():
+        summary[key] = {"value": value, **_described(about)}
+    for name, theirs in own.tables.items() if own else ():
+        quantities |= {(name, key): about for key, (about, _) in theirs.items()}
     tables = {
         name: {
-            "columns": [_describe(key) for key in columns],
+            "columns": [_describe(key, quantities.get((name, key))) for key in columns],
             "rows": [list(row) for row in zip(*columns.values(), strict=True)],
         }
-        for name, columns in export_tables(solution).items()
+        for name, columns in export_tables(solution, own).items()
     }
     data: dict[str, Any] = {"engine": engine, "summary": summary, "tables": tables}
     if notes:
@@ -90,15 +103,14 @@ def json_text(model: InputFile, solution: Solution, notes: Sequence[str] = ()) -
     return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def _describe(key: str) -> dict[str, str]:
+def _describe(key: str, own: Quantity | None = None) -> dict[str, str]:
     try:
-        known = quantity(key)
+        known = own or quantity(key)
     except KeyError:
         symbol = key.removeprefix("lambda_")
         return {"key": key, "symbol": symbol, "unit": "", "title": key}
-    return {
-        "key": key,
-        "symbol": known.symbol,
-        "unit": known.unit_label,
-        "title": known.title,
-    }
+    return {"key": key, **_described(known)}
+
+
+def _described(about: Quantity) -> dict[str, str]:
+    return {"symbol": about.symbol, "unit": about.unit_label, "title": about.title}

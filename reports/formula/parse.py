@@ -42,6 +42,9 @@ _OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
 _COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
 
+MOST_LETTERS, MOST_DEEP = 8000, 150  # of an expression: longer ones no spreadsheet takes
+
+
 class FormulaError(ValueError):
     """An expression is not of the language; ``fragment`` is the part that is not."""
 
@@ -62,12 +65,27 @@ def parse(text: str) -> ast.expr:
     Raises:
         FormulaError: a construct or function outside the language.
     """
+    if len(text) > MOST_LETTERS:
+        raise FormulaError(f"an expression of more than {MOST_LETTERS} signs", text[:40])
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
         raise FormulaError(f"not an expression: {text!r} ({error.msg})", text) from error
+    except (RecursionError, MemoryError, ValueError):
+        raise FormulaError("an expression too deep", text) from None
+    if _depth(tree) > MOST_DEEP:
+        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text)
     _check(tree, text)
     return tree
+
+
+def _depth(tree: ast.AST) -> int:
+    """Levels of a tree."""
+    level, depth = [tree], 0
+    while level:
+        depth += 1
+        level = [child for node in level for child in ast.iter_child_nodes(node)]
+    return depth
 
 
 def _check(node: ast.expr, text: str) -> None:

@@ -17,6 +17,7 @@ crankshaft.webs, i, key               ``web_<i+1>_<key>``: ``web_3_mass_kg``
 crankshaft.arms, i, key               ``throw_<i+1>_<key>``: ``throw_1_l1_mm``,
                                       ``throw_1_left_web_mm``
 gas.points, i, 0 and 1                ``gas_point_<i+1>_deg``, ``gas_point_<i+1>_mpa``
+own, section, key                     ``<section>_<key>``, of a book of a department
 ====================================  ==========================================
 
 Every name is Latin, holds an underscore (so it is neither a cell address nor
@@ -35,6 +36,7 @@ from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import smallness
 from reports.inputs.meta import Key, Meta, Strictly, hints
+from reports.inputs.own_books import sections_of
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
@@ -88,6 +90,8 @@ def cell_name(path: Path) -> str:
     """Return the defined name that belongs to a path (see the module's table)."""
     if len(path) == 2:
         return f"{path[0]}_{path[1]}"
+    if path[0] == "own":
+        return f"{path[1]}_{path[2]}"
     key = path[3] if len(path) > 3 else ""
     if path[1] == "points":
         key = POINT_KEYS[int(path[3])]
@@ -109,6 +113,8 @@ def iter_fields(model: InputFile) -> Iterator[Field]:
         if part is None:
             continue
         yield from _fields_of(part, (section.name,), section.title, number=None)
+    for name, about in sections_of(model.books).items():
+        yield from _fields_of(getattr(model.own, name), ("own", name), about.title, number=None)
     for index, regime in enumerate(model.regimes):
         yield from _regime_fields(regime, index)
 

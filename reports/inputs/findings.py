@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from reports.inputs.fields import Path, iter_fields, key_text
-from reports.inputs.messages import likely_word, shown
+from reports.inputs.messages import kind, likely_word, shown
 from reports.inputs.meta import hints
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import InputFile
@@ -109,7 +109,9 @@ def check_accepted(values: ValidValues) -> Iterator[Finding]:
     entries: Sequence[AcceptedEntry] = values.get("checks", "accepted") or ()
     for index, entry in enumerate(entries):
         path = ("checks", "accepted", index)
-        if not _known(entry.what):
+        if not _known(entry.what) and not values.get(
+            "report", "books"
+        ):  # they have checks of theirs
             what = f"нет проверки или ключа {shown(entry.what)}"
             likely = likely_word(entry.what, (*CHECKS, *_keys()))
             hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join(CHECKS)
@@ -151,3 +153,33 @@ def check_signs(model: InputFile) -> Iterator[Finding]:
             what = f"в шрифте отчёта нет: {listed}{more}"
             hint = f"уберите или замените, иначе напечатается {REPLACEMENT}"
             yield Finding(text.path, what, hint, warning=True)
+
+
+MOST_REGIMES = 4
+
+
+def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
+    """Numbered entries of the list, or findings about it."""
+    if not isinstance(raw, list | tuple):
+        yield Finding(("regimes",), f"нужен список разделов, а задано: {kind(raw)}",
+                      "запишите [[regimes]]")  # fmt: skip
+        return
+    if len(raw) > MOST_REGIMES:
+        what = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
+        yield Finding(("regimes",), what, "уберите лишние")
+        return
+    for index, entry in enumerate(raw):
+        if not isinstance(entry, dict):
+            what = f"нужен раздел, а задано: {kind(entry)}"
+            yield Finding(("regimes", index), what, "запишите [[regimes]]")
+        elif "gas" not in entry:
+            what = "у режима нет данных о газах"
+            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+        elif not isinstance(entry["gas"], dict):
+            what = f"нужен раздел, а задано: {kind(entry['gas'])}"
+            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+        elif entry["gas"].get("source") == "cycle":
+            what = "расчёт цикла есть только у основного режима"
+            yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
+        else:
+            yield index, entry

@@ -8,8 +8,9 @@ from typing import Any
 from pydantic import BaseModel
 
 from reports.inputs.fields import Path, key_text
-from reports.inputs.load import MOST_REGIMES
+from reports.inputs.findings import MOST_REGIMES
 from reports.inputs.meta import Key, Meta, hints
+from reports.inputs.own_books import sections_of, texts_of
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.input_file import RegimeValues
 
@@ -28,6 +29,11 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
         if name in raw or not section.absent:
             whole = (name,) if section.absent else None
             yield from _section(name, (name,), section.title, raw.get(name), whole)
+    for name, about in sections_of(texts_of(raw)).items():
+        assert about.model is not None
+        part = _mapping(_mapping(raw.get("own")).get(name))
+        yield {"title": about.title, "key": f"own.{name}", "whole": None,
+               "entries": [list(_record(part, about.model, ("own", name)))]}  # fmt: skip
     regimes = raw.get("regimes")
     for index, regime in enumerate(regimes[:MOST_REGIMES] if isinstance(regimes, list) else ()):
         path, gas = ("regimes", index), _mapping(regime).get("gas")

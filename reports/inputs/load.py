@@ -23,10 +23,25 @@ from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, from_cells, in_cells, key_text
-from reports.inputs.findings import Finding, ValidValues, accepted_keys, check_signs, explained
+from reports.inputs.findings import (
+    Finding,
+    ValidValues,
+    accepted_keys,
+    check_signs,
+    explained,
+    regime_data,
+)
 from reports.inputs.firing import FOLLOWING, expand
 from reports.inputs.meta import Strictly, hints
-from reports.inputs.normalise import normalise, read_text, refuse_bomb, refused
+from reports.inputs.normalise import in_types, normalise, read_text, refuse_bomb, refused
+from reports.inputs.own_books import (
+    Texts,
+    checked_texts,
+    named,
+    own_model,
+    sections_of,
+    with_books,
+)
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.gas import SOURCES, CycleGasSection, PolytropicGasSection
@@ -41,41 +56,12 @@ from reports.inputs.to_si.masses import sizes_of
 from reports.inputs.toml_errors import decimal_commas, toml_error
 from reports.shared.errors import InputError, Problem, one_line
 
-MOST_REGIMES = 4
-
 
 def inside(index: int, path: Path) -> Path:
     """Path in the file of a path within a regime."""
     if path and path[0] == "regime":
         return ("regimes", index, *path[1:])
     return ("regimes", index, *path)
-
-
-def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
-    """Numbered entries of the list, or findings about it."""
-    if not isinstance(raw, list | tuple):
-        yield Finding(("regimes",), f"нужен список разделов, а задано: {messages.kind(raw)}",
-                      "запишите [[regimes]]")  # fmt: skip
-        return
-    if len(raw) > MOST_REGIMES:
-        what = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
-        yield Finding(("regimes",), what, "уберите лишние")
-        return
-    for index, entry in enumerate(raw):
-        if not isinstance(entry, dict):
-            what = f"нужен раздел, а задано: {messages.kind(entry)}"
-            yield Finding(("regimes", index), what, "запишите [[regimes]]")
-        elif "gas" not in entry:
-            what = "у режима нет данных о газах"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
-        elif not isinstance(entry["gas"], dict):
-            what = f"нужен раздел, а задано: {messages.kind(entry['gas'])}"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
-        elif entry["gas"].get("source") == "cycle":
-            what = "расчёт цикла есть только у основного режима"
-            yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
-        else:
-            yield index, entry
 
 
 def check_regime(values: ValidValues, own: ValidValues) -> Iterator[Finding]:
@@ -141,13 +127,14 @@ def load_text(text: str, *, source: str, folder: FilePath = FilePath()) -> Loade
         problems = read_ranges(section, raw, source)[1]
         if problems:
             raise InputError(problems)
-    filled = with_points(normalise(raw, source), folder, source)
+    raw, books = with_books(normalise(raw, source), folder, source)
+    filled = with_points(raw, folder, source)
     try:
         loaded = load_mapping(filled.raw, source=source)
     except InputError as error:
         likely = [Problem(one_line(source, 120), *words) for words in decimal_commas(text)]
         raise InputError([*likely, *error.problems]) from None
-    return replace(loaded, beside=filled.files, notes=filled.notes)
+    return replace(loaded, beside=(*filled.files, *books), notes=filled.notes)
 
 
 def parsed(text: str, *, source: str) -> dict[str, Any]:
@@ -193,10 +180,12 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     """
     reader = _SectionReader(source, locate)
     data = normalise(raw, source)
-    regimes = data.pop("regimes", ())
+    regimes, books, own = data.pop("regimes", ()), data.pop("books", {}), data.pop("own", {})
     if locate is not None:
         data = reader.from_cells(data)
     reader.order_alone = _has_order_alone(data)
+    texts = reader.books(books, named(data))
+    own_sections = reader.own(own, texts)
     data, findings = expand(data)
     reader.take(findings)
     if findings:  # what would have followed from the order is not also missing
@@ -207,7 +196,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
-    model = InputFile(**parts, regimes=further)
+    model = InputFile(**parts, regimes=further, books=texts, own=own_sections)
     design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
@@ -256,11 +245,12 @@ class _SectionReader:
         self.empty: set[Path] = set()
         self.uncounted = 0
         self.order_alone = False  # firing offsets follow from the order that the file has
+        self.home: Path = ()  # before the paths of its sections
 
     def key(self, path: Path) -> str:
         if self.regime is not None:
             path = inside(self.regime, path)
-        return one_line(key_text(path), 100)
+        return one_line(key_text((*self.home, *path)), 100)
 
     def problem(self, path: Path, what: str, hint: str = "") -> Problem:
         if self.order_alone and path[:2] == ("crankshaft", "firing_offsets_deg"):
@@ -272,7 +262,8 @@ class _SectionReader:
             what, hint = (_OFFSETS.sub("firing_order", text) for text in (what, hint))
         if self.locate is not None:
             what, hint = in_cells(what), in_cells(hint)
-        cell = self.locate(path) if self.locate is not None and path else ""
+        home = (*self.home, *path)
+        cell = self.locate(home) if self.locate is not None and path else ""
         address = f"{cell} ({key})" if cell else key
         return Problem(": ".join(part for part in (self.source, address) if part), what, hint)
 
@@ -330,6 +321,39 @@ class _SectionReader:
                 if section is not None:
                     models[name] = section
         return models
+
+    def books(self, raw: object, names: list[str]) -> Texts:
+        """Names and texts of own books."""
+        try:
+            return checked_texts(raw, names)
+        except InputError as error:
+            self.problems += error.problems
+            return ()
+
+    def own(self, raw: object, books: Texts) -> Strictly | None:
+        """The sections of own books, [own.SECTION] in the file."""
+        known, reader = sections_of(books), _SectionReader(self.source, self.locate)
+        reader.home = ("own",)
+        given, sections = raw if isinstance(raw, dict) else {}, {}
+        for name in [name for name in given if name not in known and not self.problems][:1]:
+            what, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
+            reader.problems.append(reader.problem((name,), what, hint))
+        for name, about in known.items():
+            assert about.model is not None
+            part = given.get(name, {})
+            if not isinstance(part, dict):
+                what = f"нужен раздел, а задано: {messages.kind(part)}"
+                reader.problems.append(reader.problem((name,), what))
+                continue
+            part = in_types(part, about.model)
+            if self.locate is not None:
+                cells, empty = from_cells({name: part}, {name: about.model})
+                part, reader.empty = cells[name], reader.empty | set(empty)
+                what, hint = "ячейка пуста", "впишите значение"
+                reader.problems += [reader.problem(at, what, hint) for at in empty]
+            sections[name] = reader._section(name, about.model, part)
+        self.problems += reader.problems
+        return own_model(books).model_construct(None, **sections) if sections else None
 
     def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
         """The further regimes; each is read like a file with the same engine."""

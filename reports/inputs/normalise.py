@@ -123,22 +123,23 @@ def _section(name: str, part: object) -> Any:  # noqa: ANN401
     if name not in SECTIONS or not isinstance(part, dict):
         return part
     if name != "gas":
-        return _table(part, SECTIONS[name].model)
+        return in_types(part, SECTIONS[name].model)
     if "source" in part:
         part = {**part, "source": _value(part["source"], str, _SOURCE)}
     source, known = part.get("source"), SECTIONS["gas"].sources
     model = known.get(source) if isinstance(source, str) else None
-    return _table(part, model or SECTIONS["gas"].model)
+    return in_types(part, model or SECTIONS["gas"].model)
 
 
 def _regime(entry: object) -> object:
     if not isinstance(entry, dict):
         return entry
-    done = _table(entry, RegimeValues)
+    done = in_types(entry, RegimeValues)
     return {**done, "gas": _section("gas", entry["gas"])} if "gas" in entry else done
 
 
-def _table(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
+def in_types(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
+    """The values of a section in the types of its keys."""
     known = hints(model)
     return {
         key: _entry(value, known[key]) if key in known else value for key, value in part.items()
@@ -149,7 +150,7 @@ def _entry(value: object, about: Key) -> Any:  # noqa: ANN401
     if isinstance(value, list | tuple):
         return [_entry(item, about) for item in value]
     if isinstance(value, dict):
-        return _table(value, about.inner) if about.inner is not None else value
+        return in_types(value, about.inner) if about.inner is not None else value
     if len(about.types) != 1 or not about.metas:
         return value
     return _value(value, next(iter(about.types)), about.metas[0])

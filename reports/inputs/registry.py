@@ -32,6 +32,7 @@ from reports.inputs.sections.report import (
     ReportSection,
     SheetSection,
 )
+from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import TorsionSection
 
 
@@ -82,6 +83,7 @@ _ALL = (
         lists={
             "chapters": ListKey("Главы отчёта", "report_chapter_{n}"),
             "formats": ListKey("Документы", "report_format_{n}"),
+            "books": ListKey("Свои книги расчётов", "report_book_{n}"),
         },
     ),
     InputSection("engine", "Двигатель", EngineSection),
@@ -182,6 +184,17 @@ _ALL = (
         words=(
             "Раздел [bearings] добавляет масляную плёнку подшипников и запасы прочности шеек. Все",
             "ключи необязательны: чего нет, то принято по правилу, названному в книге.",
+        ),
+    ),
+    InputSection(
+        "strength",
+        "Прочность поршня, пальца, шатуна и щёк",
+        StrengthSection,
+        optional=True,
+        absent=True,
+        words=(
+            "Раздел [strength] добавляет прочность поршня, кольца, пальца, шатуна, болтов и щёк.",
+            "Все ключи необязательны: размер, которого нет, взят по обычному отношению.",
         ),
     ),
     InputSection(

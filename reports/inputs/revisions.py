@@ -40,13 +40,15 @@ class _Recorded(ValidValues):
 class Revisions:
     """Engines of an input with other values at the given paths.
 
+    ``revised`` is the input with the values of the last row.
+
     Raises:
         InputError: the input itself is wrong.
     """
 
     def __init__(self, raw: dict[str, Any], source: str, paths: Sequence[Path]) -> None:
         self._raw, self._source, self._paths = copy.deepcopy(raw), source, paths
-        self._model = load_mapping(raw, source=source).model
+        self._model = self.revised = load_mapping(raw, source=source).model
         self._changed = tuple(dict.fromkeys(str(path[0]) for path in paths))
         # A calculated cycle and further regimes are checked as wholes.
         known = set(self._changed) <= SECTIONS.keys()
@@ -68,8 +70,9 @@ class Revisions:
         for path, value in zip(self._paths, row, strict=True):
             set_value(self._raw, path, value)
         if not (self._quick and self._revise()):
-            model = load_mapping(self._raw, source=self._source).model
-            return engine_and_cycle(model)
+            self.revised = load_mapping(self._raw, source=self._source).model
+            return engine_and_cycle(self.revised)
+        self.revised = self._model
         return engine_and_cycle(self._model, self._kept)
 
     def _put(self, name: str, section: Any) -> None:  # noqa: ANN401

@@ -34,10 +34,13 @@ class Node:
     of: str = ""
     small: int = 0
     every: str = TURN
+    own: Quantity | None = None  # of a department's book, which no other knows
 
     @property
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
+        if self.own is not None:
+            return self.own
         return quantity(self.of or self.key, self.small)
 
 
@@ -113,11 +116,12 @@ class GridRow:
     of: str
     cells: tuple[Scalar | None, ...]
     small: int = 0
+    own: Quantity | None = None
 
     @property
     def quantity(self) -> Quantity:
         """Symbol, unit and title."""
-        return quantity(self.of, self.small)
+        return self.own or quantity(self.of, self.small)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,12 +139,31 @@ class Grid:
 Block = TableSpec | ScalarTable | Grid
 
 
+@dataclass(frozen=True, slots=True)
+class TextLine:
+    """A line of a chapter: ``kind`` is paragraph, heading, formula or show; where it is written."""
+
+    kind: str
+    text: str
+    book: str
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class OwnChapter:
+    """A chapter that a book says itself: its title and lines."""
+
+    title: str
+    lines: tuple[TextLine, ...]
+
+
 @dataclass(frozen=True)
 class Model:
     """All specifications for one input file: what a workbook or a report consists of.
 
     ``remarks`` are the lines to stand beside the checks: what is odd about the input, what
-    is odd and explained, what is not calculated and why.
+    is odd and explained, what is not calculated and why.  ``chapters`` and ``own_nodes``
+    are those of own books.
     """
 
     input: InputFile
@@ -148,6 +171,8 @@ class Model:
     blocks: tuple[Block, ...]
     charts: tuple[ChartSpec, ...]
     remarks: tuple[str, ...] = ()
+    chapters: tuple[OwnChapter, ...] = ()
+    own_nodes: frozenset[str] = frozenset()  # of own books: what no solver knows
 
     @cached_property
     def tables(self) -> Mapping[str, TableSpec]:
@@ -201,6 +226,16 @@ class Model:
         }
 
     @cached_property
+    def grid_rows(self) -> Mapping[str, GridRow]:
+        """Rows of grids as ``grid.quantity``."""
+        return {
+            f"{block.id}.{row.of}": row
+            for block in self.blocks
+            if isinstance(block, Grid)
+            for row in block.rows
+        }
+
+    @cached_property
     def whole_tables(self) -> Mapping[str, TableSpec]:
         """Tables of the columns that are found together, not each for itself."""
         return {
@@ -217,7 +252,8 @@ class Model:
 
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
         """The same specifications for an input of the same structure."""
-        made = Model(input_file, inputs, self.blocks, self.charts, self.remarks)
+        made = Model(input_file, inputs, self.blocks, self.charts, self.remarks, self.chapters,
+                     self.own_nodes)  # fmt: skip
         # What follows from the blocks and from the names of the inputs is the same as well.
         for name in (
             "tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "whole_tables",

@@ -8,17 +8,21 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import jinja2
-from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from reports.formula.parse import names
+from reports.inputs.own_books import Texts, book_name
 from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of
+from reports.model.sandbox import StrictEnvironment, rendered
+from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.resources import templates_dir
 
 _MARK = "\x1f"
 _MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
+_NAME = re.compile(r"[\w-]+\.book")  # never a path
 _STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
 
 
@@ -31,12 +35,12 @@ class BookLine:
     text: str
 
 
-class BookError(ValueError):
+class BookError(InputError):
     """A mistake in a book: where it stands there, what it is, how to mend it."""
 
     def __init__(self, book: str, line: int, column: int, what: str, hint: str = "") -> None:
-        super().__init__(f"{book}: строка {line}, столбец {column}: {what}"
-                         + (f"; {hint}" if hint else ""))  # fmt: skip
+        at = f"{one_line(book, 60)}: строка {line}, столбец {column}"
+        super().__init__(Problem(at, one_line(what, 200), hint))
         self.line, self.column = line, column
 
 
@@ -46,6 +50,7 @@ class Shelf:
 
     folders: tuple[Path, ...]
     trusted: bool = False
+    own: Texts = ()  # names and texts of own books, which come first
 
     def source(self, name: str) -> tuple[str, Path]:
         """Text of a book.
@@ -53,7 +58,10 @@ class Shelf:
         Raises:
             jinja2.TemplateNotFound: no folder has it.
         """
-        for folder in self.folders:
+        for given, text in self.own:
+            if book_name(given) == Path(name).stem:
+                return text, Path(name)
+        for folder in self.folders if _NAME.fullmatch(name) else ():
             path = folder / name
             if path.is_file():
                 return path.read_text(encoding="utf-8"), path
@@ -62,7 +70,23 @@ class Shelf:
     def texts(self) -> Iterator[tuple[str, str]]:
         """Names of all books and their texts."""
         names = {path.stem for folder in self.folders for path in folder.glob("*.book")}
+        names |= set(self.names)
         yield from ((name, self.source(f"{name}.book")[0]) for name in sorted(names))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the own books."""
+        return tuple(book_name(name) for name, _ in self.own)
+
+    def called(self, name: str) -> str:
+        """A book as messages call it: an own one by the name that its file has."""
+        return next((given for given, _ in self.own if book_name(given) == Path(name).stem), name)
+
+    def of_book(self, name: str) -> Shelf:
+        """The shelf to read a book from: the house's own where no own book is asked of it."""
+        houses = house_shelf()
+        borrowed = any(f"{other}.book" in _libraries(houses) for other in self.names)
+        return self if name in self.names or borrowed else houses
 
     def environment(self) -> jinja2.Environment:
         """Where books are rendered: those that are not trusted in a sandbox."""
@@ -71,13 +95,14 @@ class Shelf:
             text, path = self.source(name)
             return _marked(text, name), str(path), lambda: True
 
-        kind = jinja2.Environment if self.trusted else ImmutableSandboxedEnvironment
-        return kind(
-            undefined=jinja2.StrictUndefined, loader=jinja2.FunctionLoader(load),
-            line_statement_prefix="%", trim_blocks=True, lstrip_blocks=True,
-            keep_trailing_newline=True, finalize=_printed,
-            bytecode_cache=_compiled(self.folders[0]) if self.trusted else None,
-        )  # fmt: skip
+        options: dict[str, Any] = {
+            "undefined": jinja2.StrictUndefined, "loader": jinja2.FunctionLoader(load),
+            "line_statement_prefix": "%", "trim_blocks": True, "lstrip_blocks": True,
+            "keep_trailing_newline": True, "finalize": _printed,
+        }  # fmt: skip
+        if self.trusted:
+            return jinja2.Environment(**options, bytecode_cache=_compiled(self.folders[0]))
+        return StrictEnvironment(**options)
 
 
 def _compiled(folder: Path) -> jinja2.BytecodeCache | None:
@@ -88,6 +113,18 @@ def _compiled(folder: Path) -> jinja2.BytecodeCache | None:
     except OSError:
         return None
     return jinja2.FileSystemBytecodeCache(str(kept)) if os.access(kept, os.W_OK) else None
+
+
+@lru_cache(maxsize=8)
+def _libraries(shelf: Shelf) -> frozenset[str]:
+    """Books that others take lines or macros from."""
+    whole = "\n".join(text for _, text in shelf.texts())
+    return frozenset(re.findall(r'^% (?:from|include) "([^"]+)"', whole, re.MULTILINE))
+
+
+def shelf_of(books: Texts) -> Shelf:
+    """The books of the house behind the own books of an input."""
+    return Shelf(house_shelf().folders, own=books) if books else house_shelf()
 
 
 @lru_cache(maxsize=8)
@@ -142,13 +179,22 @@ def _printed(value: object) -> object:
 
 def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
     try:
-        return environment_of(shelf).get_template(name).render(names)
+        environment = environment_of(shelf)
+        return rendered(name, names, environment)
+    except RecursionError:
+        raise BookError(shelf.called(name), 1, 1, "слишком глубокая вложенность",
+                        "уберите вызов себя через себя") from None  # fmt: skip
     except jinja2.TemplateSyntaxError as error:
-        book = error.name or name
+        book = shelf.called(error.name or name)
         raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
                         "проверьте % if, % for и скобки") from error  # fmt: skip
+    except jinja2.TemplateNotFound as error:
+        book, number = _raised_at(error, name)
+        raise BookError(shelf.called(book), number, 1, f"нет книги «{error.message}»",
+                        "include и from берут книги по имени") from error  # fmt: skip
     except (jinja2.TemplateError, TypeError, ValueError, ArithmeticError) as error:
         book, number = _raised_at(error, name)
+        book = shelf.called(book)
         raise BookError(
             book, number, 1, f"условие Jinja2 не вычислено: {error}",
             "имена, которые знает книга, перечислены в docs/books.md",
@@ -194,13 +240,13 @@ def at_fragment(
     line: BookLine, shelf: Shelf, what: str, hint: str = "", fragment: str = ""
 ) -> BookError:
     """A mistake in a line; its column is that of the fragment where it is written."""
-    source = shelf.source(line.book)[0].splitlines()
+    source, book = shelf.source(line.book)[0].splitlines(), shelf.called(line.book)
     for number, written in enumerate(source[line.number - 1 :], line.number):
         if fragment and fragment in written:
-            return BookError(line.book, number, written.index(fragment) + 1, what, hint)
+            return BookError(book, number, written.index(fragment) + 1, what, hint)
         if number > line.number and not written[:1].isspace():
             break
-    return BookError(line.book, line.number, 1, what, hint)
+    return BookError(book, line.number, 1, what, hint)
 
 
 def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from typing import Any, TypeVar
@@ -11,6 +12,7 @@ from typing import Any, TypeVar
 from kshm.arrays import Columns
 from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, parse
+from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import solved
 from reports.model.blocks import (
@@ -21,8 +23,10 @@ from reports.model.blocks import (
     Column,
     Grid,
     GridRow,
+    OwnChapter,
     Scalar,
     ScalarTable,
+    TextLine,
     corners,
     extreme_columns,
     extreme_scalars,
@@ -41,12 +45,15 @@ from reports.model.charts import ChartLines, ChartSpec
 from reports.model.rename import renamed
 from reports.model.shape import Part, stepped
 
+MOST_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)
 _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
 )
 _HEADS = {
+    "text": (r"(?P<title>.+)", "text ЗАГОЛОВОК"),
+    "chapter": (r".+ [0-9A-F]{6}(?: smooth)?", "chapter НАЗВАНИЕ ЦВЕТ"),
     "place": (r"(?:before|chain|after) \d+", "place after 150"),
     "sheet": (r"(?P<title>.+?)(?: in .+ \d+: .+)?", "sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"),
     "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?'
@@ -99,6 +106,7 @@ class _Open:
     notes: list[str] = field(default_factory=list)
     members: list[tuple[str, list[Scalar]]] = field(default_factory=list)
     last: tuple[str, ...] = ()
+    lines: list[TextLine] = field(default_factory=list)
 
 
 class _BookReader:
@@ -108,6 +116,7 @@ class _BookReader:
         self, shelf: Shelf, names: Mapping[str, Any], places: dict[str, BookLine] | None
     ) -> None:
         self._shelf, self._names, self._places = shelf, names, places
+        self._chapters: list[OwnChapter] = []
         self._sheet = ""
         self._blocks: list[Block] = []
         self._charts: list[ChartSpec] = []
@@ -116,14 +125,21 @@ class _BookReader:
 
     def part(self) -> Part:
         """What was read."""
-        self._close()
-        return Part(tuple(self._blocks), tuple(self._charts))
+        with self._told():
+            self._close()
+        return Part(tuple(self._blocks), tuple(self._charts), tuple(self._chapters))
 
     def take(self, line: BookLine) -> None:
         """One line: a heading, or a line of the block that is open."""
         self._line = line
-        try:
+        with self._told():
             self._take(line.text)
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Tell of a mistake where it stands."""
+        try:
+            yield
         except BookError:
             raise
         except FormulaError as error:
@@ -139,7 +155,9 @@ class _BookReader:
 
     def _take(self, text: str) -> None:
         word, _, rest = text.partition(" ")
-        if word in _HEADS and not rest.startswith(("=", "of ", "every ")):
+        if DECLARATION.fullmatch(text):
+            pass  # read before any engine, see reports.inputs.own_books
+        elif word in _HEADS and not rest.startswith(("=", "of ", "every ")):
             self._close()
             self._head(word, rest)
         elif word in ChartLines.HEADS and not rest.startswith("="):
@@ -149,8 +167,16 @@ class _BookReader:
             self._open = self._open.take(word, rest)
         elif self._open is None:
             raise self._fault(f"строка «{text}» стоит вне блока", "начните с list, table или grid")
+        elif self._open.word == "text":
+            self._said(self._open, word, rest, text)
         else:
             self._body(self._open, word, rest, text)
+
+    def _said(self, block: _Open, word: str, rest: str, text: str) -> None:
+        """A line of a chapter's text."""
+        kind = word if word in ("heading", "formula", "show") else "paragraph"
+        said = rest if kind != "paragraph" else text
+        block.lines.append(TextLine(kind, said, self._line.book, self._line.number))
 
     def _head(self, word: str, rest: str) -> None:
         pattern, form = _HEADS[word]
@@ -160,7 +186,7 @@ class _BookReader:
         about = {key: value or "" for key, value in found.groupdict().items()}
         if word == "sheet":
             self._sheet = about["title"].strip()
-        elif word == "place":
+        elif word in ("place", "chapter"):
             pass  # read before any engine, see reports.model.contents
         elif word == "box":
             self._blocks.append(
@@ -188,7 +214,7 @@ class _BookReader:
                 raise self._fault("строка стоит раньше member", "начните с member НАЗВАНИЕ")
             block.members[-1][1].append(self._scalar(text, named=True))
         elif block.word == "table":
-            block.columns.append(self._sourced(_column(text), text))
+            block.columns.append(self._sourced(_column(text, self._shelf.own), text))
         else:
             block.scalars.append(self._scalar(text))
 
@@ -231,7 +257,7 @@ class _BookReader:
         return block.about["good"] or YES, block.about["bad"] or NO
 
     def _scalar(self, text: str, *, named: bool = False) -> Scalar:
-        return self._sourced(_scalar(text, named=named), text)
+        return self._sourced(_scalar(text, self._shelf.own, named=named), text)
 
     def _sourced(self, node: Kind | None, text: str) -> Kind:
         """The column or scalar of a line, which says where its formula is from."""
@@ -249,6 +275,8 @@ class _BookReader:
         block, self._open = self._open, None
         if isinstance(block, ChartLines):
             self._charts.append(block.made())
+        elif block is not None and block.word == "text":
+            self._chapters.append(OwnChapter(block.about["title"], tuple(block.lines)))
         elif block is not None:
             self._blocks.append(self._made(block))
 
@@ -269,6 +297,8 @@ class _BookReader:
             span, _, by = about["rows"].partition(" by ")
             first, last = map(float, span.split("…"))
             step = float(by)
+            if not (step > 0 and 0 <= last - first <= MOST_ROWS * step):
+                raise ValueError(f"строк «{about['rows']}» нет или больше {MOST_ROWS}")
             rows = stepped(first, last, step)
         else:
             rows = self._names[about["rows"]]
@@ -290,29 +320,32 @@ def solved_columns(table: str, model: InputFile) -> Columns:
 
 
 @lru_cache(maxsize=8192)
-def _scalar(text: str, *, named: bool) -> Scalar | None:
+def _scalar(text: str, own: Texts, *, named: bool) -> Scalar | None:
     """Scalar of a line, None where it is none; ``named`` names the quantity in any case."""
     found = _VALUE.fullmatch(text)
     if found is None or found["helper"] or found["expr"] is None:
         return None
     of = found["of"] or (found["key"] if named else "")
     return _known(Scalar(found["key"], found["expr"].strip(), found["source"] or "", of=of,
-                         every=found["every"] or TURN, note=found["note"] or ""))  # fmt: skip
+                         every=found["every"] or TURN, note=found["note"] or ""), own)  # fmt: skip
 
 
 @lru_cache(maxsize=8192)
-def _column(text: str) -> Column | None:
+def _column(text: str, own: Texts) -> Column | None:
     """Column of a line, None where it is none."""
     found = _VALUE.fullmatch(text)
     if found is None:
         return None
     expr = found["expr"] and found["expr"].strip()
-    return _known(Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
-                         every=found["every"] or TURN, helper=bool(found["helper"])))  # fmt: skip
+    column = Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
+                    every=found["every"] or TURN, helper=bool(found["helper"]))  # fmt: skip
+    return _known(column, own)
 
 
-def _known(node: Kind) -> Kind:
+def _known(node: Kind, books: Texts) -> Kind:
     """The node, whose formula is of the language and whose quantity is known.
+
+    ``books`` are own ones, which may declare it.
 
     Raises:
         FormulaError: the formula is none.
@@ -320,6 +353,8 @@ def _known(node: Kind) -> Kind:
     """
     if node.expr is not None:
         parse(node.expr)
+    if books:
+        node = replace(node, own=quantities_of(books).get(node.of or node.key))
     _ = node.quantity
     said, wanted = (name.rpartition("_")[2] for name in (node.key, node.of))
     if node.of and wanted and said != wanted and {said, wanted} <= UNITS.keys():
@@ -334,4 +369,8 @@ def _rows_of(block: _Open) -> tuple[GridRow, ...]:
     cells = [{cell.of: cell for cell in made} for _, made in block.members]
     found = dict.fromkeys(key for column in cells for key in column)
     keys = (*(key for key in found if key not in block.last), *block.last)
-    return tuple(GridRow(key, tuple(column.get(key) for column in cells)) for key in keys)
+    rows = []
+    for key in keys:
+        row = tuple(column.get(key) for column in cells)
+        rows.append(GridRow(key, row, own=next((cell.own for cell in row if cell), None)))
+    return tuple(rows)

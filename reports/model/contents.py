@@ -6,11 +6,12 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 
-from reports.model.book_text import Shelf, house_shelf
+from reports.model.book_text import BookError, Shelf, house_shelf
 
 _PLACE = re.compile(r"^place (before|chain|after) (\d+)$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)
 _SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+): (.+)$", re.MULTILINE)
+MOST_TITLE = 28  # of a sheet: the number of a regime may follow
 _NUMBER = re.compile(r"\s*\(?\{\{.*\}\}\)?$")  # of a journal, filled in for each
 
 
@@ -27,7 +28,7 @@ class SheetChapter:
     smooth: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Contents:
     """Books of each part of the model and chapters of the workbook, in order."""
 
@@ -51,6 +52,8 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
     sheets: dict[str, list[tuple[int, str, str]]] = {}
     for title, chapter, order, heading in _SHEET.findall(whole):
         sheets.setdefault(chapter, []).append((int(order), _NUMBER.sub("", title), heading))
+    if shelf is not None and shelf.own:
+        _check_chapters(shelf, {title for title, _, _ in _CHAPTER.findall(whole)})
     return Contents(
         {part: tuple(names) for part, names in parts.items()},
         tuple(
@@ -58,6 +61,25 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
             for title, colour, smooth in _CHAPTER.findall(whole)
         ),
     )
+
+
+def _check_chapters(shelf: Shelf, known: set[str]) -> None:
+    """Refuse sheets of own books that name no chapter of the workbook."""
+    for name, text in shelf.own:
+        for number, line in enumerate(text.splitlines(), 1):
+            found = _SHEET.fullmatch(line)
+            title = found[1] if found else ""
+            if found is None:
+                continue
+            if found[2] not in known:
+                raise BookError(name, number, line.index(found[2]) + 1,
+                                f"главы «{found[2]}» в книге Excel нет",
+                                "главы: " + ", ".join(sorted(known)))  # fmt: skip
+            if "{{" not in title and (
+                len(title) > MOST_TITLE or re.search(r"[\\/*?:\[\]']", title)
+            ):
+                raise BookError(name, number, 7, f"листа «{title}» в Excel быть не может",
+                                f"до {MOST_TITLE} знаков без \\ / * ? : [ ] '")  # fmt: skip
 
 
 def _ordered(sheets: list[tuple[int, str, str]]) -> tuple[tuple[str, str], ...]:

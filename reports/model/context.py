@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import get_args
 
 from pydantic import BaseModel
@@ -66,6 +67,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "roman": roman,
         "short": short,
         "tie": TIE,
+        **{word: partial(_mark, word) for word in TEXT_WORDS},
         **further,
     }
 
@@ -75,6 +77,16 @@ def diagram_kind(gas: BaseModel) -> str:
     if not isinstance(gas, TableGasSection):
         return "rounded" if isinstance(gas, RoundedGasSection) else "polytropic"
     return "smooth" if gas.interpolation == "monotone" else "straight"
+
+
+# What a chapter's text says of a key: value with unit, number, symbol, symbol = value, places.
+TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig")
+MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
+
+
+def _mark(word: str, key: str) -> str:
+    """What the report puts in place of a key, once its values are known."""
+    return f"⟦{word} {key}⟧"
 
 
 _SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")

@@ -11,7 +11,7 @@ from functools import cached_property
 from kshm.engine.arrangement import Arrangement, pin_counts, pins, rods_beside, throws
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.model.blocks import Block
+from reports.model.blocks import Block, OwnChapter
 from reports.model.charts import ChartSpec
 
 FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
@@ -285,6 +285,8 @@ class Part:
 
     blocks: tuple[Block, ...] = ()
     charts: tuple[ChartSpec, ...] = ()
+    chapters: tuple[OwnChapter, ...] = ()
+    own: frozenset[str] = frozenset()  # nodes of own books
 
 
 def stepped(first: float, last: float, step: float) -> tuple[float, ...]:

@@ -17,6 +17,7 @@ from typing import Any
 
 import tomlkit
 
+from kshm.defaults import PART_SHARES
 from kshm.engine.masses import Estimate
 from kshm.mechanics.masses import PISTON, ROD, THROW, area_masses
 from reports.inputs.load import load_mapping
@@ -88,9 +89,12 @@ def generate_engine(
     layout: str = "inline",
     strokes: int = 4,
     kind: str = "petrol",
+    strength: bool = False,
     **given: float | None,
 ) -> NewEngine:
     """Engine for a task, ``given`` as fields of `EngineTask`; usual values elsewhere.
+
+    ``strength`` adds usual sizes of piston, pin and rod.
 
     Raises:
         InputError: there is no such engine.
@@ -127,6 +131,9 @@ def generate_engine(
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
+    if strength:
+        data["strength"], parts = usual_parts(kind, bore, sizes.pin)
+        notes |= parts
     notes = {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}
     return NewEngine(data, with_spans(notes, kind), head)
 
@@ -281,6 +288,21 @@ def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
     }  # fmt: skip
 
 
+def usual_parts(kind: str, bore: float, crankpin: float) -> tuple[dict[str, Any], Notes]:
+    """Section [strength]: usual sizes [mm], each with the ratio that it follows from."""
+    section: dict[str, Any] = {"kind": kind}
+    notes, sizes = dict[str, str](), {"bore": bore, "crankpin": crankpin}
+    for key, (base, petrol, diesel) in PART_SHARES.items():
+        low, high = diesel if kind == "diesel" else petrol
+        share = (low + high) / 2
+        value = round(share * sizes[base], 1 if share * sizes[base] > _FINE_SIZE else 2)
+        sizes[key] = section[f"{key}_mm"] = value
+        of = {"bore": "D", "crankpin": "диаметра шейки"}.get(base, f"{base}_mm")
+        span = f"{number_text(low)}…{number_text(high)}"
+        notes[f"strength.{key}_mm"] = f"{number_text(round(share, 4))} {of} (обычно {span})"
+    return section, notes
+
+
 def timing_notes(timing: Phases) -> Notes:
     """Notes on the phases."""
     bank = "угол из обычных для такого числа цилиндров; впишите свой вместе с фазами"
@@ -295,6 +317,7 @@ def timing_notes(timing: Phases) -> Notes:
     }
 
 
+_FINE_SIZE = 10.0  # mm, from which tenths are enough
 FIRST = ("engine", "geometry", "regime", "gas")
 LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 
@@ -308,6 +331,11 @@ def file_text(engine: NewEngine) -> str:
     lines += ["", f"# {LINE}"]
     for name in rest:
         lines += ["", *_section(name, engine.data[name], engine.notes)]
+    books = dict(engine.data.get("books", ()))
+    lines += ["", "[books] # тексты своих книг"] if books else []
+    lines += [f"{tomlkit.key(name).as_string()} = {_text(text)}" for name, text in books.items()]
+    for name, values in (engine.data.get("own") or {}).items():
+        lines += ["", *_keys(f"own.{name}", values, {}, {}, f"[own.{name}]")]
     if "report" not in engine.data:
         lines += ["", "[report] # фамилия, группа и вуз для титульного листа"]
         lines += ['student = ""', 'group = ""', 'institution = ""']
@@ -318,6 +346,11 @@ def file_text(engine: NewEngine) -> str:
         lines += ["", *_keys("regimes", plain, {}, {}, "[[regimes]]")]
         lines += ["", *_keys("gas", gas["gas"], {}, {}, "[regimes.gas]")]
     return "\n".join(lines) + "\n"
+
+
+def _text(text: str) -> str:
+    """A text of many lines as TOML writes it."""
+    return tomlkit.string(text, literal="'''" not in text, multiline=True).as_string()
 
 
 def _section(name: str, values: Mapping[str, Any], notes: Notes) -> Iterator[str]:

@@ -222,13 +222,13 @@ class StudyBook:
         for number, text in enumerate([*(axis.key for axis in self.plan.axes), *names, "error"], 1):
             self._data.column_dimensions[get_column_letter(number)].width = max(16, len(text) + 3)
         self._data.row_dimensions[1].height, self._data.row_dimensions[2].height = 20, 62
-        self._formats = [format_of(name) for name in names]
+        self._formats = [format_of(name, self.wanted) for name in names]
         self._data.freeze_panes = Cell(DATA, _FIRST, len(self.plan.axes) + 1).coordinate
         last = get_column_letter(len(self.plan.axes))
         lay(self._data, rows=f"1:{_FIRST - 1}", columns=f"A:{last}")
         keys = [axis.key for axis in self.plan.axes]
         titles = [_headed(axis.title, axis.unit) for axis in self.plan.axes]
-        titles += [_headed(*described(name)) for name in names]
+        titles += [_headed(*described(name, self.wanted)) for name in names]
         self._data.append([self._head(text) for text in (*keys, *names, "error")])
         self._data.append([self._head(text) for text in (*titles, "Почему нет результата")])
 
@@ -294,11 +294,11 @@ class StudyBook:
         )  # fmt: skip
         for name, extreme in self._extremes.items():
             if extreme.at_largest:
-                title, unit = described(name)
+                title, unit = described(name, self.wanted)
                 largest, smallest = (
                     WriteOnlyCell(sheet, v) for v in (extreme.largest, extreme.smallest)
                 )
-                largest.number_format = smallest.number_format = format_of(name)
+                largest.number_format = smallest.number_format = format_of(name, self.wanted)
                 still = _level((extreme.smallest, extreme.largest)) is not None
                 places = [
                     (_NOWHERE,) * len(keys) if still else at
@@ -330,13 +330,17 @@ class StudyBook:
                 curves.append(curve)
             if not curves:
                 continue
-            title, unit = described(name)
+            title, unit = described(name, self.wanted)
             title = capital(title)
             if all(curve.name for curve in curves):
                 title += f"; кривые: {uncapital(self.plan.axes[1].title)}"
             ends = (float(min(x.values)), float(max(x.values)))
             chart = curves_chart(
-                title, _headed(x.title, x.unit), _headed(symbol_of(name), unit), curves, ends
+                title,
+                _headed(x.title, x.unit),
+                _headed(symbol_of(name, self.wanted), unit),
+                curves,
+                ends,
             )
             level = _level(values)
             if level is not None:  # else the axis would show rounding

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from kshm.nomenclature.quantity import Quantity, quantity
+from reports.exports.own_books import own_numbers
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
@@ -251,7 +252,19 @@ def results(engines: Sequence[Compared]) -> tuple[Row, ...]:
             row = _result(engines, group, entry)
             if row is not None:
                 rows.append(row)
-    return tuple(rows)
+    return (*rows, *_own_results(engines))
+
+
+def _own_results(engines: Sequence[Compared]) -> Iterator[Row]:
+    """Scalars of own books, in the order of the first engine that has them."""
+    found = [own_numbers(engine.model).scalars for engine in engines]
+    for key in dict.fromkeys(key for scalars in found for key in scalars):
+        about = next(scalars[key][0] for scalars in found if key in scalars)
+        values = [scalars[key][1] if key in scalars else None for scalars in found]
+        numbers = tuple(None if isinstance(value, str) or value is None else float(value)
+                        for value in values)  # fmt: skip
+        if any(number is not None for number in numbers):
+            yield Row("Свои книги", key, capital(about.title), about.symbol, about, numbers)
 
 
 def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str]) -> Row | None:

@@ -18,8 +18,10 @@ from reports.inputs.fields import Field, Path, iter_fields, to_mapping
 from reports.inputs.revisions import Revisions
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.units import number_text
+from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.studies.quantities import ChosenQuantities, of_batch
+from reports.tables.registry import kept_model
 
 MOST_POINTS = 10_000_000
 _EXAMPLE = "пример: --vary geometry.bore_mm=84:92:9"
@@ -178,7 +180,7 @@ def tasks(plan: Plan, wanted: ChosenQuantities, size: int) -> Any:  # noqa: ANN4
 def solved(task: SweepTask) -> Chunk:
     """Every combination is checked like an input file; those that fail keep their reason."""
     errors = [""] * len(task.rows)
-    engines, places = _engines(task, errors)
+    models, engines, places = _engines(task, errors)
     cycles = [cycle for _, cycle in engines]
     values = {name: np.full(len(task.rows), np.nan) for name in task.wanted.names}
     begin = 0
@@ -187,6 +189,8 @@ def solved(task: SweepTask) -> Chunk:
         begin, here = these.stop, places[these]
         numbers_of, reasons = of_batch(raw, task.wanted, cycles[these])
         for name, numbers in numbers_of.items():
+            values[name][here] = numbers
+        for name, numbers in _of_own(models[these], task.wanted).items():
             values[name][here] = numbers
         for row, reason in zip(here, reasons, strict=True):
             errors[row] = reason
@@ -197,10 +201,17 @@ def solved(task: SweepTask) -> Chunk:
     return Chunk(task.rows, values, errors)
 
 
+def _of_own(models: Sequence[InputFile], wanted: ChosenQuantities) -> dict[str, Array]:
+    """Values of own books, by their formulas for each engine."""
+    runs = [Evaluation(kept_model(model)) for model in models if wanted.own]
+    return {name: np.array([float(run.value(name)) for run in runs]) for name in wanted.own}
+
+
 def _engines(
     task: SweepTask, errors: list[str]
-) -> tuple[list[tuple[Engine, CycleRun | None]], list[int]]:
+) -> tuple[list[InputFile], list[tuple[Engine, CycleRun | None]], list[int]]:
     revisions = Revisions(task.raw, task.source, task.paths)
+    models: list[InputFile] = []
     engines: list[tuple[Engine, CycleRun | None]] = []
     places: list[int] = []
     for number, row in enumerate(task.rows):
@@ -209,5 +220,6 @@ def _engines(
         except KshmError as error:
             errors[number] = error.lines()[0]
         else:
+            models.append(revisions.revised)
             places.append(number)
-    return engines, places
+    return models, engines, places

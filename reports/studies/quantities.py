@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from kshm.chain.solve import ChainArrays
 from kshm.cycle.cycle import CycleRun
 from kshm.mechanics.oil_orbit import FilmError
-from kshm.nomenclature.quantity import quantity
+from kshm.nomenclature.quantity import Quantity, quantity
 from kshm.results.case import first_extremes
 from kshm.results.forces import force_tables
 from kshm.results.loads import chain_scalars
@@ -37,16 +37,24 @@ class ChosenQuantities:
     scalars: tuple[str, ...]
     columns: tuple[tuple[str, str], ...]
     slow: bool
+    own: Mapping[str, Quantity] = field(default_factory=dict)  # scalars of own books
 
     @property
     def names(self) -> list[str]:
         """Names of the numbers of one combination, in order."""
         pairs = [f"{table}.{key}.{part}" for table, key in self.columns for part in PARTS]
-        return [*self.scalars, *pairs]
+        return [*self.scalars, *pairs, *self.own]
+
+    def quantity(self, name: str) -> Quantity:
+        """The quantity of a number."""
+        return self.own.get(name) or quantity(name.split(".")[1] if "." in name else name)
 
 
 def choose(
-    base: ChainArrays, names: Sequence[str], cycle: CycleRun | None = None
+    base: ChainArrays,
+    names: Sequence[str],
+    cycle: CycleRun | None = None,
+    own: Mapping[str, Quantity] | None = None,
 ) -> ChosenQuantities:
     """Choose quantities by name, by default the scalars of the chain.
 
@@ -54,6 +62,7 @@ def choose(
         base: the solved base, which tells what there is.
         names: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
         cycle: the calculation that the base's gas comes from.
+        own: quantities of the scalars of own books; without names all of them are taken.
 
     Raises:
         InputError: there is no such quantity.
@@ -67,7 +76,7 @@ def choose(
             for key in quick_tables.get(table, ())
             if _summed_up(key)
         )
-        return ChosenQuantities(scalars, columns, slow=False)
+        return ChosenQuantities(scalars, columns, slow=False, own=own or {})
     solution = Solution(base.batch.engines[0], base, cycle=cycle)
     pairs = {
         f"{table}.{key}": (table, key)
@@ -77,9 +86,11 @@ def choose(
     }
     keys: list[str] = []
     chosen: list[tuple[str, str]] = []
-    slow = False
+    slow, theirs, own = False, dict[str, Quantity](), own or {}
     for name in dict.fromkeys(names):
-        if name in pairs:
+        if name in own:
+            theirs[name] = own[name]
+        elif name in pairs:
             table, key = pairs[name]
             chosen.append((table, key))
             slow |= table not in quick_tables
@@ -87,8 +98,8 @@ def choose(
             keys.append(name)
             slow |= name not in quick_scalars
         else:
-            raise _unknown(name, [*solution.scalars, *pairs])
-    return ChosenQuantities(tuple(keys), tuple(chosen), slow)
+            raise _unknown(name, [*solution.scalars, *pairs, *own])
+    return ChosenQuantities(tuple(keys), tuple(chosen), slow, theirs)
 
 
 def _summed_up(key: str) -> bool:
@@ -114,7 +125,8 @@ def of_batch(
     """
     reasons = [""] * len(raw.batch.engines)
     if wanted.slow:
-        values = {name: np.full(len(reasons), np.nan) for name in wanted.names}
+        solvers = [name for name in wanted.names if name not in wanted.own]
+        values = {name: np.full(len(reasons), np.nan) for name in solvers}
         for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True)):
             try:
                 one = _of_one(Solution(engine, raw, i, cycle), wanted)
@@ -152,11 +164,11 @@ def _summary(table: str, key: str, values: Array, degrees: Array) -> dict[str, A
     return {f"{table}.{key}.{part}": each for part, each in zip(PARTS, numbers, strict=True)}
 
 
-def described(name: str) -> tuple[str, str]:
+def described(name: str, wanted: ChosenQuantities) -> tuple[str, str]:
     """Russian title and unit of a name."""
     table, dot, rest = name.partition(".")
     if not dot:
-        about = quantity(name)
+        about = wanted.quantity(name)
         return about.title, about.unit_label
     key, _, part = rest.rpartition(".")
     about = quantity(key)
@@ -168,9 +180,9 @@ def described(name: str) -> tuple[str, str]:
     return f"{about.title} ({_numbered(table)}), {kinds[part]}", unit
 
 
-def symbol_of(name: str) -> str:
+def symbol_of(name: str, wanted: ChosenQuantities) -> str:
     """Symbol of a name as the report has it; the name itself where there is none."""
-    return quantity(name.split(".")[1] if "." in name else name).symbol or name
+    return wanted.quantity(name).symbol or name
 
 
 def _numbered(table: str) -> str:
@@ -178,8 +190,8 @@ def _numbered(table: str) -> str:
     return f"П{table[1:].replace('_', '.')}" if re.fullmatch(r"P\d(_\d+)+", table) else table
 
 
-def format_of(name: str) -> str:
+def format_of(name: str, wanted: ChosenQuantities) -> str:
     """Number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return excel_format(quantity(name.split(".")[1] if "." in name else name))
+    return excel_format(wanted.quantity(name))

@@ -14,6 +14,7 @@ import numpy as np
 from kshm.chain.solve import chunk_size, solve_batch
 from reports.exports.build import load_input
 from reports.exports.numbers import neutralised
+from reports.exports.own_books import own_numbers
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.background import processors
 from reports.shared.errors import KshmError, OutputError, SystemPartMissing
@@ -172,7 +173,9 @@ def sweep(
     model = loaded.model
     plan = make_plan(model, source.name, vary, pairwise=pairwise)
     engine, cycle = engine_and_cycle(model)
-    wanted = choose(solve_batch([engine]), quantities, cycle)
+    own = {key: about for key, (about, value) in own_numbers(model).scalars.items()
+           if not isinstance(value, str)}  # fmt: skip
+    wanted = choose(solve_batch([engine]), quantities, cycle, own)
     size = options.chunk or chunk_size(engine)
     jobs = options.jobs or processors()
     if plan.count <= _FEW and not options.jobs:

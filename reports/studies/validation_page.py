@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+import numpy as np
 from markupsafe import Markup
 
+from kshm.mechanics.strength import eye_forces
 from reports.document.page.blocks import DocumentInfo, TableBlock, TableColumn, table_block
 from reports.document.page.numbering import Draft, Heading, Label
 from reports.document.page.render import render_pdf
@@ -20,11 +23,12 @@ from reports.exports.numbers import neutralised
 from reports.shared.errors import SystemPartMissing
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
-from reports.shared.russian import capital
+from reports.shared.russian import capital, fixed
 from reports.studies import validation_book as shown
 from reports.studies.validation_book import WORDS, Book, Checked, Counts, validate
 from reports.studies.validation_checks import Check, Verdict
 from reports.studies.validation_registry import SHORT, SOURCES
+from reports.tables.strength_members import EYE_M0, EYE_N0
 
 _TITLE = "Книга сверки с печатными источниками"
 _LOWERED = re.compile("([₀-₉ⱼ]+)")
@@ -259,6 +263,42 @@ def _lines(book: Book) -> Iterator[str]:
         yield from _table(("где", "что", *COUNT_HEADS), rows)
         for checked in tables:
             yield from _section(checked)
+    yield from _strength()
+
+
+_FITS = """
+## Прочность деталей: формулы и статика
+
+Печатного примера расчёта прочности деталей нет, формулы записаны по памяти (Колчин, Демидов) и с
+изданием не сверены. Вторая запись — статика, `kshm/mechanics/strength.py`. Втулка (кольца Ламе),
+стержень (Эйлер) и запасы прочности с ней совпадают; изгиб пальца — до округления 12π/32 до 1,2
+(1,8 %), срез — до 0,85 вместо 8/(3π) (0,2 %); днище лежит между заделанной (0,75) и опёртой
+(1,24) пластинами; овализация тонкого кольца — того же порядка. Знак M₀ сжатой головки взят по
+статике. Коэффициенты верхней головки — приближения: прямая для M₀ завышает его вдесятеро у 100°,
+впятеро у 105° и сходится с брусом только у 90° и 130°.
+"""
+_ANGLES = (90, 100, 105, 110, 115, 120, 125, 130)
+
+
+def _strength() -> Iterator[str]:
+    """How far the fits of the eye are from the curved beam, at each embedding."""
+    yield _FITS
+    rows = []
+    for angle in _ANGLES:
+        beams = [*eye_forces(math.radians(angle), drawn=True),
+                 *eye_forces(math.radians(angle), drawn=False)]  # fmt: skip
+        fits = [0.572 - 0.0008 * angle, 0.00033 * angle - 0.0297,
+                _between(angle, EYE_N0), -_between(angle, EYE_M0)]  # fmt: skip
+        pairs = zip(beams, fits, (4, 5, 5, 5), strict=True)
+        rows.append([f"{angle}°", *(f"{fixed(beam + 0.0, n)} ({fixed(fit + 0.0, n)})"
+                                    for beam, fit, n in pairs)])  # fmt: skip
+    heads = ("φз", "растяжение N₀/P: брус (формула)", "M₀/(Pr)", "сжатие N₀/P", "M₀/(Pr)")
+    yield from _table(heads, rows)
+
+
+def _between(x: float, points: Sequence[tuple[float, float]]) -> float:
+    known, values = np.array(points, dtype=float).T
+    return float(np.interp(x, known, values))
 
 
 def _section(checked: Checked) -> Iterator[str]:

@@ -18,7 +18,8 @@ from reports.inputs.solve_input import MOST_POWER_ERROR
 from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM
-from reports.model.book_text import BookLine
+from reports.model.blocks import nodes_in
+from reports.model.book_text import BookLine, shelf_of
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -26,6 +27,7 @@ from reports.tables.cycle_names import section_of, sizes_are_found
 from reports.tables.cycle_ranges import ranges_of
 from reports.tables.oil_members import oil_names, safety_names
 from reports.tables.rod_share import USUAL_SHARE, is_usual_share
+from reports.tables.strength_members import strength_names
 from reports.tables.torsion_members import torsion_names
 
 Bounds = tuple[float, float]
@@ -166,6 +168,8 @@ def _rounded(scope: Scope) -> dict[str, Any]:
     return {"usual_share": share, "usual_peak": peak, "usual_join": join}
 
 
+BY_FORMULAS = ("strength",)  # books whose numbers no solver gives: they are those of the formulas
+
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
@@ -177,6 +181,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "oil": oil_names,
     "rod_masses": _table_4,
     "safety": safety_names,
+    "strength": strength_names,
     "summary": _summary,
     "torque_orders": _torque_orders,
     "torsion": torsion_names,
@@ -185,16 +190,23 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 
 
 def book_part(book: str, scope: Scope, places: dict[str, BookLine] | None = None) -> Part:
-    """Blocks and charts of a book of the house; ``places`` takes the lines of its nodes."""
+    """Blocks and charts of a book; ``places`` takes the lines of its nodes.
+
+    A book that replaces one of the house has the names of that subject.
+    """
     further = _OF_BOOK.get(book)
     names = names_of(scope, **(further(scope) if further else {}))
-    return read_book(f"{book}.book", names, places=places)
+    return read_book(f"{book}.book", names, shelf_of(scope.input.books).of_book(book), places)
 
 
 def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
+    names, theirs = tuple(names), shelf_of(scope.input.books).names
     parts = [book_part(name, scope) for name in names]
+    own = (part for name, part in zip(names, parts, strict=True) if name in (*theirs, *BY_FORMULAS))
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),
+        tuple(chapter for part in parts for chapter in part.chapters),
+        frozenset(key for part in own for block in part.blocks for key, _ in nodes_in(block)),
     )

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from reports.inputs.fields import Value, iter_fields, tables_shape
+from reports.inputs.own_books import Texts
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
+from reports.model.book_text import shelf_of
 from reports.model.contents import contents_of
 from reports.model.rename import sized, substituted
 from reports.model.shape import Part, Scope
@@ -25,7 +27,8 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
 
     ``remarks`` are lines about the input, told beside the checks.
     """
-    scope, house, regimes = Scope(model), contents_of(), regime_models(model, chain)
+    scope, regimes = Scope(model), regime_models(model, chain)
+    house = contents_of(shelf_of(model.books))
     parts = (
         books(scope, house.parts["before"]),
         chain(model),
@@ -38,7 +41,9 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     blocks = sized(substituted(blocks, stand_ins(model)), smallness_of(model))
     note = left_out_note(model)
     remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
-    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks)
+    chapters = tuple(chapter for part in parts for chapter in part.chapters)
+    own = frozenset().union(*(part.own for part in parts))
+    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks, chapters, own)
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,7 @@ class _Like:
     """An input, the same as any other whose tables are the same."""
 
     shape: tuple[tuple[str, Value | None], ...]
+    books: Texts
     model: InputFile = field(compare=False)
 
 
@@ -57,7 +63,7 @@ def _built_once(like: _Like) -> Model:
 def kept_model(model: InputFile) -> Model:
     """As `build_model`; of inputs of one shape the tables are made once and kept."""
     fields = tuple(iter_fields(model))
-    return _built_once(_Like(tables_shape(fields), model)).with_inputs(model, fields)
+    return _built_once(_Like(tables_shape(fields), model.books, model)).with_inputs(model, fields)
 
 
 def stand_ins(model: InputFile) -> dict[str, str]:
@@ -67,5 +73,5 @@ def stand_ins(model: InputFile) -> dict[str, str]:
 
 def chain(model: InputFile) -> Part:
     """Blocks and charts that a regime has too."""
-    part = books(Scope(model), contents_of().parts["chain"])
-    return Part(substituted(part.blocks, stand_ins(model)), part.charts)
+    part = books(Scope(model), contents_of(shelf_of(model.books)).parts["chain"])
+    return replace(part, blocks=substituted(part.blocks, stand_ins(model)))

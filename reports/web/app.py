@@ -22,6 +22,7 @@ from starlette.staticfiles import StaticFiles
 
 from reports.grading.issuing.register import SECRET, kept_secret
 from reports.inputs.form_fields import Data
+from reports.inputs.own_books import OWNER
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.inputs.template import list_samples
@@ -58,13 +59,17 @@ def create_app(settings: Settings) -> Guard:
     private_dir(settings.data, SECRET)
     # What makes links unguessable, kept beside the files.
     secret, count = kept_secret(settings.data / SECRET), settings.workers or processors()
-    jobs = Jobs(settings.data / "jobs", secret, settings.dask, count)
-    classes = Classes(settings.data / "classes", secret, settings.dask)
+    books = settings.own_books
+    own = {OWNER: books}
+    jobs = Jobs(settings.data / "jobs", secret, settings.dask, count, own)
+    classes = Classes(settings.data / "classes", secret, settings.dask, own)
 
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         async with jobs.working(), classes.working():
-            with Workers(count, engine.ready, most=5_000) as app.state.workers:  # answers of one
+            with Workers(
+                count, engine.ready, settings.own_books, most=5_000
+            ) as app.state.workers:  # answers of one
                 yield
 
     routes = [

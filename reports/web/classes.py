@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hmac
 import secrets
+from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
 
@@ -39,8 +40,10 @@ class Classes(Queue):
     timeout_s = 3600.0
     pack = ("issued.zip", "issued", "*/*.xlsx")
 
-    def __init__(self, folder: Path, secret: bytes, dask: str | None) -> None:
-        super().__init__(folder, secret, dask)
+    def __init__(
+        self, folder: Path, secret: bytes, dask: str | None, more: Mapping[str, str] | None = None
+    ) -> None:
+        super().__init__(folder, secret, dask, more=more)
         self.signer, self.tries = URLSafeSerializer(secret, "student"), Rate(10, 60)
 
     def routes(self) -> list[Route]:

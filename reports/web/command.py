@@ -33,17 +33,23 @@ from reports.shared.files import private_dir, reason
              help="Папка, где лежат файлы и группы (по умолчанию kshm-data).")  # fmt: skip
 @click.option("--public", metavar="АДРЕС", default="",
               help="Адрес за прокси, например https://kafedra.example/kshm.")  # fmt: skip
+@path_option("--books", metavar="ПАПКА",
+             help="Разрешить свои книги расчётов из этой папки (без ключа — никаких).")  # fmt: skip
 @dask_option
 @verbose_option
-def serve(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
+def serve(
+    port: int, host: str, folder: Path, public: str, books: Path | None, dask: str | None
+) -> int:
     """Открыть страницу в браузере: числа, диаграммы, файлы, группа преподавателя."""
     packages = ("starlette", "uvicorn", "itsdangerous")
     need_packages("для kshm serve", **{name: name for name in packages})
     address = urlsplit(public)
     if public and (address.scheme not in ("http", "https") or not address.hostname):
         raise KshmError(f"--public {public}: нужен адрес вида https://kafedra.example/kshm")
+    if books is not None and not books.is_dir():
+        raise KshmError(f"--books {books}: нет такой папки")
     with _private():
-        return _served(port, host, folder, public, dask)
+        return _served(port, host, folder, public, books, dask)
 
 
 @contextlib.contextmanager
@@ -56,7 +62,9 @@ def _private() -> Iterator[None]:
         os.umask(before)
 
 
-def _served(port: int, host: str, folder: Path, public: str, dask: str | None) -> int:
+def _served(
+    port: int, host: str, folder: Path, public: str, books: Path | None, dask: str | None
+) -> int:
     """Serve until somebody ends it."""
     from reports.grading.issuing.register import SECRET, kept_secret
 
@@ -70,7 +78,7 @@ def _served(port: int, host: str, folder: Path, public: str, dask: str | None) -
 
     wide = host in ("0.0.0.0", "::")
     hosts = (socket.gethostname(), "*") if wide else (host,)
-    app = create_app(Settings(folder.resolve(), hosts, public, dask))
+    app = create_app(Settings(folder.resolve(), hosts, public, dask, books=books))
     shown = public.rstrip("/") or f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{port}"
     click.echo(f"Страница: {shown}/")
     click.echo(f"Преподавателю: {shown}/teacher#{token_of(kept_secret(folder / SECRET))}")

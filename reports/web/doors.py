@@ -94,6 +94,12 @@ class Settings:
     per_s: float = 200.0  # requests a second of one address: a class may stand behind one
     workers: int | None = None  # processes that solve; None takes the processors
     body_s: float = 30.0  # seconds that the body of a form may take
+    books: Path | None = None  # folder of own books that the owner allows; None allows none
+
+    @property
+    def own_books(self) -> str:
+        """The folder as processes are told of it, empty where no books are allowed."""
+        return "" if self.books is None else str(self.books.resolve())
 
 
 class Rate:

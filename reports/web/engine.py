@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, astuple
 from pathlib import Path
@@ -18,6 +19,7 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.form_fields import Data, absent, groups, without_foreign
 from reports.inputs.load import load_remote, parsed
 from reports.inputs.normalise import normalise
+from reports.inputs.own_books import OWNER
 from reports.inputs.ranges import split_ranges
 from reports.inputs.solve_input import solved
 from reports.new.generate import NewEngine, file_text
@@ -110,7 +112,11 @@ def _of_page(words: str) -> str:
     return words
 
 
-def ready() -> Callable[..., Data]:
-    """Prepare a worker: import everything, solve once; return the caller."""
+def ready(books: str = "") -> Callable[..., Data]:
+    """Prepare a worker: import everything, solve once; return the caller.
+
+    ``books`` is the folder of own books that the owner allows.
+    """
+    os.environ[OWNER] = books
     answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")
     return operator.call

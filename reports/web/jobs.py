@@ -61,8 +61,12 @@ def failed(why: str) -> dict[str, Any]:
     return {"state": "failed", "lines": [why]}
 
 
-async def run(arguments: Sequence[str], folder: Path, timeout_s: float) -> dict[str, Any]:
+async def run(
+    arguments: Sequence[str], folder: Path, timeout_s: float, more: Mapping[str, str] | None = None
+) -> dict[str, Any]:
     """Run a command of kshm in a folder with limits; kill its process group at the end.
+
+    ``more`` are variables of its environment.
 
     Returns:
         Whether it is done or failed, and what it said.
@@ -70,6 +74,7 @@ async def run(arguments: Sequence[str], folder: Path, timeout_s: float) -> dict[
     kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
     home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
     kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
+    kept |= more or {}
     kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
         sys.executable, "-c", _KSHM, str(os.getpid()), *arguments, cwd=folder, env=kept,
@@ -113,15 +118,18 @@ OFFERED = {  # titles of files and what makes them
 class Queue:
     """Commands in folders of one folder, ``at_once`` together.
 
-    ``secret`` makes names unguessable; a cluster at ``dask`` does what commands leave to it.
+    ``secret`` makes names unguessable; ``more`` are variables of the commands' environment; a
+    cluster at ``dask`` does what commands leave to it.
     """
 
     timeout_s: ClassVar[float]  # that a command may take
     pack: ClassVar[tuple[str, str, str]]  # archive of its many files, their folder and pattern
 
-    def __init__(self, folder: Path, secret: bytes, dask: str | None, at_once: int = 1) -> None:
+    def __init__(self, folder: Path, secret: bytes, dask: str | None, at_once: int = 1,
+                 more: Mapping[str, str] | None = None) -> None:  # fmt: skip
         self.folder, self.secret, self.at_once = folder, secret, at_once
         self.far = ["--dask", dask] if dask else []
+        self.more = more or {}
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self._ready = asyncio.Semaphore(0)  # as many as wait
@@ -185,7 +193,7 @@ class Queue:
 
     async def _make(self, folder: Path) -> dict[str, Any]:
         command = read_json(folder / "order.json").get("command", ())
-        done = await run(command, folder, self.timeout_s)
+        done = await run(command, folder, self.timeout_s, self.more)
         target, into, pattern = self.pack
         files = {path.relative_to(folder / into).as_posix(): path
                  for path in sorted((folder / into).glob(pattern))}  # fmt: skip

@@ -9,7 +9,9 @@ import re
 from collections.abc import Iterable
 from functools import lru_cache
 
-from reports.model.contents import SheetChapter, contents_of
+from reports.model.blocks import Model
+from reports.model.book_text import shelf_of
+from reports.model.contents import Contents, SheetChapter, contents_of
 
 _REGIME = re.compile(r" р(\d+)$")
 _NUMBER = re.compile(r" \((?P<a>\d+)\)$|(?<=[а-я]) (?P<b>\d+)$")
@@ -19,14 +21,17 @@ DIAGRAMS = "Диаграммы"
 
 
 @lru_cache(maxsize=512)
-def place_of(sheet: str) -> tuple[int, int, int, int]:
-    """Where a sheet stands: chapter, place in it, regime, number of the journal."""
+def place_of(sheet: str, contents: Contents | None = None) -> tuple[int, int, int, int]:
+    """Where a sheet stands: chapter, place in it, regime, number of the journal.
+
+    ``contents`` are those of the house if none are given; so of the other functions.
+    """
     regime = _REGIME.search(sheet)
     base = _REGIME.sub("", sheet)
     number = _NUMBER.search(base)
     name = base if number is None else _NUMBER.sub("", base)
     order = (int(regime[1]) if regime else 0, int(number["a"] or number["b"]) if number else 0)
-    for chapter, about in enumerate(contents_of().chapters):
+    for chapter, about in enumerate((contents or contents_of()).chapters):
         if base == diagrams_of(about):
             return chapter, -1, *order
         for place, (title, _) in enumerate(about.sheets):
@@ -35,22 +40,27 @@ def place_of(sheet: str) -> tuple[int, int, int, int]:
     raise LookupError(f"no book says where the sheet {sheet!r} stands")
 
 
-def chapter_of(sheet: str) -> SheetChapter:
+def contents_for(model: Model) -> Contents:
+    """Chapters of a model's workbook, with those of its own books."""
+    return contents_of(shelf_of(model.input.books))
+
+
+def chapter_of(sheet: str, contents: Contents | None = None) -> SheetChapter:
     """The chapter of a sheet."""
-    return contents_of().chapters[place_of(sheet)[0]]
+    return (contents or contents_of()).chapters[place_of(sheet, contents)[0]]
 
 
-def is_smooth_sheet(sheet: str) -> bool:
+def is_smooth_sheet(sheet: str, contents: Contents | None = None) -> bool:
     """Whether the curves of a sheet have no corners; those of other kinds of books may."""
     try:
-        return chapter_of(sheet).smooth
+        return chapter_of(sheet, contents).smooth
     except LookupError:
         return False
 
 
-def ordered(sheets: Iterable[str]) -> list[str]:
+def ordered(sheets: Iterable[str], contents: Contents | None = None) -> list[str]:
     """Sheets by chapters; those of further regimes behind all of the first."""
-    return sorted(sheets, key=lambda s: (place_of(s)[2], *place_of(s)))
+    return sorted(sheets, key=lambda s: (place_of(s, contents)[2], *place_of(s, contents)))
 
 
 def diagrams_of(chapter: SheetChapter) -> str:
@@ -58,10 +68,10 @@ def diagrams_of(chapter: SheetChapter) -> str:
     return f"{DIAGRAMS}, {chapter.title[0].lower()}{chapter.title[1:]}"[:31]
 
 
-def heading(sheet: str) -> str:
+def heading(sheet: str, contents: Contents | None = None) -> str:
     """What stands above a sheet and in the contents."""
-    chapter, place, regime, number = place_of(sheet)
-    about = contents_of().chapters[chapter]
+    chapter, place, regime, number = place_of(sheet, contents)
+    about = (contents or contents_of()).chapters[chapter]
     if place < 0:
         return f"{DIAGRAMS}: {about.title[0].lower()}{about.title[1:]}"
     text = about.sheets[place][1]

@@ -29,7 +29,7 @@ from kshm.nomenclature.quantity import quantity
 from reports.model.charts import ChartSpec
 from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
-from reports.workbook.chapters import is_smooth_sheet
+from reports.workbook.chapters import contents_for, is_smooth_sheet
 from reports.workbook.chart_ranges import CurveRanges, Drawn, limits, marks, rays
 from reports.workbook.layout import FIRST_ROW, Layout
 
@@ -64,7 +64,7 @@ def make_chart(
     curves = spec.drawn_by("workbook")
     for number, series in enumerate(curves):
         chart.series.append(
-            _series(series, number, layout, smooth=is_smooth(spec), stems=spec.stems)
+            _series(series, number, layout, smooth=is_smooth(spec, layout), stems=spec.stems)
         )
     if spec.kind == "wear":
         for line in rays(spec, layout):
@@ -270,16 +270,17 @@ def _divide_alike(chart: ScatterChart, limit: float) -> None:
     chart.x_axis.majorUnit = chart.y_axis.majorUnit = step
 
 
-def is_smooth(spec: ChartSpec) -> bool:
+def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
     """Curves of motion and inertia have no corners: they are drawn round between their points."""
-    return spec.x_is_angle and is_smooth_sheet(spec.sheet)
+    return spec.x_is_angle and is_smooth_sheet(spec.sheet, contents_for(layout.model))
 
 
 def _series(
     series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool
 ) -> XYSeries:
     node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
-    known = node.quantity if node is not None else quantity(series.y.split(".")[1])
+    row = layout.model.grid_rows.get(series.y)
+    known = node.quantity if node else row.quantity if row else quantity(series.y.split(".")[1])
     name = series.name or known.symbol
     line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)

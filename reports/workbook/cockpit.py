@@ -17,7 +17,7 @@ from reports.model.shape import Shape, pin_figure, pin_name
 from reports.shared.russian import capital
 from reports.tables.left_out import left_out_note
 from reports.workbook import styles
-from reports.workbook.chapters import chapter_of, heading
+from reports.workbook.chapters import chapter_of, contents_for, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
 from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell
@@ -192,7 +192,8 @@ def _sheets(sheet: Worksheet, titles: Sequence[str], model: Model, row: int) -> 
     """Links to all sheets by chapters."""
     sheet.cell(row, 1, "Листы").style = styles.SUBTITLE
     others = [title for title in titles if title != sheet.title]
-    for chapter, group in groupby(others, chapter_of):
+    contents = contents_for(model)
+    for chapter, group in groupby(others, lambda title: chapter_of(title, contents)):
         row += 1
         head = sheet.cell(row, 1, chapter.title)
         head.font = CellFont(name=styles.FONT, size=11, bold=True, color="FFFFFF")
@@ -201,7 +202,7 @@ def _sheets(sheet: Worksheet, titles: Sequence[str], model: Model, row: int) -> 
         for title in group:
             row += 1
             link(sheet, Cell(sheet.title, row, 1), title, title)
-            sheet.cell(row, 2, heading(title)).style = styles.LINE
+            sheet.cell(row, 2, heading(title, contents)).style = styles.LINE
     return row + 1
 
 

@@ -20,6 +20,7 @@ from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.workbook.orders import Grid as AngleGrid
 from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 
+OWN_SHEET, BOOK_MARK = "Свои книги", "▸ Книга: "  # of texts of own books; before their names
 INPUT_SHEET = "Исходные данные"
 CONTENTS_SHEET = "Содержание"
 WAVES_SHEET = "Синусы и косинусы"

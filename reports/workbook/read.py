@@ -16,10 +16,18 @@ from typing import TYPE_CHECKING, Any
 
 from reports.inputs.fields import POINT_KEYS, iter_fields
 from reports.inputs.load import Loaded, load_mapping
+from reports.inputs.own_books import MOST_LINES, DeclarationError, Texts, path_of_cell
 from reports.inputs.registry import SECTIONS
 from reports.shared.errors import InputError, Problem
 from reports.workbook.intake import check_package
-from reports.workbook.layout import INPUT_SHEET, UNIT_COLUMN, VALUE_COLUMN, quoted
+from reports.workbook.layout import (
+    BOOK_MARK,
+    INPUT_SHEET,
+    OWN_SHEET,
+    UNIT_COLUMN,
+    VALUE_COLUMN,
+    quoted,
+)
 
 if TYPE_CHECKING:  # openpyxl is loaded when a book is read
     from openpyxl.cell import ReadOnlyCell
@@ -37,11 +45,12 @@ def load_workbook_input(path: Path) -> Loaded:
             messages name sheet and cell.
     """
     data = check_package(path)
-    cells, places, units = _input_cells(data, path.name)
-    raw: dict[str, Any] = {}
+    cells, places, units, books = _input_cells(data, path.name)
+    raw: dict[str, Any] = {"books": books} if books else {}
+    texts = tuple(books.items())
     wanted: dict[tuple[str | int, ...], str] = {}
     for name, value in cells.items():
-        target = _path_of(name)
+        target = _path_of(name) or _own_path(name, texts)
         if target is None:
             continue
         wanted[target] = places[name]
@@ -86,8 +95,18 @@ def _plain(unit: str) -> str:
     return re.sub(r"\s", "", unit).casefold()
 
 
-def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, str], dict[str, str]]:
-    """Values of all named input cells, their places as ``лист!ячейка``, units beside them."""
+def _own_path(name: str, books: Texts) -> tuple[str | int, ...] | None:
+    """Path of an own input; none where the books are wrong, of which the check tells."""
+    try:
+        return path_of_cell(name, books)
+    except DeclarationError:
+        return None
+
+
+def _input_cells(
+    data: bytes, source: str
+) -> tuple[dict[str, Any], dict[str, str], dict[str, str], dict[str, str]]:
+    """Values of all named input cells, their places as ``лист!ячейка``, units, own books."""
     from openpyxl import load_workbook
     from openpyxl.utils.cell import coordinate_to_tuple
 
@@ -97,6 +116,7 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
             book = load_workbook(io.BytesIO(data), read_only=True)  # charts take half of the time
             title = _input_sheet(book)
             sheet = _cells_of(book, title)
+            books = _books_of(_cells_of(book, OWN_SHEET))
     except Exception as error:  # openpyxl raises anything on a damaged book
         what = "книга повреждена и не читается"
         problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
@@ -132,7 +152,28 @@ def _input_cells(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, st
     if _ALWAYS not in cells:
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
-    return cells, places, units
+    return cells, places, units, books
+
+
+def _books_of(cells: dict[tuple[int, int], ReadOnlyCell]) -> dict[str, str]:
+    """Texts of own books by name, as their sheet has them line by line."""
+    books: dict[str, str] = {}
+    lines: list[str] = []
+    name, last = "", 0
+    for row, column in sorted(cells):
+        text = str(cells[row, column].value)
+        if column != 1:
+            continue
+        if text.startswith(BOOK_MARK):
+            books[name] = "\n".join(lines) + "\n"
+            name, lines = text.removeprefix(BOOK_MARK), []
+        elif name:
+            lines += [""] * min(row - last - 1, MOST_LINES)
+            lines.append(text)
+        last = row
+    books[name] = "\n".join(lines) + "\n"
+    del books[""]
+    return books
 
 
 def _cells_of(book: Workbook, title: str) -> dict[tuple[int, int], ReadOnlyCell]:

@@ -14,22 +14,25 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
+from reports.model.contents import Contents
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
 from reports.shared.gc_pause import uncollected
 from reports.workbook import cockpit, motion, styles
 from reports.workbook.caches import finish
-from reports.workbook.chapters import chapter_of, diagrams_of, heading, ordered
+from reports.workbook.chapters import chapter_of, contents_for, diagrams_of, heading, ordered
 from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
 from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
+    BOOK_MARK,
     CONTENTS_SHEET,
     FIRST_ROW,
     HEADER_ROW,
     INPUT_SHEET,
     NOTE_ROW,
     NUMBER_ROW,
+    OWN_SHEET,
     SOURCE_COLUMN,
     TITLE_ROW,
     WAVES_SHEET,
@@ -125,6 +128,7 @@ def _cell(
 
 
 _MOST_CHECKS = 40
+_TEXT_WIDTH = 110
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
 _REMARK_WIDTH = 115  # of the columns of a list
 _ROWS_PX = 64  # height of the rows above the charts of a sheet of diagrams
@@ -136,18 +140,40 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     check_names(layout)
     writer = BlockWriter(layout, values or evaluate_model(model))
     with uncollected():
-        return saved(assemble(model, writer), writer.caches)
+        book = assemble(model, writer)
+        write_texts(book, model)
+        return saved(book, writer.caches)
+
+
+def write_texts(book: Workbook, model: Model) -> None:
+    """The texts of own books, line by line: an edited workbook is calculated by them again."""
+    if not model.input.books:
+        return
+    sheet = book.create_sheet(OWN_SHEET)
+    contents = contents_for(model)
+    _heading(sheet, heading(OWN_SHEET, contents))
+    sheet.column_dimensions["A"].width = _TEXT_WIDTH
+    row = FIRST_ROW
+    for name, text in model.input.books:
+        styles.as_text(sheet.cell(row, 1, f"{BOOK_MARK}{name}")).style = styles.SUBTITLE
+        lines = text.splitlines()
+        for number, line in enumerate(lines, row + 1):
+            if line:
+                styles.as_text(sheet.cell(number, 1, line)).style = styles.LINE
+        row += len(lines) + 2
+    sheet.sheet_properties.tabColor = chapter_of(OWN_SHEET, contents).colour
+    set_page(sheet, ())
 
 
 def assemble(
     model: Model, writer: BlockWriter, legend: Sequence[tuple[str, str]] = styles.LEGEND
 ) -> Workbook:
     """All sheets of a model's blocks, where the writer's layout puts them."""
-    layout = writer.layout
+    layout, contents = writer.layout, contents_for(model)
     book = Workbook()
     book.remove(book.active)
     styles.add_styles(book)
-    for title in (CONTENTS_SHEET, *ordered((INPUT_SHEET, *model.sheets))):
+    for title in (CONTENTS_SHEET, *ordered((INPUT_SHEET, *model.sheets), contents)):
         book.create_sheet(title)
     inputs = book[INPUT_SHEET]
     _heading(inputs, heading(INPUT_SHEET))
@@ -160,13 +186,15 @@ def assemble(
         if notes:
             _note(book[title], " ".join(dict.fromkeys(notes)))
     if layout.orders or layout.run_orders:
-        waves = book.create_sheet(WAVES_SHEET, _index(book, WAVES_SHEET))
+        waves = book.create_sheet(WAVES_SHEET, _index(book, WAVES_SHEET, contents))
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):
-            _heading(book.create_sheet(title, _index(book, title)), heading(title))
+            _heading(
+                book.create_sheet(title, _index(book, title, contents)), heading(title, contents)
+            )
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
         cockpit.write_what_if(book, model, writer)
     verdict = write_verdict(book, model, writer)
@@ -175,7 +203,7 @@ def assemble(
     )
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
-        sheet.sheet_properties.tabColor = chapter_of(sheet.title).colour
+        sheet.sheet_properties.tabColor = chapter_of(sheet.title, contents).colour
         # Of the points under the charts of the mechanism nobody needs a print.
         alone = sheet.title == motion.SHEET
         set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)
@@ -209,7 +237,7 @@ def _heading(sheet: Worksheet, title: str) -> None:
 
 def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
-    _heading(sheet, heading(sheet.title))
+    _heading(sheet, heading(sheet.title, contents_for(model)))
     for block in blocks:
         if isinstance(block, TableSpec):
             writer.table(sheet, block)
@@ -242,7 +270,8 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
     """Charts beside or below their tables, or on their chapter's sheet; where they stand."""
     boxes_by_sheet: dict[str, list[Box]] = {}
     homeless: dict[str, list[ChartSpec]] = {}
-    for title in ordered(model.sheets):
+    contents = contents_for(model)
+    for title in ordered(model.sheets, contents):
         sheet = book[title]
         specs: list[ChartSpec] = []
         blank: list[ChartSpec] = []
@@ -253,13 +282,13 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
             _say_blank(sheet, blank)
         boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
         if boxes is None:
-            homeless.setdefault(diagrams_of(chapter_of(title)), []).extend(specs)
+            homeless.setdefault(diagrams_of(chapter_of(title, contents)), []).extend(specs)
         else:
             boxes_by_sheet[title] = boxes
             _draw(sheet, specs, boxes, writer)
     for title, specs in homeless.items():
-        sheet = book.create_sheet(title, _index(book, title))
-        _heading(sheet, heading(title))
+        sheet = book.create_sheet(title, _index(book, title, contents))
+        _heading(sheet, heading(title, contents))
         boxes_by_sheet[title] = flow(
             [pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN
         )
@@ -296,9 +325,9 @@ def _draw(
         writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
 
 
-def _index(book: Workbook, title: str) -> int:
+def _index(book: Workbook, title: str, contents: Contents) -> int:
     """Where a sheet's place among the others is."""
-    return 1 + ordered([*book.sheetnames[1:], title]).index(title)
+    return 1 + ordered([*book.sheetnames[1:], title], contents).index(title)
 
 
 def _note(sheet: Worksheet, text: str) -> None:

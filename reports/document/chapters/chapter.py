@@ -37,6 +37,8 @@ _COURSE = _SHORT | {
     "balance",
     "torsion",
     "oil",
+    "strength",
+    "own",
     "regimes",
     "checks",
     "appendices",
@@ -59,6 +61,8 @@ def relevant_chapters(model: InputFile) -> set[str]:
     """Chosen chapters that apply to the engine."""
     lacking = {"torsion"} if model.torsion is None else set()
     lacking |= {"oil"} if model.bearings is None else set()
+    lacking |= {"strength"} if model.strength is None else set()
+    lacking |= set() if model.books else {"own"}
     lacking |= {"cycle"} if section_of(model) is None else set()
     shape = Shape.of(model)
     lacking |= {"balance", "companions"} if shape.offset or shape.articulated else set()

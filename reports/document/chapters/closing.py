@@ -8,7 +8,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import balance, oil, rationale, regimes, torsion
+from reports.document.chapters import balance, oil, rationale, regimes, strength, torsion
 from reports.document.chapters.chapter import (
     BOOK,
     Chapter,
@@ -72,6 +72,9 @@ SOURCES = {
         "Booker, J. F. Dynamically loaded journal bearings : mobility method of solution / "
         "J. F. Booker // Transactions of the ASME. Journal of Basic Engineering. — 1965. — "
         f"Vol. 87. — P. 537–546. {_TEXT}. — На английском языке.",
+    "kolchin":
+        "Колчин, А. И. Расчёт автомобильных и тракторных двигателей : учебное пособие для вузов / "
+        f"А. И. Колчин, В. П. Демидов. — 4-е изд. — Москва : Высшая школа, 2008. — 496 с. {_TEXT}.",
     "serensen":
         "Серенсен, С. В. Несущая способность и расчет деталей машин на прочность / "
         "С. В. Серенсен, В. П. Когаев, Р. М. Шнейдерович. — 3-е изд. — Москва : "
@@ -225,7 +228,8 @@ def _further(chapter: Chapter) -> list[Markup]:
     names = chosen(chapter.input)
     lines = {
         "rationale": rationale.concluded, "balance": balance.concluded,
-        "torsion": torsion.concluded, "oil": oil.concluded, "regimes": regimes.concluded,
+        "torsion": torsion.concluded, "oil": oil.concluded, "strength": strength.concluded,
+        "regimes": regimes.concluded,
     }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 

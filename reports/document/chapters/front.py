@@ -29,6 +29,7 @@ _KEYWORDS = (
     ("balance", "уравновешенность"),
     ("torsion", "крутильные колебания"),
     ("oil", "масляная плёнка"),
+    ("strength", "прочность деталей"),
 )
 # What the work is to find, by the chapters that tell it.
 _AIMS = (
@@ -38,6 +39,7 @@ _AIMS = (
     ({"crankpin", "journals", "bearings", "running"}, "нагрузки на шейки коленчатого вала"),
     ({"balance"}, "уравновешенность и неравномерность хода двигателя"),
     ({"torsion"}, "крутильные колебания вала"),
+    ({"strength"}, "прочность поршня, пальца, шатуна и щёк"),
     ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
 )
 _MOST_AIMS = 4  # of the first that a sentence names

@@ -17,6 +17,7 @@ from typing import Any
 
 import tomlkit
 
+from reports.exports.own_books import refuse_faults
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import check_for_leaks, handout_bytes
 from reports.grading.issuing.register import (
@@ -33,6 +34,7 @@ from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import iter_fields, set_value, tables_shape
 from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
 from reports.inputs.normalise import read_text
+from reports.inputs.own_books import with_books
 from reports.inputs.ranges import SECTION, ParameterRange, read_ranges, split_ranges
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import atomic_dir
@@ -76,7 +78,9 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     text = read_text(path)
     loaded = load_text(text, source=path.name, folder=path.parent)
     raw, section = split_ranges(tables_of(text, source=path.name))
+    raw, _ = with_books(raw, path.parent, path.name)
     raw = with_points(raw, path.parent, path.name).raw
+    refuse_faults(loaded.model)
     source = path.name
     if beside is not None:
         if section is not None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, SerializeAsAny
 
 from reports.inputs.meta import Strictly, choice, number, text, title_of
 from reports.inputs.sections.bearings import BearingsSection
@@ -26,6 +26,7 @@ from reports.inputs.sections.report import (
     ReportSection,
     SheetSection,
 )
+from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.units import KW, MM, NONE, RPM
 
@@ -148,7 +149,10 @@ class InputFile(Strictly):
     balance: BalanceSection = Field(default_factory=BalanceSection)
     torsion: TorsionSection | None = None
     bearings: BearingsSection | None = None
+    strength: StrengthSection | None = None
     reference: ReferenceSection | None = None
     sheet: SheetSection | None = None
     checks: ChecksSection | None = None
     regimes: tuple[RegimeSection, ...] = ()
+    books: tuple[tuple[str, str], ...] = ()  # names and texts of own books
+    own: SerializeAsAny[Strictly] | None = None  # their sections

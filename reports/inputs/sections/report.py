@@ -30,6 +30,8 @@ CHAPTERS = {
     "balance": "уравновешенность и маховик",
     "torsion": "крутильные колебания",
     "oil": "масляная плёнка и прочность шеек",
+    "strength": "прочность поршня, пальца, шатуна и щёк",
+    "own": "расчёты из своих книг",
     "regimes": "сравнение режимов",
     "reference": "точность формул и справочные зависимости",
     "companions": "гармоники момента, точное движение поршня",
@@ -39,7 +41,8 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "rationale", "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings",
-    "running", "balance", "torsion", "oil", "regimes", "reference", "companions", "checks",
+    "running", "balance", "torsion", "oil", "strength", "own", "regimes", "reference",
+    "companions", "checks",
     "appendices",
 ]  # fmt: skip
 FORMATS = {
@@ -85,6 +88,7 @@ class ReportSection(Strictly):
     formats: tuple[Format, ...] | None = choice("Документ {n}", FORMATS, None)
     style: str = text("Файл оформления кафедры", "")
     templates: str = text("Папка со своими шаблонами отчёта", "")
+    books: tuple[str, ...] | None = text("Своя книга {n}", None)
 
 
 DIAGRAMS = {

@@ -1,0 +1,126 @@
+"""Chapter on the strength of piston, ring, pin, rod, bolts and webs."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from markupsafe import Markup
+
+from kshm.defaults import PART_SHARES
+from reports.document.chapters.chapter import Chapter
+from reports.document.figures.parts import parts_sketch
+from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
+from reports.document.page.numbering import Figure, TablePlan
+from reports.document.text.symbols import titled_html
+from reports.document.text.terms import Terms
+from reports.inputs.sections.strength import PART_MATERIALS
+from reports.model.blocks import Scalar, ScalarTable
+from reports.shared.russian import joined, uncapital
+
+_LISTS = {
+    "loads": ("strength_loads", "Силы, по которым рассчитана прочность"),
+    "piston": ("strength_piston", "Поршень"),
+    "ring": ("strength_ring", "Поршневое кольцо"),
+    "pin": ("strength_pin", "Поршневой палец"),
+    "eye": ("strength_eye", "Верхняя головка шатуна"),
+    "shank": ("strength_shank", "Стержень шатуна"),
+    "cap": ("strength_cap", "Крышка шатуна и болты"),
+}
+
+
+def strength(chapter: Chapter) -> Markup:
+    """Loads, sizes, each part with its formulas, usual ranges, safety."""
+    section = chapter.input.strength
+    if section is None:
+        return Markup("")
+    terms = chapter.terms
+    tables = {
+        name: chapter.scalars(caption, [scalar.key for scalar in _block(chapter, block).scalars])
+        for name, (block, caption) in _LISTS.items()
+    }
+    tables["sizes"] = TablePlan(partial(_sizes, terms, _block(chapter, "strength_sizes")),
+                                "Размеры частей")  # fmt: skip
+    tables["ranges"] = TablePlan(partial(_ranges, terms, _block(chapter, "strength_ranges")),
+                                 "Напряжения и обычные пределы")  # fmt: skip
+    if terms.has("st_web_n"):
+        webs = chapter.grid("strength_webs")
+        tables["webs"] = TablePlan(partial(grid_table, terms, webs), "Запасы прочности щёк")
+    return chapter.page(
+        "strength",
+        section=section,
+        tables=tables,
+        sketch=Figure(partial(parts_sketch, _drawn(chapter)),
+                      "Размеры частей: а) поршень; б) палец; в) шатун"),
+        estimated=any(getattr(section, f"{key}_mm") is None for key in PART_SHARES),
+        cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
+        outside=[uncapital(pair[0].note.partition(":")[0])
+                 for pair in _pairs(_block(chapter, "strength_ranges"))
+                 if terms.values.scalars[pair[1].key] != "в пределах"],
+        weak=_weak(chapter),
+        webs=terms.has("st_web_n"),
+        rod=PART_MATERIALS[section.rod_material].label,
+        bolt=PART_MATERIALS[section.bolt_material].label,
+        web=PART_MATERIALS[section.web_material].label,
+        joined=joined,
+    )  # fmt: skip
+
+
+def concluded(chapter: Chapter) -> Markup:
+    """The chapter's result in a line of the conclusion."""
+    if chapter.input.strength is None:
+        return Markup("")
+    weak, allowed = _weak(chapter), chapter.terms.num("strength_safety_allowed")
+    if weak:
+        return Markup("запас прочности меньше допускаемого {}: {}").format(allowed, joined(weak))
+    return Markup("запасы прочности шатуна, болтов и щёк не меньше допускаемого {}").format(allowed)
+
+
+def _block(chapter: Chapter, name: str) -> ScalarTable:
+    return next(block for block in chapter.model.blocks
+                if isinstance(block, ScalarTable) and block.id == name)  # fmt: skip
+
+
+def _pairs(block: ScalarTable) -> list[tuple[Scalar, Scalar]]:
+    """Values with their verdicts."""
+    return list(zip(block.scalars[::2], block.scalars[1::2], strict=True))
+
+
+def _weak(chapter: Chapter) -> list[str]:
+    """Parts whose safety is less than allowed."""
+    values = chapter.terms.values.scalars
+    return [uncapital(value.note) for value, verdict in _pairs(_block(chapter, "strength_allowed"))
+            if values[verdict.key] == "НЕТ"]  # fmt: skip
+
+
+def _sizes(terms: Terms, block: ScalarTable) -> TableBlock:
+    """Sizes with where each is from."""
+    rows = [
+        [titled_html(scalar.quantity.title), terms.sym(scalar.key), terms.num(scalar.key),
+         titled_html(scalar.source.partition(" (")[0])]
+        for scalar in block.scalars
+    ]  # fmt: skip
+    return table_block(
+        [TableColumn("Размер, мм", 4.2, text=True), TableColumn("Обозначение", 1.6),
+         TableColumn("Значение", 1.4), TableColumn("Откуда", 2.4, text=True)], rows,
+    )  # fmt: skip
+
+
+def _ranges(terms: Terms, block: ScalarTable) -> TableBlock:
+    rows = [
+        [titled_html(value.note), terms.num(value.key), str(terms.values.scalars[verdict.key])]
+        for value, verdict in _pairs(block)
+    ]
+    return table_block(
+        [TableColumn("Величина", 5.0, text=True), TableColumn("Значение", 1.4),
+         TableColumn("Вывод", 1.8)], rows,
+    )  # fmt: skip
+
+
+def _drawn(chapter: Chapter) -> dict[str, float]:
+    """Sizes for the sketch."""
+    values = chapter.terms.values.scalars
+    sizes = {key: float(values[f"st_{key}_mm"]) for key in PART_SHARES}
+    bore = (4 * float(values["F_piston"]) / math.pi) ** 0.5 * 1000
+    crankpin = 2 * (sizes["bolts_apart"] / 2 - float(values["st_cap_wall_mm"]) - sizes["shell"])
+    return sizes | {"bore": bore, "crankpin": crankpin}

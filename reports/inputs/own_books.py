@@ -1,0 +1,404 @@
+"""Own books of a department: their texts, the quantities and inputs that they declare.
+
+A book is a text of tables (docs/books.md).  What it declares stands on lines of its own, outside
+of conditions, so it is read before any engine is: ``section``, ``input``, ``choice``,
+``quantity``.  The texts travel within the input: a workbook and a variant hold them.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path, PurePosixPath
+from typing import Any, Literal
+
+from pydantic import create_model
+
+from kshm.nomenclature.digits import Digits
+from kshm.nomenclature.quantity import UNITS, Quantity
+from kshm.nomenclature.symbols import plain_symbol
+from reports.inputs.meta import MAX_TEXT, Strictly, choice, number
+from reports.inputs.registry import SECTIONS
+from reports.inputs.units import InputUnit
+from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.file_types import CALLED, TEXT, kind_of, read_bytes
+
+Texts = tuple[tuple[str, str], ...]
+
+SUFFIX = ".book"
+# Set by kshm serve: the folder of the books that its owner allows, empty for none.
+OWNER = "KSHM_BOOKS"
+MOST_BOOKS = 12
+MOST_BYTES = 100_000
+MOST_LINES = 2_000
+MOST_LETTERS = 1_000  # of a line
+MOST_DECLARED = 200
+MOST_SYMBOL, MOST_UNIT = 80, 16
+_MOST_READ = 1_000_000
+DECLARATION = re.compile(r"(section|input|choice|quantity) (?!=|of |every )(.*)")
+_SECTION = re.compile(r"(?P<name>[a-z][a-z0-9]{1,15}): (?P<title>.+)")
+_INPUT = re.compile(
+    r"(?P<section>[a-z][a-z0-9]{1,15})\.(?P<key>[a-z][a-z0-9_]{0,39}): (?P<rest>.+)"
+)
+_QUANTITY = re.compile(r"(?P<key>[A-Za-z]\w{0,39}): (?P<rest>.+)")
+_SPAN = re.compile(r"(\S+?)\s*…\s*(\S+)")
+FORMS = {
+    "section": "section ИМЯ: ЗАГОЛОВОК",
+    "input": "input РАЗДЕЛ.КЛЮЧ: НАЗВАНИЕ | ОБОЗНАЧЕНИЕ | ЕДИНИЦА | ОТ…ДО | ЗНАЧЕНИЕ",
+    "choice": "choice РАЗДЕЛ.КЛЮЧ: НАЗВАНИЕ | слово — подпись; слово — подпись | слово",
+    "quantity": "quantity КЛЮЧ: НАЗВАНИЕ | TEX | ЕДИНИЦА | ЗНАКОВ",
+}
+_TAG = re.compile("[<>]")
+
+
+class DeclarationError(ValueError):
+    """A declaration that is none: its line and what is wrong."""
+
+    def __init__(self, line: int, column: int, what: str, hint: str) -> None:
+        super().__init__(what)
+        self.line, self.column, self.what, self.hint = line, column, what, hint
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What a book declares: section of inputs with its title and model, quantities by key."""
+
+    section: str = ""
+    title: str = ""
+    model: type[Strictly] | None = None
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+
+
+@dataclass
+class Declarations:
+    """Declarations of a book as far as they are read."""
+
+    text: str
+    section: str = ""
+    title: str = ""
+    fields: dict[str, Any] = field(default_factory=dict)
+    quantities: dict[str, Quantity] = field(default_factory=dict)
+
+    def take(self, word: str, rest: str) -> None:
+        """One declaration; ValueError where it is none."""
+        {"section": self._titled, "input": self._input, "choice": self._choice,
+         "quantity": self._quantity}[word](rest)  # fmt: skip
+        if len(self.fields) + len(self.quantities) > MOST_DECLARED:
+            raise ValueError(f"объявлено больше {MOST_DECLARED} величин и исходных")
+
+    def _titled(self, rest: str) -> None:
+        found = _matched(_SECTION, rest, "section")
+        self._named(found["name"])
+        self.title = safe_text(found["title"])
+
+    def _input(self, rest: str) -> None:
+        key, (title, symbol, unit, span, default) = self._head(rest, "input", 5)
+        limits = _SPAN.fullmatch(span)
+        if limits is None:
+            raise ValueError(f"пределы «{span}» не разобраны")
+        low, high, value = map(_number, (limits[1], limits[2], default))
+        if not low <= value <= high:
+            raise ValueError(f"значение {default} вне пределов {span}")
+        # A condition that asks for the value shapes the tables by it.
+        shapes = f"value.own.{self.section}.{key}" in self.text
+        unit_of = InputUnit("", _unit(unit))
+        self.fields[key] = (float, number(safe_text(title), safe_text(symbol, empty=True), unit_of,
+                                          low, high, value, structural=shapes))  # fmt: skip
+
+    def _choice(self, rest: str) -> None:
+        key, (title, options, default) = self._head(rest, "choice", 3)
+        words = {}
+        for option in options.split(";"):
+            word, dash, label = option.strip().partition(" — ")
+            if not dash or not re.fullmatch(r"[a-z][a-z0-9_]*", word) or '"' in label:
+                raise ValueError(f"выбор «{option.strip()}» не разобран")
+            words[word] = safe_text(label)
+        if default not in words:
+            raise ValueError(f"значения «{default}» нет среди выборов")
+        kind = Literal.__getitem__(tuple(words))
+        self.fields[key] = (kind, choice(safe_text(title), words, default, structural=True))
+
+    def _quantity(self, rest: str) -> None:
+        found = _matched(_QUANTITY, rest, "quantity")
+        key, (title, tex, unit, digits) = found["key"], _parts(found["rest"], 4)
+        if key in self.quantities:
+            raise ValueError(f"величина «{key}» объявлена дважды")
+        if not re.fullmatch(r"[0-9]|1[0-2]", digits):
+            raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
+        if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
+            raise ValueError(f"обозначение «{one_line(tex, 60)}» не годится")
+        label = _unit(unit)
+        known = next((name for name, unit in UNITS.items() if unit.label == label), label)
+        self.quantities[key] = Quantity(key, tex, known, safe_text(title), Digits(int(digits)))
+
+    def _head(self, rest: str, word: str, parts: int) -> tuple[str, list[str]]:
+        """Key and parts of the declaration of an input."""
+        found = _matched(_INPUT, rest, word)
+        self._named(found["section"])
+        key = found["key"]
+        if key in self.fields:
+            raise ValueError(f"исходное «{key}» объявлено дважды")
+        if re.search(r"_r\d+$", key) or hasattr(Strictly, key):
+            raise ValueError(f"имя «{key}» занято программой")
+        return key, _parts(found["rest"], parts)
+
+    def _named(self, section: str) -> None:
+        """Keep the name of the section, the same on all lines."""
+        if self.section and section != self.section:
+            raise ValueError(f"в книге два раздела исходных: {self.section} и {section}")
+        if section in _taken():
+            raise ValueError(f"имя раздела «{section}» занято программой")
+        self.section = section
+
+
+@lru_cache(maxsize=64)
+def declared(text: str) -> Declared:
+    """What the text of a book declares.
+
+    Raises:
+        DeclarationError: one of its declarations is none, or the text is beyond the limits.
+    """
+    lines = text.splitlines()
+    if len(text.encode()) > MOST_BYTES:
+        raise DeclarationError(1, 1, f"книга больше {MOST_BYTES // 1000} КБ", "разделите её")
+    if len(lines) > MOST_LINES:
+        raise DeclarationError(MOST_LINES + 1, 1, f"строк больше {MOST_LINES}", "разделите книгу")
+    reader = Declarations(text)
+    for at, line in enumerate(lines, 1):
+        if len(line) > MOST_LETTERS:
+            raise DeclarationError(at, MOST_LETTERS + 1, f"в строке больше {MOST_LETTERS} знаков",
+                                   "перенесите конец на строку с пробелом в начале")  # fmt: skip
+        control = re.search("[\x00-\x08\x0b-\x1f\x7f\u2028\u2029]", line)
+        if control is not None:
+            raise DeclarationError(at, control.start() + 1, "в строке управляющий символ",
+                                   "оставьте обычный текст")  # fmt: skip
+        found = DECLARATION.fullmatch(line)
+        if found is None:
+            continue
+        try:
+            reader.take(found[1], found[2].strip())
+        except ValueError as error:
+            raise DeclarationError(at, 1, str(error), f"пишите {FORMS[found[1]]}") from None
+    if not reader.fields:
+        return Declared("", reader.title, None, reader.quantities)
+    model = create_model(f"Own_{reader.section}", __base__=Strictly, **reader.fields)
+    title = reader.title or f"Своя книга {reader.section}"
+    return Declared(reader.section, title, model, reader.quantities)
+
+
+def quantities_of(books: Texts) -> Mapping[str, Quantity]:
+    """Quantities of all books by key; a later book's takes the place of an earlier one's."""
+    return {key: each for _, text in books for key, each in declared(text).quantities.items()}
+
+
+def sections_of(books: Texts) -> Mapping[str, Declared]:
+    """Sections of inputs that books declare, by name."""
+    all_of = (declared(text) for _, text in books)
+    return {each.section: each for each in all_of if each.model is not None}
+
+
+@lru_cache(maxsize=64)
+def own_model(books: Texts) -> type[Strictly]:
+    """Model of the sections of all books together."""
+    fields: dict[str, Any] = {
+        name: (about.model, ...) for name, about in sections_of(books).items()
+    }
+    return create_model("OwnSections", __base__=Strictly, **fields)
+
+
+def book_name(name: str) -> str:
+    """Name of a book without folder and ending: a book of the house of that name is replaced."""
+    return PurePosixPath(name.replace("\\", "/")).stem
+
+
+def path_of_cell(name: str, books: Texts) -> tuple[str, ...] | None:
+    """Path of an own input from the name of its cell."""
+    section, _, key = name.partition("_")
+    about = sections_of(books).get(section)
+    known = about is not None and about.model is not None and key in about.model.model_fields
+    return ("own", section, key) if known else None
+
+
+def texts_of(raw: Mapping[str, Any]) -> Texts:
+    """Names and texts of books in a mapping; without those in which something is wrong."""
+    given = raw.get("books")
+    pairs = given.items() if isinstance(given, Mapping) else given or ()
+    texts = []
+    for pair in pairs if isinstance(pairs, Iterable) else ():
+        name, text = pair if isinstance(pair, list | tuple) and len(pair) == 2 else ("", None)
+        try:
+            if isinstance(name, str) and isinstance(text, str) and declared(text):
+                texts.append((name, text))
+        except DeclarationError:
+            continue
+    return tuple(texts)
+
+
+def named(raw: object) -> list[str]:
+    """Names of books that the file's [report] gives; what is no list of texts is told elsewhere."""
+    report = raw.get("report") if isinstance(raw, Mapping) else None
+    names = report.get("books") if isinstance(report, Mapping) else None
+    return [name for name in names if isinstance(name, str)] if isinstance(names, list) else []
+
+
+def with_books(
+    raw: Mapping[str, Any], folder: Path, source: str
+) -> tuple[dict[str, Any], list[Path]]:
+    """The mapping with the texts of the books it names, and the files that were read.
+
+    Raises:
+        InputError: a book is missing or is no text.
+    """
+    given = raw.get("books")
+    texts: dict[str, Any] = dict(given) if isinstance(given, Mapping) else {}
+    files = []
+    for name in () if OWNER in os.environ else named(raw)[: MOST_BOOKS + 1]:
+        if name not in texts:
+            texts[name] = read_text(folder, name, source)
+            files.append(folder / name)
+    return ({**raw, "books": texts} if texts else dict(raw)), files
+
+
+def checked_texts(raw: object, names: Sequence[str]) -> Texts:
+    """Names and texts of the books that [report] names, in its order.
+
+    Args:
+        raw: texts by name, or pairs of both.
+        names: the names.
+
+    Raises:
+        InputError: a text is missing, names are repeated, a declaration is wrong.
+    """
+    pairs = raw.items() if isinstance(raw, Mapping) else raw
+    texts: dict[str, str] = {}
+    for pair in pairs if isinstance(pairs, Iterable) and not isinstance(pairs, str) else ():
+        match pair:
+            case [str(name), str(text)]:
+                texts[name] = text
+    if len(names) > MOST_BOOKS:
+        raise InputError(Problem("report.books", f"книг больше {MOST_BOOKS}", "уберите лишние"))
+    texts = allowed_texts(texts, names)
+    for name in names:
+        if name not in texts:
+            what = f"книга {one_line(name, 60)} не прочитана"
+            raise InputError(Problem("report.books", what, "здесь книг с диска не читают"))
+    if len(set(map(book_name, names))) < len(names):
+        what = "имена книг повторяются"
+        raise InputError(Problem("report.books", what, "назовите каждую книгу один раз"))
+    problems = []
+    for name in names:
+        try:
+            declared(texts[name])
+        except DeclarationError as error:
+            at = f"{one_line(name, 60)}: строка {error.line}, столбец {error.column}"
+            problems.append(Problem(at, one_line(error.what, 200), error.hint))
+    if problems:
+        raise InputError(problems)
+    books = tuple((name, texts[name]) for name in names)
+    sections = [each for each in (declared(text).section for _, text in books) if each]
+    if len(set(sections)) < len(sections):
+        what = "у двух книг один раздел исходных данных"
+        raise InputError(Problem("report.books", what, "назовите разделы по-разному"))
+    return books
+
+
+def allowed_texts(texts: Mapping[str, str], names: Sequence[str]) -> dict[str, str]:
+    """The texts to take: what was given, on a server those of its owner alone.
+
+    Raises:
+        InputError: the owner allows no such book.
+    """
+    owner = os.environ.get(OWNER)
+    if owner is None:
+        return dict(texts)
+    if names and not owner:
+        what = "своих книг владелец страницы не разрешил"
+        raise InputError(Problem("report.books", what, "уберите ключ; команде kshm он доступен"))
+    return {name: read_text(Path(owner), name, "") for name in names}
+
+
+def read_text(folder: Path, name: str, source: str) -> str:
+    """Text of a book beside the input.
+
+    Raises:
+        InputError: it is missing, elsewhere or no text.
+    """
+    where = ": ".join(part for part in (source, f"report.books: {one_line(name, 80)}") if part)
+    path = PurePosixPath(name.replace("\\", "/"))
+    if path.is_absolute() or ".." in path.parts or path.suffix != SUFFIX or ":" in name:
+        what = "книга должна лежать рядом с исходными данными"
+        raise InputError(Problem(where, what, f"укажите имя файла с окончанием {SUFFIX}"))
+    data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
+    kind = kind_of(data)
+    if kind != TEXT:
+        raise InputError(
+            Problem(where, f"{CALLED[kind]}, а нужна книга текстом", "сохраните UTF-8")
+        )
+    try:
+        return data.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise InputError(Problem(where, "не UTF-8", "сохраните книгу в UTF-8")) from None
+
+
+def _taken() -> frozenset[str]:
+    """First words of the cells of the program's own inputs."""
+    lists = (each.cells for section in SECTIONS.values() for each in section.lists.values())
+    return frozenset({*SECTIONS, *(cells.partition("_")[0] for cells in lists), "regimes", "own",
+                      "books", "variants"})  # fmt: skip
+
+
+def safe_text(text: str, *, empty: bool = False) -> str:
+    """A text that no spreadsheet takes for a formula and no page for a tag.
+
+    Raises:
+        ValueError: it is empty, too long or not of that kind.
+    """
+    text = text.strip()
+    if not text and not empty:
+        raise ValueError("пустой текст")
+    if len(text) > MAX_TEXT:
+        raise ValueError(f"текст длиннее {MAX_TEXT} знаков")
+    if text.startswith(("=", "+", "@")) or _TAG.search(text):
+        raise ValueError(f"текст «{one_line(text, 40)}» похож на формулу или код")
+    return text
+
+
+def _is_symbol(tex: str) -> bool:
+    try:
+        return bool(plain_symbol(tex))
+    except (ValueError, IndexError):
+        return False
+
+
+def _unit(label: str) -> str:
+    if len(label) > MOST_UNIT:
+        raise ValueError(f"единица «{one_line(label, 40)}» длиннее {MOST_UNIT} знаков")
+    return safe_text(label, empty=True).removeprefix("-")
+
+
+def _matched(pattern: re.Pattern[str], text: str, word: str) -> re.Match[str]:
+    found = pattern.fullmatch(text)
+    if found is None:
+        raise ValueError(f"«{word} {one_line(text, 60)}» не разобрано")
+    return found
+
+
+def _parts(text: str, count: int) -> list[str]:
+    parts = [part.strip() for part in text.split("|")]
+    if len(parts) != count:
+        raise ValueError(f"частей через черту {len(parts)}, а нужно {count}")
+    return parts
+
+
+def _number(text: str) -> float:
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        raise ValueError(f"«{one_line(text, 40)}» — не число") from None
+    if not math.isfinite(value):
+        raise ValueError(f"«{text}» — не конечное число")
+    return value

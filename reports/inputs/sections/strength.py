@@ -1,0 +1,119 @@
+"""The [strength] section of the input file: sizes, materials and forms of the parts' strength."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from kshm import defaults
+from reports.inputs.meta import Strictly, choice, number, title_of
+from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
+
+
+@dataclass(frozen=True, slots=True)
+class PartMaterial:
+    """Limits [MPa]: tensile, yield, bending and pull, both symmetric; E [MPa]; α [1/K]."""
+
+    label: str
+    tensile: float
+    yielding: float
+    bending: float
+    pull: float
+    modulus: float
+    expansion: float
+
+
+# From memory of the books in use, without a source that was held against.
+PART_MATERIALS = {
+    "45": PartMaterial("45", 700.0, 360.0, 300.0, 220.0, 2.2e5, 1.0e-5),
+    "45g2": PartMaterial("45Г2", 800.0, 420.0, 340.0, 210.0, 2.2e5, 1.0e-5),
+    "40h": PartMaterial("40Х", 980.0, 800.0, 350.0, 300.0, 2.2e5, 1.0e-5),
+    "40hn": PartMaterial("40ХН", 1200.0, 1000.0, 500.0, 380.0, 2.2e5, 1.0e-5),
+    "18h2n4va": PartMaterial("18Х2Н4ВА", 1100.0, 850.0, 540.0, 380.0, 2.2e5, 1.0e-5),
+}
+PART_NAMES = {key: material.label for key, material in PART_MATERIALS.items()}
+KINDS = {"petrol": "с искровым зажиганием", "diesel": "дизель"}
+PISTONS = {"aluminium": "алюминиевый сплав", "iron": "чугун"}
+CROWNS = {"full": "p(r/δ)²", "quarter": "0,25p(d/δ)²"}
+PINS = {"minus": "Pz − k|Pj|", "plus": "Pz + kPj со знаком"}
+OVALS = {"curved": "(1 + 2α)/α внутри", "program": "(2 + α)/α внутри"}
+BOLTS = {"each": "на каждый болт", "all": "на все болты вместе"}
+
+
+def _size(key: str, symbol: str) -> float | None:
+    """A size of a part; left out it is its usual share."""
+    assert key in defaults.PART_SHARES
+    title = title_of(f"st_{key}_mm")
+    return number(title, symbol, MM, 0.05, 3000, None)  # type: ignore[no-any-return]
+
+
+class StrengthSection(Strictly):
+    """[strength]: a size that is not given is its usual share, which the workbook names."""
+
+    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, "diesel")
+    crown_form: Literal["full", "quarter"] = choice("Формула днища поршня", CROWNS, "full")
+    pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, "minus")
+    oval_form: Literal["curved", "program"] = choice("Овализация пальца", OVALS, "curved")
+    bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, "each")
+    speed_factor: float = number(
+        "Наибольшая частота к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1
+    )
+    piston_material: Literal["aluminium", "iron"] = choice("Материал поршня", PISTONS, "aluminium")
+    piston_kg: float | None = number(title_of("st_m_piston"), "m_п", KG, 0.001, 5000, None)
+    crown_mm: float | None = _size("crown", "δ")
+    height_mm: float | None = _size("height", "H")
+    skirt_mm: float | None = _size("skirt", "h_ю")
+    head_wall_mm: float | None = _size("head_wall", "s")
+    land_mm: float | None = _size("land", "h_п")
+    bosses_mm: float | None = _size("bosses", "b")
+    ring_radial_mm: float | None = _size("ring_radial", "t")
+    ring_gap_mm: float | None = _size("ring_gap", "A_0")
+    ring_play_mm: float = number("Радиальный зазор кольца в канавке", "Δt", MM, 0.05, 20, 0.8)
+    oil_holes: float = number("Число масляных отверстий в канавке", "n_м", NONE, 0, 40, 10)
+    oil_hole_mm: float = number("Диаметр масляного отверстия в канавке", "d_м", MM, 0, 30, 1.5)
+    head_play: float = number("Зазор головки к диаметру", "Δ_г/D", NONE, 0.0005, 0.02, 0.007)
+    skirt_play: float = number("Зазор юбки к диаметру", "Δ_ю/D", NONE, 0.0002, 0.01, 0.002)
+    cylinder_c: float = number("Температура стенки цилиндра", "t_ц", CELSIUS, 40, 300, 115.0)
+    head_c: float = number("Температура головки поршня", "t_г", CELSIUS, 60, 500, 250.0)
+    skirt_c: float = number("Температура юбки поршня", "t_ю", CELSIUS, 40, 350, 140.0)
+    ring_modulus_mpa: float = number("Модуль упругости кольца", "E_к", MPA, 2e4, 3e5, 1.0e5)
+    pin_mm: float | None = _size("pin", "d_п")
+    pin_bore_mm: float | None = _size("pin_bore", "d_в")
+    pin_length_mm: float | None = _size("pin_length", "l_п")
+    pin_share: float = number("Доля силы инерции поршня на пальце", "k", NONE, 0.5, 1, 0.8)
+    pin_modulus_mpa: float = number("Модуль упругости пальца", "E_п", MPA, 5e4, 3e5, 2.0e5)
+    eye_length_mm: float | None = _size("eye_length", "l_ш")
+    eye_outer_mm: float | None = _size("eye_outer", "d_г")
+    bush_wall_mm: float | None = _size("bush_wall", "s_в")
+    bush_fit_um: float = number("Натяг втулки", "Δ", UM, 0, 500, 40.0)
+    bush_warming_k: float = number("Нагрев верхней головки", "ΔT", KELVIN, 0, 300, 110.0)
+    bush_modulus_mpa: float = number("Модуль упругости втулки", "E_в", MPA, 5e4, 3e5, 1.15e5)
+    embedding_deg: float = number("Угол заделки верхней головки", "φ_з", DEG, 90, 130, 110.0)
+    rod_material: Literal["45", "45g2", "40h", "40hn", "18h2n4va"] = choice(
+        "Материал шатуна", PART_NAMES, "40h"
+    )
+    bolt_material: Literal["45", "45g2", "40h", "40hn", "18h2n4va"] = choice(
+        "Материал болтов", PART_NAMES, "40hn"
+    )
+    web_material: Literal["45", "45g2", "40h", "40hn", "18h2n4va"] = choice(
+        "Материал щёк", PART_NAMES, "45"
+    )
+    rod_concentration: float = number("Концентрация и масштаб шатуна", "k/ε", NONE, 0.5, 6, 1.4)
+    bolt_concentration: float = number("Концентрация и масштаб болта", "k/ε", NONE, 0.5, 8, 4.0)
+    web_concentration: float = number("Концентрация и масштаб щеки", "k/ε", NONE, 0.5, 6, 2.0)
+    mean_factor: float = number("Приведение асимметричного цикла", "α_σ", NONE, 0, 0.6, 0.2)
+    shank_height_mm: float | None = _size("shank_height", "h_ш")
+    shank_width_mm: float | None = _size("shank_width", "b_ш")
+    shank_web_mm: float | None = _size("shank_web", "a_ш")
+    shank_flange_mm: float | None = _size("shank_flange", "t_ш")
+    bolts_apart_mm: float | None = _size("bolts_apart", "c_б")
+    cap_length_mm: float | None = _size("cap_length", "l_к")
+    shell_mm: float | None = _size("shell", "t_в")
+    bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, 2)
+    bolt_mm: float | None = _size("bolt", "d_б")
+    bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, 1.0)
+    bolt_preload: float = number("Затяжка к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
+    bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, 0.2)
+    web_width_mm: float | None = _size("web_width", "b_щ")
+    web_thickness_mm: float | None = _size("web_thickness", "h_щ")
+    safety_allowed: float = number("Допускаемый запас прочности частей", "[n]", NONE, 1, 10, 1.5)

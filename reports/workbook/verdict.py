@@ -19,7 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.formula.excel import number
 from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
-from reports.model.blocks import NO, YES, Model
+from reports.model.blocks import NO, YES, Model, scalars_of
 from reports.workbook import styles
 from reports.workbook.inputs import options
 from reports.workbook.layout import (
@@ -159,21 +159,41 @@ _WRONG_ROW, _ODD_ROW = 1, 2
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
-def check_keys(writer: BlockWriter) -> list[str]:
-    """Scalars of the checks whose verdicts stand in the book; none of a book to fill in."""
+_CHECKS = "checks"  # the list of the house; a department's book may have checks too
+
+
+def check_lists(writer: BlockWriter) -> dict[str, list[str]]:
+    """Checks by list whose verdicts stand in the book; none of a book to fill in.
+
+    A verdict in other words, as of a usual span, is no check.
+    """
     values = writer.values.scalars
-    keys = [key for key in writer.layout.model.scalars if key.startswith("check_")]
-    return keys if all(values.get(key) in (YES, NO) for key in keys) else []
+    lists = {
+        block.id: [scalar.key for scalar in scalars_of(block) if scalar.key.startswith("check_")]
+        for block in writer.layout.model.blocks
+    }
+    judged = {
+        name: keys
+        for name, keys in lists.items()
+        if name == _CHECKS or any(values.get(key) in (YES, NO) for key in keys)
+    }
+    whole = all(values.get(key) in (YES, NO) for keys in judged.values() for key in keys)
+    return judged if whole and judged.get(_CHECKS) else {}
 
 
 def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[str, str] | None:
     """Formula and value of what the first sheet says of the numbers; nothing without checks."""
-    keys = check_keys(writer)
-    if not keys:
+    lists = check_lists(writer)
+    if not lists:
         return None
     layout, values = writer.layout, writer.values.scalars
-    first, last = layout.cells[keys[0]], layout.cells[keys[-1]]
-    checks = column_range(first.sheet, first.column, first.row, last.row)
+    keys = [key for each in lists.values() for key in each]
+    passed = "+".join(
+        f'COUNTIF({column_range(cell.sheet, cell.column, cell.row, last.row)},"{YES}")'
+        for each in lists.values()
+        for cell, last in [(layout.cells[each[0]], layout.cells[each[-1]])]
+    )
+    first, last = (layout.cells[lists[_CHECKS][end]] for end in (0, -1))
     # The verdicts of the sheet's own list follow from these.
     areas = _areas(writer.caches) | {
         first.sheet: column_range(first.sheet, VALUE_COLUMN, first.row, last.row)
@@ -193,7 +213,7 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[st
     return (
         f'=IF(COUNTIF({sheets},"{NO}")>0,"{UNKNOWN}",'
         f'IF({within}<>"{YES}","{BEYOND}",'
-        f'IF(COUNTIF({checks},"{YES}")={len(keys)},"{GOOD}","{BAD}")))',
+        f'IF({passed}={len(keys)},"{GOOD}","{BAD}")))',
         GOOD if good else BAD,
     )
 

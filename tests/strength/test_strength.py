@@ -9,7 +9,9 @@ import pytest
 
 from kshm.mechanics import strength as first
 from reports.commands.new_engine import new_text
+from reports.document.chapters.closing import check_keys
 from reports.document.report import Report
+from reports.document.text.terms import Terms
 from reports.exports.own_books import own_numbers
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
@@ -17,6 +19,9 @@ from reports.model.blocks import Model
 from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.strength_members import EYE_M0, EYE_N0, TORSION, usual_sizes
+from reports.workbook.layout import Layout
+from reports.workbook.sheets import BlockWriter
+from reports.workbook.verdict import check_lists
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, errors_in
@@ -190,3 +195,13 @@ def test_the_workbook_is_recalculated_and_the_chapter_says_its_results():
 def test_new_gives_usual_sizes_with_their_ratio():
     text = new_text(None, sample=None, cylinders=4, strength=True, kind="petrol", bore_mm=80.0)
     assert "crown_mm = 6 # Толщина днища поршня: 0,075 D (обычно 0,05…0,1)" in text
+
+
+def test_usual_spans_are_no_checks_of_the_calculation():
+    """They hide the verdict of the first sheet nowhere and stand in no table of checks."""
+    model = model_of()
+    values = evaluate_model(model)
+    writer = BlockWriter(Layout.of(model), values)
+    assert list(check_lists(writer)) == ["checks"]
+    terms = Terms(model, values)
+    assert not {key for key in check_keys(terms) if key.startswith("range_")}

@@ -133,9 +133,13 @@ def _grid_table(chapter: Chapter) -> TableBlock:
 
 
 def check_keys(terms: Terms) -> list[str]:
-    """Names of the checks in order."""
+    """Names of the checks in order; a verdict in other words, as of a usual span, is no check."""
     prefix = "check_"
-    return [k.removeprefix(prefix) for k in terms.model.scalars if k.startswith(prefix)]
+    return [
+        key.removeprefix(prefix)
+        for key in terms.model.scalars
+        if key.startswith(prefix) and terms.values.scalars[key] in (YES, NO)
+    ]
 
 
 def failed(terms: Terms) -> list[tuple[Markup, str]]:

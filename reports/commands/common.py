@@ -42,6 +42,16 @@ def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # no
     return click.option(*names, type=click.Path(path_type=Path), **{"metavar": "ПУТЬ", **more})
 
 
+def csv_options(command: Command) -> Command:
+    """The options of a command that writes CSV."""
+    for name, text in (
+        ("--excel", "CSV для русского Excel: точка с запятой и десятичная запятая."),
+        ("--units", "Вторая строка CSV — единицы."),
+    ):
+        command = click.option(name, is_flag=True, help=text)(command)
+    return command
+
+
 class DecimalNumber(click.ParamType):  # type: ignore[type-arg]
     """A number with a decimal point or comma."""
 

@@ -16,6 +16,7 @@ from reports.commands.common import (
     LOOK,
     MISSING,
     RussianCommand,
+    csv_options,
     dask_option,
     file_argument,
     load,
@@ -192,16 +193,18 @@ def _tell_findings(source: Path, findings: Sequence[BookFinding], *, as_json: bo
 @file_argument()
 @path_option("--csv", "folder", help="Папка для таблиц CSV.")
 @click.option("--json", "target", metavar="ФАЙЛ", help="Файл JSON; «-» — на экран.")
+@csv_options
 @verbose_option
-def solve(source: Path, folder: Path | None, target: str | None) -> int:
+def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -> int:
     """Посчитать числа без документов."""
     from kshm.nomenclature.quantity import quantity
-    from reports.exports.numbers import csv_text, export_tables, json_text
+    from reports.exports.numbers import CsvForm, csv_text, export_tables, json_text
     from reports.exports.own_books import own_numbers
     from reports.inputs.solve_input import solved
     from reports.inputs.to_si.engine import smallness_of
-    from reports.shared.files import atomic_path, make_dir, refuse_own, write_text
+    from reports.shared.files import atomic_path, make_dir, refuse_own, write_bytes
 
+    style = CsvForm(**form)
     loaded = load(source)
     own = (source, *loaded.beside)
     if target is not None and target != "-":
@@ -214,7 +217,7 @@ def solve(source: Path, folder: Path | None, target: str | None) -> int:
         refuse_own(tables, own)
         make_dir(folder)
         for path, columns in tables.items():
-            write_text(path, csv_text(columns))
+            write_bytes(path, csv_text(columns, style).encode(style.encoding))
         click.echo(folder)
     if target == "-":
         click.echo(json_text(loaded.model, solution, notes_of(loaded), theirs), nl=False)

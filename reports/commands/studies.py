@@ -12,6 +12,7 @@ from reports.commands.common import (
     LOOK,
     MISSING,
     RussianCommand,
+    csv_options,
     dask_option,
     file_argument,
     load,
@@ -82,17 +83,19 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
     help="Файл .parquet, .csv или .xlsx (с диаграммами).",
 )
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
+@csv_options
 @dask_option
 @verbose_option
 def sweep(
     source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
-    target: Path, jobs: int, dask: str | None,
+    target: Path, jobs: int, dask: str | None, **form: bool,
 ) -> int:  # fmt: skip
     """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
 
     Первый ключ меняется быстрее всех; по нему строятся диаграммы, по второму — семейство
     кривых. Сочетание, которое не проходит проверку, остаётся строкой с причиной.
     """
+    from reports.exports.numbers import CsvForm
     from reports.studies.sweep import SweepOptions
     from reports.studies.sweep import sweep as run_sweep
 
@@ -100,7 +103,7 @@ def sweep(
         raise KshmError("--jobs не может быть отрицательным")
     done = run_sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
-        options=SweepOptions(jobs=jobs, dask=dask),
+        options=SweepOptions(jobs=jobs, dask=dask, form=CsvForm(**form)),
     )  # fmt: skip
     tell_written(target, f": сочетаний {done.points}")
     if done.failed:
@@ -114,7 +117,12 @@ def sweep(
     "sources", metavar="ФАЙЛ...", nargs=-1, required=True, type=click.Path(path_type=Path)
 )
 @path_option(
-    "-o", "--output", "target", required=True, metavar="ФАЙЛ", help="Файл .xlsx, .pdf или .html."
+    "-o",
+    "--output",
+    "target",
+    required=True,
+    metavar="ФАЙЛ",
+    help="Файл .xlsx, .pdf, .html, .csv или .json.",
 )
 @verbose_option
 def compare(sources: tuple[Path, ...], target: Path) -> int:

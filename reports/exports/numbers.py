@@ -6,8 +6,9 @@ import csv
 import io
 import json
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TextIO
 
 from kshm.nomenclature.quantity import Quantity, quantity, ray_key
 from kshm.results.reference import reference_tables
@@ -50,22 +51,51 @@ def _plain(value: Any, *, blank_zero: bool = False) -> float | str | None:  # no
     return None if blank_zero and number == 0 else number
 
 
-def csv_text(columns: dict[str, list[float | str | None]]) -> str:
-    """One table as CSV: keys in the first line, decimal point, comma, full precision."""
+@dataclass(frozen=True, slots=True)
+class CsvForm:
+    """How a CSV is written: a second line of units, the signs of a Russian Excel."""
+
+    units: bool = False
+    excel: bool = False
+
+    @property
+    def encoding(self) -> str:
+        """Excel knows UTF-8 by its mark alone."""
+        return "utf-8-sig" if self.excel else "utf-8"
+
+    def writer(self, stream: TextIO) -> Any:  # noqa: ANN401 - csv has no type for it
+        """A writer of rows."""
+        return csv.writer(stream, lineterminator="\n", delimiter=";" if self.excel else ",")
+
+    def number(self, value: float) -> str:
+        """A number in full precision."""
+        return repr(value).replace(".", ",") if self.excel else repr(value)
+
+    def heads(self, keys: Sequence[str], units: Callable[[str], str]) -> Iterator[list[str]]:
+        """Lines before the numbers."""
+        yield list(keys)
+        if self.units:
+            yield [units(key) for key in keys]
+
+    def cell(self, value: float | str | None) -> str:
+        """A cell: a whole number without its point."""
+        if value is None or isinstance(value, str):
+            return value or ""
+        whole = value.is_integer() and abs(value) < 1e15
+        return str(int(value)) if whole else self.number(value)
+
+
+PLAIN = CsvForm()
+
+
+def csv_text(columns: dict[str, list[float | str | None]], form: CsvForm = PLAIN) -> str:
+    """One table as CSV: keys in the first line, full precision."""
     stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(columns)
+    writer = form.writer(stream)
+    writer.writerows(form.heads([*columns], lambda key: _describe(key)["unit"]))
     for row in zip(*columns.values(), strict=True):
-        writer.writerow([_cell(value) for value in row])
+        writer.writerow([form.cell(value) for value in row])
     return stream.getvalue()
-
-
-def _cell(value: float | str | None) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
-    return value
 
 
 def neutralised(text: str) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+import io
+import json
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from markupsafe import Markup
 
@@ -15,6 +18,7 @@ from reports.document.page.blocks import DocumentInfo, TableBlock, TableColumn, 
 from reports.document.page.numbering import Draft, Label
 from reports.document.text.texts import of_digits, rich, spaces_inside
 from reports.exports.build import load_input
+from reports.exports.numbers import neutralised
 from reports.inputs.load import Loaded
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.errors import InputError, Problem
@@ -269,7 +273,7 @@ class ComparisonChapter:
         )
 
 
-SUFFIXES = (".xlsx", ".pdf", ".html")
+SUFFIXES = (".xlsx", ".pdf", ".html", ".csv", ".json")
 
 
 def check_suffix(target: Path) -> None:
@@ -298,9 +302,42 @@ def write(sources: Sequence[Path], models: Sequence[InputFile], target: Path) ->
 
         write_bytes(target, book_bytes(engines))
         return
+    if suffix in (".csv", ".json"):
+        write_text(target, _rows_csv(engines) if suffix == ".csv" else _rows_json(engines))
+        return
     from reports.document.page.render import render_pdf
 
     if suffix == ".html":
         write_text(target, comparison_page(engines, media="screen"))
     else:
         write_bytes(target, render_pdf(comparison_page(engines, media="print")))
+
+
+def _rows(engines: Sequence[Compared]) -> Iterator[dict[str, Any]]:
+    """Data that differ and results, a row each."""
+    for differing in differences(engines):
+        yield {
+            "group": differing.group or "Данные", "key": "", "title": differing.title,
+            "symbol": differing.symbol, "unit": differing.unit, "values": differing.values,
+        }  # fmt: skip
+    for row in results(engines):
+        yield {
+            "group": row.group, "key": row.key, "title": row.title, "symbol": row.symbol,
+            "unit": row.unit, "values": row.values,
+        }  # fmt: skip
+
+
+def _rows_csv(engines: Sequence[Compared]) -> str:
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    heads = ("group", "key", "title", "symbol", "unit")
+    writer.writerow([*heads, *(neutralised(engine.label) for engine in engines)])
+    for row in _rows(engines):
+        values = ("" if value is None else value for value in row["values"])
+        writer.writerow([*(row[head] for head in heads), *values])
+    return stream.getvalue()
+
+
+def _rows_json(engines: Sequence[Compared]) -> str:
+    data = {"engines": [engine.label for engine in engines], "rows": list(_rows(engines))}
+    return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"

@@ -105,11 +105,11 @@ def _axis(text: str, fields: dict[str, Field]) -> Axis:
         near = difflib.get_close_matches(key, list(fields), n=3, cutoff=0.5)
         hint = f"похожи: {', '.join(near)}" if near else "ключи смотрите в файле"
         raise _wrong(text, f"в файле нет ключа {one_line(key, 80)}", hint)
+    if field.structural:
+        raise _wrong(text, f"ключ {key} меняет строение расчёта", "сделайте отдельный файл")
     number = isinstance(field.value, int | float) and not isinstance(field.value, bool)
     if not number or field.choices is not None:
         raise _wrong(text, f"значение ключа {key} — не число", "выберите числовой ключ")
-    if field.structural:
-        raise _wrong(text, f"ключ {key} меняет строение расчёта", "сделайте отдельный файл")
     values = _values(text, span, whole=isinstance(field.value, int))
     return Axis(key, field.path, field.title, field.unit, values)
 

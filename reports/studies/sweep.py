@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TextIO
 
 import numpy as np
 
 from kshm.chain.solve import chunk_size, solve_batch
 from reports.exports.build import load_input
-from reports.exports.numbers import neutralised
+from reports.exports.numbers import PLAIN, CsvForm, neutralised
 from reports.exports.own_books import own_numbers
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.background import processors
@@ -22,7 +21,7 @@ from reports.shared.files import atomic_path, reason, refuse_own
 from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
 from reports.studies.plan import Chunk, Plan, make_plan, solved, tasks
-from reports.studies.quantities import ChosenQuantities, choose
+from reports.studies.quantities import ChosenQuantities, choose, described
 
 ERROR = "error"
 SUFFIXES = (".parquet", ".csv", ".xlsx")
@@ -37,20 +36,21 @@ class Sink(Protocol):
 
 
 @contextmanager
-def sink(path: Path, suffix: str, plan: Plan, wanted: ChosenQuantities) -> Iterator[Sink]:
+def sink(
+    path: Path, suffix: str, plan: Plan, wanted: ChosenQuantities, form: CsvForm = PLAIN
+) -> Iterator[Sink]:
     """A writer into ``path`` for one of ``SUFFIXES``.
 
     Raises:
         KshmError: the suffix is none of them.
         SystemPartMissing: Parquet is asked for without its package.
     """
-    keys = [axis.key for axis in plan.axes]
     if suffix == ".parquet":
-        with _parquet(path, keys, wanted) as writer:
+        with _parquet(path, plan, wanted) as writer:
             yield writer
     elif suffix == ".csv":
-        with path.open("w", encoding="utf-8", newline="") as stream:
-            yield _Csv(csv.writer(stream, lineterminator="\n"), keys, wanted)
+        with path.open("w", encoding=form.encoding, newline="") as stream:
+            yield _Csv(form, stream, plan, wanted)
     elif suffix == ".xlsx":
         from reports.studies.books import StudyBook
 
@@ -66,21 +66,29 @@ def sink(path: Path, suffix: str, plan: Plan, wanted: ChosenQuantities) -> Itera
 
 
 class _Csv:
-    def __init__(self, writer: Any, keys: list[str], wanted: ChosenQuantities) -> None:  # noqa: ANN401
-        self._writer = writer
-        self._names = wanted.names
-        writer.writerow([*keys, *self._names, ERROR])
+    def __init__(self, form: CsvForm, stream: TextIO, plan: Plan, wanted: ChosenQuantities) -> None:
+        self._form, self._writer, self._names = form, form.writer(stream), wanted.names
+        about = _descriptions(plan, wanted)
+        heads = form.heads([*about, ERROR], lambda key: about.get(key, ("", ""))[1])
+        self._writer.writerows(heads)
 
     def write(self, chunk: Chunk) -> None:
+        number = self._form.number
         columns = [chunk.values[name].tolist() for name in self._names]
         rows = zip(chunk.rows, zip(*columns, strict=True), chunk.errors, strict=True)
         for inputs, values, error in rows:
-            texts = ["" if error else repr(value) for value in values]
-            self._writer.writerow([*map(repr, inputs), *texts, neutralised(error)])
+            texts = ["" if error else number(value) for value in values]
+            self._writer.writerow([*map(number, inputs), *texts, neutralised(error)])
+
+
+def _descriptions(plan: Plan, wanted: ChosenQuantities) -> dict[str, tuple[str, str]]:
+    """Title and unit of every column of numbers."""
+    axes = {axis.key: (axis.title, axis.unit) for axis in plan.axes}
+    return axes | {name: described(name, wanted) for name in wanted.names}
 
 
 @contextmanager
-def _parquet(path: Path, keys: list[str], wanted: ChosenQuantities) -> Iterator[Sink]:
+def _parquet(path: Path, plan: Plan, wanted: ChosenQuantities) -> Iterator[Sink]:
     try:
         import pyarrow as pa
         from pyarrow import parquet
@@ -88,7 +96,10 @@ def _parquet(path: Path, keys: list[str], wanted: ChosenQuantities) -> Iterator[
         raise SystemPartMissing(
             "пакет pyarrow", 'pip install "kshm[sweep]"', purpose="для файлов .parquet"
         ) from None
-    numbers = [pa.field(name, pa.float64()) for name in (*keys, *wanted.names)]
+    numbers = [
+        pa.field(name, pa.float64(), metadata={"title": title, "unit": unit})
+        for name, (title, unit) in _descriptions(plan, wanted).items()
+    ]
     schema = pa.schema([*numbers, pa.field(ERROR, pa.string())])
     with parquet.ParquetWriter(path, schema) as writer:
         rows = _Parquet(writer, schema, pa)
@@ -138,6 +149,7 @@ class SweepOptions:
     jobs: int = 0  # 0: all cores
     dask: str | None = None
     chunk: int | None = None  # combinations at a time
+    form: CsvForm = PLAIN
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +196,7 @@ def sweep(
     first_error = ""
     with Progress("Исследование") as progress, atomic_path(target) as temporary:
         try:
-            with sink(temporary, suffix, plan, wanted) as out:
+            with sink(temporary, suffix, plan, wanted, options.form) as out:
                 work = tasks(plan, wanted, size)
                 for chunk in in_order(solved, work, jobs=jobs, dask=options.dask):
                     out.write(chunk)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kshm.nomenclature.quantity import ray_key
-from reports.exports.numbers import csv_text, export_tables, neutralised
+from reports.exports.numbers import CsvForm, csv_text, export_tables, neutralised
 from reports.inputs.solve_input import solved
 from tests.conftest import sample
 
@@ -32,3 +32,10 @@ def test_a_result_that_is_no_number_is_refused() -> None:
 
     with pytest.raises(ValueError, match="not a number"):
         export_tables(Broken())
+
+
+def test_a_csv_for_a_russian_excel_and_one_with_units() -> None:
+    columns = {"phi_deg": [0.0, 10.0], "T_MPa": [1 / 3, None]}
+    form = CsvForm(units=True, excel=True)
+    assert csv_text(columns, form) == "phi_deg;T_MPa\n°;МПа\n0;0,3333333333333333\n10;\n"
+    assert form.encoding == "utf-8-sig" and CsvForm().encoding == "utf-8"

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import openpyxl
 import pytest
+from click.testing import CliRunner
 
 from kshm import solve
 from kshm.results.case import first_extreme
@@ -297,3 +298,28 @@ def test_a_result_that_is_no_number_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     wanted = ChosenQuantities(("c_m",), (), slow=False)
     (task,) = plan_module.tasks(plan, wanted, 2)
     assert plan_module.solved(task).errors == [plan_module.NOT_FINITE, "своя причина"]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_columns_tell_their_units(tmp_path, suffix):
+    target = tmp_path / f"study{suffix}"
+    words = ["sweep", str(BASE), "-o", str(target), "--vary", "geometry.bore_mm=84:92:2"]
+    form = ["--units", "--excel"] if suffix == ".csv" else []
+    done = CliRunner().invoke(main, [*words, "--quantity", "M_mean", *form])
+    assert done.exit_code == 0, done.output
+    if suffix == ".csv":
+        lines = target.read_text(encoding="utf-8-sig").splitlines()
+        assert lines[:2] == ["geometry.bore_mm;M_mean;error", "мм;Н·м;"]
+        assert "," in lines[2] and "." not in lines[2]
+    else:
+        from pyarrow import parquet
+
+        field = parquet.read_schema(target).field("M_mean")
+        assert field.metadata[b"unit"].decode() == "Н·м"
+
+
+def test_a_number_of_cylinders_is_no_axis(tmp_path):
+    words = ["sweep", str(BASE), "-o", str(tmp_path / "a.csv"), "--vary", "engine.cylinders=3:6:4"]
+    done = CliRunner().invoke(main, words)
+    assert done.exit_code == 2
+    assert "ключ engine.cylinders меняет строение расчёта; сделайте отдельный файл" in done.stderr

@@ -23,7 +23,7 @@ from reports.grading.batch.decisions import (
     waiting,
 )
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
-from reports.grading.issuing.issue import latin
+from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN

@@ -6,11 +6,14 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import warnings
+import zipfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reports.grading.issuing.names import foreign_letters, twin
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.file_types import ARCHIVE, OFFICE, TEXT, UTF16, kind_of, read_bytes
 from reports.workbook.intake import check_data
@@ -60,9 +63,7 @@ def listings(path: Path) -> list[RosterListing]:
     kind = kind_of(data)
     if kind in (ARCHIVE, OFFICE):
         return _sheets(path, data)
-    if kind == UTF16:
-        raise refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
-    if kind != TEXT:
+    if kind not in (TEXT, UTF16):
         raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
     return [RosterListing(path.name, "", _csv_lines(path, _text(path, data)))]
 
@@ -73,7 +74,11 @@ def refused(path: Path, what: str, hint: str) -> InputError:
 
 
 def _clean(cell: str) -> str:
-    return one_line(unicodedata.normalize("NFC", cell), MAX_FIELD + 1)
+    text = _AS_FORMULA.fullmatch(cell.strip())  # ="00012": how a site keeps zeros through Excel
+    return one_line(unicodedata.normalize("NFC", text[1] if text else cell), MAX_FIELD + 1)
+
+
+_AS_FORMULA = re.compile(r'="([^"]*)"')
 
 
 # --- CSV -------------------------------------------------------------------------------------
@@ -93,17 +98,41 @@ def _csv_lines(path: Path, text: str) -> list[RosterLine]:
     return lines
 
 
+# Other encodings of Russian lists: of Windows, of its command line, of old Unix, of a Mac.
+_ENCODINGS = ("cp1251", "cp866", "koi8-r", "mac-cyrillic")
+_WORD = re.compile(r"[А-ЯЁ][а-яё]+|[А-ЯЁ]+|[а-яё]+")
+_LETTERS = re.compile(r"[^\W\d_]+")
+
+
 def _text(path: Path, data: bytes) -> str:
+    """The text of a list in the one encoding that gives Russian words."""
     try:
-        return data.decode("utf-8-sig")
+        return data.decode("utf-16" if kind_of(data) == UTF16 else "utf-8-sig")
     except UnicodeDecodeError:
         pass
-    text = data.decode("cp1251", errors="replace")
-    letters = [char for char in text if char.isalpha()]
-    russian = sum("а" <= char.casefold() <= "я" or char in "ёЁ" for char in letters)
-    if "\ufffd" in text or russian < len(letters) / 3:
-        raise refused(path, "кодировка не UTF-8 и не Windows-1251", "сохраните как «CSV UTF-8»")
+    texts = (data.decode(encoding, errors="replace") for encoding in _ENCODINGS)
+    scores = sorted(((_russian(text), text) for text in texts), reverse=True)
+    (best, text), (second, other) = scores[:2]
+    if best < _LEAST_RUSSIAN or (best == second and text != other):
+        what = "кодировка не UTF-8 и не Windows-1251, cp866, KOI8-R или Mac"
+        raise refused(path, what, "сохраните как «CSV UTF-8»")
     return text
+
+
+_LEAST_RUSSIAN = 0.6  # of the words that are no plain Latin
+_USUAL = frozenset("оеаинтсрвлкмдпу")
+
+
+def _russian(text: str) -> float:
+    """Share of the foreign words that are written as Russian ones are: case, usual letters."""
+    words = [w for w in _LETTERS.findall(text) if not w.isascii() and len(w) > 2]
+    if not words or "\ufffd" in text:
+        return 0.0
+    fit = sum(_WORD.fullmatch(word) is not None for word in words) / len(words)
+    letters = "".join(words).casefold()
+    usual = sum(char in _USUAL for char in letters) / len(letters)
+    odd = sum(not char.isascii() and not char.isalnum() and char not in "«»№—–" for char in text)
+    return fit * min(1.0, usual / 0.6) - odd / len(letters)
 
 
 # --- a book of Excel -------------------------------------------------------------------------
@@ -114,17 +143,55 @@ def _sheets(path: Path, data: bytes) -> list[RosterListing]:
 
     check_data(data, path.name)
     try:
-        shown, written = (
-            load_workbook(io.BytesIO(data), read_only=True, data_only=values)
-            for values in (True, False)
-        )
-        return [
-            RosterListing(path.name, sheet.title, list(_sheet_lines(sheet, written[sheet.title])))
-            for sheet in shown.worksheets
-            if sheet.sheet_state == "visible"
-        ]
+        with warnings.catch_warnings(action="ignore"):  # of what a list does not need
+            shown, written = (
+                load_workbook(io.BytesIO(data), read_only=True, data_only=values)
+                for values in (True, False)
+            )
+            merged = _merged(data)
+            return [
+                RosterListing(
+                    path.name,
+                    sheet.title,
+                    _filled_down(
+                        list(_sheet_lines(sheet, written[sheet.title])), merged.get(sheet.title, ())
+                    ),
+                )
+                for sheet in shown.worksheets
+                if sheet.sheet_state == "visible"
+            ]
     except Exception:  # whatever openpyxl meets in a file of a program that it does not know
         raise refused(path, "книга не читается", "сохраните список как CSV") from None
+
+
+def _merged(data: bytes) -> dict[str, list[tuple[int, int, int, int]]]:
+    """First row, first column, last row and last column of the merged cells of each sheet."""
+    from openpyxl import load_workbook
+
+    with zipfile.ZipFile(io.BytesIO(data)) as parts:
+        names = [name for name in parts.namelist() if name.startswith("xl/worksheets/")]
+        if not any(b"<mergeCell " in parts.read(name) for name in names):
+            return {}
+    book = load_workbook(io.BytesIO(data))
+    return {
+        sheet.title: [(r.min_row, r.min_col, r.max_row, r.max_col) for r in sheet.merged_cells]
+        for sheet in book.worksheets
+    }
+
+
+def _filled_down(
+    lines: list[RosterLine], merged: Sequence[tuple[int, int, int, int]]
+) -> list[RosterLine]:
+    """Lines with the text of a cell that is merged downwards in each of its rows."""
+    by_number = {line.number: line for line in lines}
+    for first, column, last, _ in merged:
+        above = by_number.get(first)
+        text = above.cells[column - 1] if above and column <= len(above.cells) else ""
+        for number in range(first + 1, last + 1):
+            line = by_number.get(number)
+            if text and line is not None and column <= len(line.cells):
+                line.cells[column - 1] = line.cells[column - 1] or text
+    return lines
 
 
 def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
@@ -189,6 +256,9 @@ _HEADS = {
 _SURNAMES = ("surname", "full", "turned", "either")  # columns with a surname, the plainest first
 # What a head says besides, and what stands among the people and is none.
 _BESIDES = frozenset(("студента", "студентов", "обучающегося", "полностью", "учебная"))
+# Lines of Canvas and Google Classroom between the head and the people.
+_SERVICE = frozenset(("points possible", "student, test", "test student", "read only", "date",
+                      "points", "дата", "баллы", "максимальный балл", "class average"))  # fmt: skip
 _NOBODY = frozenset(("группа", "итого", "всего", "куратор", "староста", "преподаватель"))
 
 
@@ -210,7 +280,7 @@ class Student:
 
 
 def read_roster(path: Path) -> list[Student]:
-    """Students of a CSV file (UTF-8 or Windows-1251; comma, semicolon or tab) or of an Excel book.
+    """Students of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -273,12 +343,55 @@ def _headed(listing: RosterListing) -> _List | None:
         for line in listing.lines[last + 1 :]
         if line.cells not in repeated and not _is_number(line)
     ]
-    headed = _List(listing, heads[first] | heads[last], people)
+    columns = heads[first] | heads[last]
+    people = [line for line in people if not _is_service(line, columns)]
+    headed = _List(listing, columns, _joined(people, columns, listing.lines[first : last + 1]))
     if headed.columns.keys() & set(_SURNAMES) != {"either"}:
         return headed
     column = headed.columns.pop("either")
     headed.columns[_order(headed, head, column)] = column
     return headed
+
+
+def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
+    """Whether a site of learning has put a line of its own among the people."""
+    at = [columns[key] for key in _SURNAMES if key in columns]
+    texts = [line.cells[i].casefold().strip() for i in at if i < len(line.cells)]
+    alone = all(not line.cells[i] for i in (columns.get("name"), columns.get("email"))
+                if i is not None and i < len(line.cells))  # fmt: skip
+    return alone and any(text in _SERVICE for text in texts)
+
+
+_NAME = re.compile(r"[^\W\d_]+(?:[- .’'][^\W\d_]+)*\.?")
+
+
+def _joined(
+    people: list[RosterLine], columns: dict[str, int], head: Sequence[RosterLine]
+) -> list[RosterLine]:
+    """People with their names in one cell where the head above two or three of them is one."""
+    key = next((key for key in ("full", "turned", "either", "surname") if key in columns), None)
+    if key is None or (key == "surname" and "name" in columns):
+        return people
+    start = columns[key]
+    end = start + 1
+    while all(end < len(line.cells) and not line.cells[end] for line in head) and _are_names(
+        [line.cells[end] for line in people if end < len(line.cells)]
+    ):
+        end += 1
+    if end == start + 1:
+        return people
+    if key == "surname":
+        columns["full"] = columns.pop(key)
+    return [
+        replace(line, cells=[*line.cells[:start], " ".join(filter(None, line.cells[start:end])),
+                             *[""] * (end - start - 1), *line.cells[end:]])
+        for line in people
+    ]  # fmt: skip
+
+
+def _are_names(cells: Sequence[str]) -> bool:
+    known = [cell for cell in cells if cell]
+    return bool(known) and all(_NAME.fullmatch(cell) for cell in known)
 
 
 def _order(headed: _List, head: RosterLine, column: int) -> str:
@@ -287,6 +400,8 @@ def _order(headed: _List, head: RosterLine, column: int) -> str:
     A patronymic stands behind a name; how a site writes one name it writes them all.
     """
     names = [line.cells[column].split() for line in headed.people if column < len(line.cells)]
+    if names and all(words and "," in words[0] for words in names):  # «Иванов, Пётр»
+        return "full"
     marks = [[_is_patronymic(word) for word in words[1:]] for words in names if len(words) == 3]
     second = {first for first, last in marks if first != last}
     if len(second) == 1 or not names:
@@ -322,14 +437,16 @@ def _named(given: dict[str, str]) -> tuple[str, str]:
     if not surname and "turned" in given:
         name, _, surname = given["turned"].rpartition(" ")
     elif not surname:
-        surname, _, name = given.get("full", "").partition(" ")
-    return surname, f"{name} {given.get('patronymic', '')}".strip()
+        full = given.get("full", "")
+        surname, _, name = full.partition("," if "," in full else " ")
+    return surname.strip(" ,"), f"{name.strip(' ,')} {given.get('patronymic', '')}".strip()
 
 
 def _students(headed: _List) -> list[Student]:
     problems: list[Problem] = []
     students: list[Student] = []
     seen: dict[str, int] = {}
+    twins: dict[str, str] = {}
     for line in headed.people:
         given, where = headed.given(line), headed.where(line)
         surname, name = _named(given)
@@ -350,12 +467,23 @@ def _students(headed: _List) -> list[Student]:
         if any(len(value) > MAX_FIELD for value in given.values()):
             problems.append(Problem(where, "слишком длинный текст", "это не список группы"))
             continue
+        if letters := foreign_letters(f"{surname} {name}"):
+            what = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
+            problems.append(Problem(where, what, "наберите имя заново в одной раскладке"))
+            continue
         group = given.get("group", "")
         key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
         if key.casefold() in seen:
             what = f"студент «{key}» уже есть в строке {seen[key.casefold()]}"
             problems.append(Problem(where, what, "однофамильцам добавьте столбец «Номер»"))
             continue
+        like = f"{twin(f'{surname} {name}')}, {group}"
+        if like in twins and not given.get("id") and not given.get("email"):
+            what = f"«{surname} {name}» и «{twins[like]}»: один это человек или два?"
+            hint = "удалите лишнюю строку или добавьте столбец «Номер»"
+            problems.append(Problem(where, what, hint))
+            continue
+        twins.setdefault(like, f"{surname} {name}")
         seen[key.casefold()] = line.number
         email, given_id = given.get("email", ""), given.get("id", "")
         students.append(Student(key, surname, name, group, email, given_id))

@@ -6,14 +6,15 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
 
 from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
-from reports.grading.issuing.issue import latin
+from reports.grading.issuing.names import skeletons
+from reports.grading.issuing.names import words as words_of
 from reports.grading.issuing.register import PATTERN, Issued, Register
 from reports.recalculation.grid import BadBook, CellGrid
 from reports.recalculation.sheets import parse_xml
@@ -342,29 +343,31 @@ def _is_stranger(register: Register, submission: Submission) -> bool:
 
 
 def _named(register: Register, text: str) -> list[Issued]:
-    """Those whose names stand in a text, or else their surnames."""
-    words = _words(text)
-    hits = _standing_in(words, [(book, _names(book)) for book in register.books])
-    return hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
+    """Those whose names stand in a text, or else their surnames, in whatever spelling."""
+    for spelt, of in ((words_of(text), words_of), (skeletons(text), skeletons)):
+        for name in (_names, _surname):
+            hits = _standing_in(spelt, [(book, name(book, of)) for book in register.books])
+            if hits:
+                return hits
+    return []
 
 
-def _names(book: Issued) -> set[str]:
-    first, surname = _words(book.student.name.split(" ")[0]), _words(book.student.surname)
+Spelling = Callable[[str], set[str]]
+_SURE = 4  # letters of a surname's skeleton that is no word by chance
+
+
+def _names(book: Issued, of: Spelling) -> set[str]:
+    first, surname = of(book.student.name.split(" ")[0]), of(book.student.surname)
     return first | surname if first - surname else set()
 
 
-def _surname(book: Issued) -> set[str]:
+def _surname(book: Issued, of: Spelling) -> set[str]:
     """The words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
-    words = _words(book.student.surname)
-    return words if any(len(word) > 2 for word in words) else set()
+    words, least = of(book.student.surname), 3 if of is words_of else _SURE
+    return words if any(len(word) >= least for word in words) else set()
 
 
 def _standing_in(words: set[str], names: Iterable[tuple[Issued, set[str]]]) -> list[Issued]:
     """Whose name stands among some words, and is no part of another that does."""
     hits = [(book, name) for book, name in names if name and name <= words]
     return [book for book, name in hits if not any(name < other for _, other in hits)]
-
-
-def _words(text: str) -> set[str]:
-    """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
-    return set(filter(None, re.split(r"[\W\d_]+", latin(text))))

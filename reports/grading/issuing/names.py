@@ -105,5 +105,6 @@ def foreign_letters(text: str) -> str:
     for word in re.findall(r"[^\W\d_]+", text):
         latin_ones = [char for char in word if "LATIN" in unicodedata.name(char, "")]
         russian = [char for char in word if "CYRILLIC" in unicodedata.name(char, "")]
-        letters += "".join(min(latin_ones, russian, key=len))
+        if latin_ones and russian:
+            letters += "".join(russian if len(russian) < len(latin_ones) else latin_ones)
     return letters

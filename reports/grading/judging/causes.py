@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -25,7 +24,6 @@ from reports.shared.russian import fixed, short
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
-_PI = re.compile(r"\bpi\b")
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
 _CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 _VARIED = 4  # different values of a column that tells anything
@@ -160,8 +158,6 @@ class Causes:
         yield "результат в градусах вместо радиан", np.degrees(right)
         yield "результат в радианах вместо градусов", np.radians(right)
         yield from self._changed_formulas(item, run)
-        if any(_PI.search(self.student.assignment.graph.expression(n) or "") for n in item.nodes):
-            yield "π взято как 3,14", right * (3.14 / np.pi)
         if len(right) > 3 and item.is_column:
             yield "значения сдвинуты на одну строку вниз", moved(right, values, 1)
             yield "значения сдвинуты на одну строку вверх", moved(right, values, -1)

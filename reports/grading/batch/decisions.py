@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.marking import rescored
+from reports.grading.judging.scoring import rescored
 from reports.grading.judging.works import Work
 from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.shared.errors import InputError, Problem, one_line

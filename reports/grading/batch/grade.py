@@ -25,6 +25,7 @@ from reports.grading.batch.decisions import (
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
 from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
+from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
@@ -55,6 +56,7 @@ class GradeSetup:
     decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
     author: str = ""
     worksheet: Path | None = None  # of Moodle, to be filled in
+    roster: Path | None = None  # with the deadlines put off since the issue
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +95,8 @@ def grade(
     if rubric_file is not None:
         register = replace(register, rubric=load_rubric(rubric_file))
         Marker(register).assignment(register.books[0])  # the rubric must fit the engine
+    if options.roster is not None:
+        register = put_off(register, read_roster(options.roster))
     if options.worksheet is not None:
         read_worksheet(options.worksheet)  # a wrong one is told before the work
     submissions = collect(submitted)
@@ -125,6 +129,21 @@ def grade(
     if options.pdf:
         batch.write_pdf()
     return Graded(folder, summary, batch.reused, time.monotonic() - started)
+
+
+def put_off(register: Register, students: Sequence[Student]) -> Register:
+    """The register with the deadlines of a newer roster; nothing else is taken from it."""
+    given = {student.id: student.extension for student in students}
+    if given.keys().isdisjoint(book.student.id for book in register.books):
+        hint = "возьмите список, по которому выданы варианты, и впишите в него столбец «Срок»"
+        raise InputError(Problem("--roster", "в списке нет студентов этой выдачи", hint))
+    books = (
+        replace(book, student=replace(book.student, extension=given[book.student.id]))
+        if book.student.id in given
+        else book
+        for book in register.books
+    )
+    return replace(register, books=tuple(books))
 
 
 def _progress(done: int, count: int, reused: int, started: float) -> str:
@@ -302,7 +321,7 @@ class _Batch:
         except InputError as error:
             data = str(error)
         self._sha256[submission.key] = data
-        about = f"{data} {submission.key} {submission.time} {self._rules}"
+        about = f"{data} {submission.key} {submission.time} {submission.clock} {self._rules}"
         return hashlib.sha256(about.encode()).hexdigest()
 
     def take(self, outcome: Outcome) -> None:

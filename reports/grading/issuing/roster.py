@@ -2,237 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
-import unicodedata
-import warnings
-import zipfile
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from reports.grading.issuing.listings import (
+    A_DATE,
+    MAX_FIELD,
+    RosterLine,
+    RosterListing,
+    listings,
+    refused,
+)
 from reports.grading.issuing.names import foreign_letters, twin
-from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.file_types import ARCHIVE, OFFICE, TEXT, UTF16, kind_of, read_bytes
-from reports.workbook.intake import check_data
-from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell
-
-if TYPE_CHECKING:  # openpyxl is loaded when a book is read
-    from openpyxl.cell import ReadOnlyCell
-    from openpyxl.worksheet.worksheet import Worksheet
-
-MAX_BYTES, MAX_FIELD = 2_000_000, 200
-_MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
-_FIRST_LINES = 20  # by which the delimiter is known
-
-
-@dataclass(frozen=True, slots=True)
-class RosterLine:
-    """A line that holds anything; ``faults`` are columns whose cells cannot be read, and why."""
-
-    number: int
-    cells: list[str]
-    faults: dict[int, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class RosterListing:
-    """The lines of a CSV file, or of a sheet with a title."""
-
-    file: str
-    title: str
-    lines: list[RosterLine]
-
-    def place(self, line: RosterLine, column: int) -> str:
-        """Address of a cell, for messages."""
-        if not self.title:
-            return f"{self.file}, строка {line.number}"
-        address = Cell("", line.number, column + 1).coordinate
-        return f"{self.file}, лист «{self.title}», {address}"
-
-
-def listings(path: Path) -> list[RosterListing]:
-    """What a CSV file or the sheets of a book hold, in their order; hidden sheets are left out.
-
-    Raises:
-        InputError: it is neither.
-    """
-    data = read_bytes(path, MAX_BYTES, "это не список группы")
-    kind = kind_of(data)
-    if kind in (ARCHIVE, OFFICE):
-        return _sheets(path, data)
-    if kind not in (TEXT, UTF16):
-        raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
-    return [RosterListing(path.name, "", _csv_lines(path, _text(path, data)))]
-
-
-def refused(path: Path, what: str, hint: str) -> InputError:
-    """The error of a file that is no list."""
-    return InputError(Problem(path.name, what, hint))
-
-
-def _clean(cell: str) -> str:
-    text = _AS_FORMULA.fullmatch(cell.strip())  # ="00012": how a site keeps zeros through Excel
-    return one_line(unicodedata.normalize("NFC", text[1] if text else cell), MAX_FIELD + 1)
-
-
-_AS_FORMULA = re.compile(r'="([^"]*)"')
-
-
-# --- CSV -------------------------------------------------------------------------------------
-
-
-def _csv_lines(path: Path, text: str) -> list[RosterLine]:
-    first = text.splitlines()[:_FIRST_LINES]
-    delimiter = max(";\t,", key=lambda char: sum(char in line for line in first))
-    try:
-        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
-    except csv.Error:
-        raise refused(path, "это не CSV: не закрыта кавычка", "сохраните список заново") from None
-    lines = [RosterLine(i, [_clean(cell) for cell in row]) for i, row in enumerate(rows, 1)]
-    lines = [line for line in lines if any(line.cells)]
-    if lines and lines[0].cells[0].casefold() == "sep=":  # Excel's word on the delimiter
-        del lines[0]
-    return lines
-
-
-# Other encodings of Russian lists: of Windows, of its command line, of old Unix, of a Mac.
-_ENCODINGS = ("cp1251", "cp866", "koi8-r", "mac-cyrillic")
-_WORD = re.compile(r"[А-ЯЁ][а-яё]+|[А-ЯЁ]+|[а-яё]+")
-_LETTERS = re.compile(r"[^\W\d_]+")
-
-
-def _text(path: Path, data: bytes) -> str:
-    """The text of a list in the one encoding that gives Russian words."""
-    try:
-        return data.decode("utf-16" if kind_of(data) == UTF16 else "utf-8-sig")
-    except UnicodeDecodeError:
-        pass
-    texts = (data.decode(encoding, errors="replace") for encoding in _ENCODINGS)
-    scores = sorted(((_russian(text), text) for text in texts), reverse=True)
-    (best, text), (second, other) = scores[:2]
-    if best < _LEAST_RUSSIAN or (best == second and text != other):
-        what = "кодировка не UTF-8 и не Windows-1251, cp866, KOI8-R или Mac"
-        raise refused(path, what, "сохраните как «CSV UTF-8»")
-    return text
-
-
-_LEAST_RUSSIAN = 0.6  # of the words that are no plain Latin
-_USUAL = frozenset("оеаинтсрвлкмдпу")
-
-
-def _russian(text: str) -> float:
-    """Share of the foreign words that are written as Russian ones are: case, usual letters."""
-    words = [w for w in _LETTERS.findall(text) if not w.isascii() and len(w) > 2]
-    if not words or "\ufffd" in text:
-        return 0.0
-    fit = sum(_WORD.fullmatch(word) is not None for word in words) / len(words)
-    letters = "".join(words).casefold()
-    usual = sum(char in _USUAL for char in letters) / len(letters)
-    odd = sum(not char.isascii() and not char.isalnum() and char not in "«»№—–" for char in text)
-    return fit * min(1.0, usual / 0.6) - odd / len(letters)
-
-
-# --- a book of Excel -------------------------------------------------------------------------
-
-
-def _sheets(path: Path, data: bytes) -> list[RosterListing]:
-    from openpyxl import load_workbook
-
-    check_data(data, path.name)
-    try:
-        with warnings.catch_warnings(action="ignore"):  # of what a list does not need
-            shown, written = (
-                load_workbook(io.BytesIO(data), read_only=True, data_only=values)
-                for values in (True, False)
-            )
-            merged = _merged(data)
-            return [
-                RosterListing(
-                    path.name,
-                    sheet.title,
-                    _filled_down(
-                        list(_sheet_lines(sheet, written[sheet.title])), merged.get(sheet.title, ())
-                    ),
-                )
-                for sheet in shown.worksheets
-                if sheet.sheet_state == "visible"
-            ]
-    except Exception:  # whatever openpyxl meets in a file of a program that it does not know
-        raise refused(path, "книга не читается", "сохраните список как CSV") from None
-
-
-def _merged(data: bytes) -> dict[str, list[tuple[int, int, int, int]]]:
-    """First row, first column, last row and last column of the merged cells of each sheet."""
-    from openpyxl import load_workbook
-
-    with zipfile.ZipFile(io.BytesIO(data)) as parts:
-        names = [name for name in parts.namelist() if name.startswith("xl/worksheets/")]
-        if not any(b"<mergeCell " in parts.read(name) for name in names):
-            return {}
-    book = load_workbook(io.BytesIO(data))
-    return {
-        sheet.title: [(r.min_row, r.min_col, r.max_row, r.max_col) for r in sheet.merged_cells]
-        for sheet in book.worksheets
-    }
-
-
-def _filled_down(
-    lines: list[RosterLine], merged: Sequence[tuple[int, int, int, int]]
-) -> list[RosterLine]:
-    """Lines with the text of a cell that is merged downwards in each of its rows."""
-    by_number = {line.number: line for line in lines}
-    for first, column, last, _ in merged:
-        above = by_number.get(first)
-        text = above.cells[column - 1] if above and column <= len(above.cells) else ""
-        for number in range(first + 1, last + 1):
-            line = by_number.get(number)
-            if text and line is not None and column <= len(line.cells):
-                line.cells[column - 1] = line.cells[column - 1] or text
-    return lines
-
-
-def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
-    """Lines of a sheet with the saved values of its formulas."""
-    for sheet in (shown, written):
-        sheet.reset_dimensions()  # a claim of the file, and often a wrong one
-    edge = {"max_row": _MOST_ROWS, "max_col": _MOST_COLUMNS}
-    rows = (sheet.iter_rows(**edge) for sheet in (shown, written))
-    for number, (values, sources) in enumerate(zip(*rows, strict=True), 1):
-        faults = {
-            i: why
-            for i, (cell, source) in enumerate(zip(values, sources, strict=True))
-            if (why := _fault(cell, source))
-        }
-        cells = ["" if i in faults else _clean(_shown(cell)) for i, cell in enumerate(values)]
-        if any(cells) or faults:
-            yield RosterLine(number, cells, faults)
-
-
-def _fault(cell: ReadOnlyCell, source: ReadOnlyCell) -> str:
-    """Why a cell's text is not known, empty where it is."""
-    if cell.value is None:
-        return "значение формулы не сохранено" if source.data_type == "f" else ""
-    if cell.data_type == "e":
-        return f"ошибка {cell.value}"
-    if cell.is_date:  # what was typed is lost: «3-12» became the third of December
-        return "дата вместо текста"
-    return "логическое значение вместо текста" if cell.data_type == "b" else ""
-
-
-def _shown(cell: ReadOnlyCell) -> str:
-    """The text of a cell as its sheet shows it."""
-    value = cell.value
-    if not isinstance(value, (int, float)):
-        return str(value or "")
-    text = f"{value:.15g}".replace(".", ",")
-    zeros = cell.number_format  # «000000»: a number with the zeros in front of it
-    return text.zfill(len(zeros)) if zeros and not zeros.strip("0") else text
-
-
-# --- students ------------------------------------------------------------------------------------
+from reports.shared.errors import InputError, Problem
+from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 
 MAX_STUDENTS = 2000
 _TITLES = 20  # lines above the head: what the list is, of which year
@@ -251,6 +37,8 @@ _HEADS = {
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
            "username", "имя пользователя", "зачетка", "номер зачетки", "номер зачетной книжки",
            "№ зачетки", "№ зачетной книжки"),
+    "extension": ("срок", "продление", "продлено до", "отсрочка", "срок сдачи", "extension",
+                  "deadline", "due"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
 _SURNAMES = ("surname", "full", "turned", "either")  # columns with a surname, the plainest first
@@ -272,6 +60,7 @@ class Student:
     group: str = ""
     email: str = ""
     number: str = ""  # as the list gives it
+    extension: str = ""  # an own deadline (ISO), or hours more: "+48"
 
     @property
     def full(self) -> str:
@@ -448,48 +237,80 @@ def _students(headed: _List) -> list[Student]:
     seen: dict[str, int] = {}
     twins: dict[str, str] = {}
     for line in headed.people:
-        given, where = headed.given(line), headed.where(line)
-        surname, name = _named(given)
-        if faults := sorted(line.faults.keys() & headed.columns.values()):
-            where = headed.listing.place(line, faults[0])
-            problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
+        student = _student(headed, line)
+        if isinstance(student, Problem):
+            problems.append(student)
             continue
-        words = given.get("turned", "").split()
-        nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
-        if nobody or not surname:
-            what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
-            problems.append(Problem(where, what, "впишите её или удалите строку"))
-            continue
-        if len(words) > 2 and not _is_patronymic(words[-2]):
-            what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
-            problems.append(Problem(where, f"«{' '.join(words)}»: {what}", hint))
-            continue
-        if any(len(value) > MAX_FIELD for value in given.values()):
-            problems.append(Problem(where, "слишком длинный текст", "это не список группы"))
-            continue
-        if letters := foreign_letters(f"{surname} {name}"):
-            what = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
-            problems.append(Problem(where, what, "наберите имя заново в одной раскладке"))
-            continue
-        group = given.get("group", "")
-        key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
-        if key.casefold() in seen:
-            what = f"студент «{key}» уже есть в строке {seen[key.casefold()]}"
+        where, key = headed.where(line), student.id.casefold()
+        like = f"{twin(student.full)}, {student.group}"
+        if key in seen:
+            what = f"студент «{student.id}» уже есть в строке {seen[key]}"
             problems.append(Problem(where, what, "однофамильцам добавьте столбец «Номер»"))
-            continue
-        like = f"{twin(f'{surname} {name}')}, {group}"
-        if like in twins and not given.get("id") and not given.get("email"):
-            what = f"«{surname} {name}» и «{twins[like]}»: один это человек или два?"
+        elif like in twins and not student.number and not student.email:
+            what = f"«{student.full}» и «{twins[like]}»: один это человек или два?"
             hint = "удалите лишнюю строку или добавьте столбец «Номер»"
             problems.append(Problem(where, what, hint))
-            continue
-        twins.setdefault(like, f"{surname} {name}")
-        seen[key.casefold()] = line.number
-        email, given_id = given.get("email", ""), given.get("id", "")
-        students.append(Student(key, surname, name, group, email, given_id))
+        else:
+            seen[key] = line.number
+            twins.setdefault(like, student.full)
+            students.append(student)
     if problems:
         raise InputError(problems[:50])
     return students
+
+
+def _student(headed: _List, line: RosterLine) -> Student | Problem:
+    """The student of a line, or what is wrong with it."""
+    given, where = headed.given(line), headed.where(line)
+    surname, name = _named(given)
+    own = headed.columns.get("extension")
+    kept = {i for i, why in line.faults.items() if i != own or why != A_DATE}
+    if faults := sorted(kept & set(headed.columns.values())):
+        where = headed.listing.place(line, faults[0])
+        return Problem(where, line.faults[faults[0]], "впишите текст")
+    words = given.get("turned", "").split()
+    nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
+    if nobody or not surname:
+        what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
+        return Problem(where, what, "впишите её или удалите строку")
+    if len(words) > 2 and not _is_patronymic(words[-2]):
+        what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
+        return Problem(where, f"«{' '.join(words)}»: {what}", hint)
+    if any(len(value) > MAX_FIELD for value in given.values()):
+        return Problem(where, "слишком длинный текст", "это не список группы")
+    if letters := foreign_letters(f"{surname} {name}"):
+        what = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
+        return Problem(where, what, "наберите имя заново в одной раскладке")
+    extension = _extension(given.get("extension", ""))
+    if extension is None:
+        what = f"срок «{given['extension']}» непонятен"
+        hint = "нужна дата 25.12.2026, дата и время 25.12.2026 18:00 или «+2 дня», «+48 ч»"
+        return Problem(where, what, hint)
+    group = given.get("group", "")
+    key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
+    return Student(key, surname, name, group, given.get("email", ""), given.get("id", ""),
+                   extension)  # fmt: skip
+
+
+_MORE = re.compile(r"\+?\s*(\d{1,3})\s*(д|дн|дня|дней|день|сут\w*|ч|час|часа|часов|d|h)\.?")
+
+
+def _extension(text: str) -> str | None:
+    """An own deadline as ISO or hours more, empty where none is given; None: not understood."""
+    text = text.strip().casefold()
+    if not text:
+        return ""
+    if more := _MORE.fullmatch(text):
+        return f"+{int(more[1]) * (1 if more[2][0] in 'чh' else 24)}"
+    for form in ("%d.%m.%Y %H:%M", "%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dt%H:%M",
+                 "%d.%m.%Y", "%Y-%m-%d"):  # fmt: skip
+        try:
+            moment = datetime.strptime(text, form)
+        except ValueError:
+            continue
+        ends = "%h" not in form.casefold() or (moment.hour, moment.minute) == (0, 0)
+        return (moment.replace(hour=23, minute=59) if ends else moment).isoformat()
+    return None
 
 
 def _columns(head: list[str]) -> dict[str, int]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
-from reports.formula.parse import names, parse
+from reports.formula.parse import FormulaError, names, parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.judgement import Array, Judgement, close, distance, tolerance
 from reports.grading.judging.mistakes import mistakes, symbol_of
@@ -68,6 +68,20 @@ class Causes:
         good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
         rows = [] if cause or judgement.coarse else slips(judgement, good)
         return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
+
+    def gives(self, judgement: Judgement, text: str) -> bool:
+        """Whether a formula in the language of the tables gives the wrong values of an item."""
+        item, values = judgement.item, judgement.values
+        known = self._known(judgement)
+        for base in [known, {}] if known else [{}]:
+            run = self.student.expected.fork(base)
+            try:
+                attempt = self._rewritten(item, run, lambda _: parse(text))
+            except (KeyError, ValueError, TypeError, FormulaError):  # no formula of this table
+                return False
+            if attempt is not None and self._fits(item, values, attempt, judgement.expected, ()):
+                return True
+        return False
 
     def _common(self, judgement: Judgement) -> str:
         """A cause that all values have in common."""

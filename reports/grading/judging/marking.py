@@ -6,7 +6,6 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import datetime, timedelta
 from functools import cached_property
 from typing import Any
 
@@ -15,11 +14,11 @@ import numpy as np
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import EMPTY, GROUNDLESS, UNKNOWN
+from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
+from reports.grading.judging.scoring import HandedIn, score
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, own_marks
@@ -47,7 +46,7 @@ from reports.shared.russian import short
 from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout
 
-FORMAT = 7
+FORMAT = 8
 Result = dict[str, Any]
 
 
@@ -58,6 +57,7 @@ def blank_result(submission: Submission) -> Result:
         "key": submission.key,
         "file": submission.label,
         "time": submission.time.isoformat() if submission.time else None,
+        "clock": submission.clock,
         "moodle_id": submission.moodle_id,
         "sha256": "",
         "items": [],
@@ -123,7 +123,8 @@ class Marker:
             return result
         result["properties"] = file_properties(package)
         self._grade(result, grid, match.book, package)
-        score(result, self.register.rubric, submission.time)
+        handed = HandedIn(submission.time, submission.clock, match.book.student.extension)
+        score(result, self.register.rubric, handed)
         return result
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
@@ -329,47 +330,3 @@ def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
         f"верные формулы остались без баллов, потому что опираются на пустое или круговое "
         f"({names}): величин {len(taken)}, баллов {short(lost, 4)}; засчитать их?"
     ]
-
-
-def score(result: Result, rubric: Rubric, time: datetime | None) -> None:
-    """The points of a result from those of its lines, and what takes them away."""
-    lines = result["items"]
-    paid = [line for line in lines if line["of"] > 0]
-    filled = [line for line in paid if line["verdict"] != EMPTY]
-    result["filled"] = round(len(filled) / len(paid), 4) if paid else 0.0
-    result["maximum"] = rubric.maximum
-    result["enough"] = result["filled"] >= rubric.minimum.filled
-    if not result["enough"]:
-        result["notes"].append(
-            f"заполнено {result['filled']:.0%} при наименьшем {rubric.minimum.filled:.0%}: 0 баллов"
-        )
-    factor = late_factor(rubric, time)
-    result["late"] = factor
-    if factor < 1:
-        result["notes"].append(f"сдано после срока: баллы умножены на {short(factor)}")
-    rescored(result)
-
-
-def rescored(result: Result) -> None:
-    """The sum of a result from the points of its lines; a person may have given more for one."""
-    raw = min(sum(line["points"] for line in result["items"]), result["maximum"])
-    result["raw"] = round(raw, 2)
-    result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
-
-
-def late_factor(rubric: Rubric, time: datetime | None) -> float:
-    """Factor of the strictest late rule that applies; without a time none does."""
-    deadline = rubric.late.deadline
-    if deadline is None or time is None:
-        return 1.0
-    # File times carry no zone: they are the clock of the place where the deadline is meant.
-    late = time - deadline.replace(tzinfo=None)
-    if late <= timedelta(0):
-        return 1.0
-    hours = late.total_seconds() / 3600
-    if rubric.late.per_day:
-        days = max(0, math.ceil(hours / 24) - rubric.late.free_days)
-        return max(rubric.late.least, 1 - rubric.late.per_day * days)
-    return min(
-        [rule.factor for rule in rubric.late.rules if hours >= rule.after_hours], default=1.0
-    )

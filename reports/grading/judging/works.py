@@ -10,6 +10,7 @@ import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from fnmatch import fnmatchcase
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -236,6 +237,7 @@ def feedback_line(
         "of": round(worth, 6),
         "reason": judgement.reason,
         "cause": cause,
+        "message": _message(judgement, causes, cause, assignment),
         "origins": list(judgement.origins),
         "right_mark": fingerprint(item, judgement.expected),
         "rows": [item.labels[i] for i in judgement.rows],
@@ -252,6 +254,18 @@ def feedback_line(
                 "right": _plain(judgement.expected),
             }
     return line
+
+
+def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assignment) -> str:
+    """The instructor's own words for a mistake, the first that fit."""
+    item = judgement.item
+    for message in assignment.rubric.messages if judgement.verdict == WRONG else ():
+        about = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
+        if not about or message.cause.casefold() not in cause.casefold():
+            continue
+        if not message.formula or causes.gives(judgement, message.formula):
+            return message.text
+    return ""
 
 
 def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:

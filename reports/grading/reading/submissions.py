@@ -31,9 +31,16 @@ _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplement
 _MOODLE = re.compile(r"(?P<name>[^/]+?)_(?P<id>\d+)_assignsubmission_file(?:_|/|$)")
 
 
+MOODLE, ZIP, FILE_TIME = "moodle", "zip", "file"
+CLOCKS = {MOODLE: "часы Moodle", ZIP: "время в архиве", FILE_TIME: "время файла"}
+
+
 @dataclass(frozen=True, slots=True)
 class Submission:
-    """One file handed in; ``members`` lead to it where it lies in a zip, or a zip in a zip."""
+    """One file handed in; ``members`` lead to it where it lies in a zip, or a zip in a zip.
+
+    ``clock`` is what its time was taken from: Moodle's own zip, another one, the file.
+    """
 
     key: str
     path: Path
@@ -41,6 +48,7 @@ class Submission:
     time: datetime | None
     moodle_id: str = ""
     moodle_name: str = ""
+    clock: str = FILE_TIME
 
     @property
     def label(self) -> str:
@@ -149,7 +157,9 @@ def _zip(file: Submission, stream: BinaryIO, prefix: str, *, nested: bool = Fals
             keys.add(key)
             members = (*(file.members or ()), index)
             time = file.time if theirs else _time(info)
-            submission = Submission(key, file.path, members, time, **_moodle(key))
+            named = _moodle(key)
+            clock = file.clock if theirs else MOODLE if named else ZIP
+            submission = Submission(key, file.path, members, time, **named, clock=clock)
             inner: list[Submission] = []
             if not nested and _is_zip(key):
                 try:

@@ -94,6 +94,8 @@ def _user() -> str:
 @path_option("-o", "--output", "folder", help="Папка для результатов.")
 @path_option("--rubric", metavar="ФАЙЛ", help="Другая рубрика вместо выданной.")
 @path_option("--roster", metavar="ФАЙЛ", help="Список с продлёнными сроками (столбец «Срок»).")
+@path_option("--memory", metavar="ПАПКА",
+             help="Память прошлых лет: отпечатки редких формул и ошибок.")  # fmt: skip
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
 @click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
@@ -113,7 +115,7 @@ def _user() -> str:
     nargs=4,
     multiple=True,
     metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
-    help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
+    help="Решение преподавателя: кто или группа Г-…, столбец или «всё», баллы, примечание.",
 )
 @click.option(
     "--author", metavar="ИМЯ", default="", help="Кто решает (по умолчанию имя пользователя)."
@@ -126,6 +128,7 @@ def grade(
     folder: Path | None,
     rubric: Path | None,
     roster: Path | None,
+    memory: Path | None,
     secret: Path | None,
     pdf: bool,
     jobs: int,
@@ -165,7 +168,7 @@ def grade(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
         options=GradeSetup(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
                         worksheet=worksheet,
-                        author=author, roster=roster),
+                        author=author, roster=roster, memory=memory),
     )  # fmt: skip
     summary = done.summary
     click.echo(f"{folder}: проверено файлов: {summary['files']}, с оценкой: {summary['graded']}")

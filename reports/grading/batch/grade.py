@@ -17,11 +17,14 @@ from reports.grading.batch.decisions import (
     decided,
     from_gradebook,
     load_decisions,
+    of_groups,
     refuse_too_many,
     refuse_wrong_words,
     save_decisions,
     waiting,
+    words_of_groups,
 )
+from reports.grading.batch.memory import remember, remembered
 from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
 from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
@@ -29,11 +32,12 @@ from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
-from reports.grading.pages.summary import choose, summarise, table_rows
+from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.background import processors
 from reports.shared.errors import InputError, Problem
@@ -57,6 +61,7 @@ class GradeSetup:
     author: str = ""
     worksheet: Path | None = None  # of Moodle, to be filled in
     roster: Path | None = None  # with the deadlines put off since the issue
+    memory: Path | None = None  # folder with the traits of earlier classes
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,9 +108,13 @@ def grade(
     refuse_overlap(submitted, folder, issued)
     refuse_another_class(folder, register)
     batch = _Batch(register, folder)
+    if options.memory is not None:
+        batch.past = remembered(options.memory, batch.class_id)
     batch.check(options, submissions)
     make_dir(folder)
     batch.start(submissions)
+    if options.memory is not None:
+        batch.keep_past()
     workers = options.workers or processors()
     outcomes = (
         grade_far(
@@ -122,6 +131,8 @@ def grade(
             progress.step(_progress(len(batch.works), len(submissions), batch.reused, started))
         refused = batch.decide(options)
         summary = batch.finish()
+    if options.memory is not None:
+        remember(options.memory, batch.class_id, batch.counted())
     if refused is not None:
         raise refused
     if options.worksheet is not None:
@@ -193,7 +204,30 @@ class _Batch:
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
+        self._by_group: list[
+            tuple[str, str, str, str]
+        ] = []  # those that the gradebook has of groups
+        self._group_author = ""
+        self.past: Past = _kept_past(folder)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
+
+    @property
+    def class_id(self) -> str:
+        """Identity of a class in the memory of years: nobody's name, no number of a variant."""
+        return self.register.trial_seed[:12]
+
+    def keep_past(self) -> None:
+        """Keep what was remembered beside the results: decisions come without the memory."""
+        data = [[work.batch, work.number, *map(list, work.traits)] for work in self.past]
+        write_text(self.folder / RESULTS / _PAST, json.dumps(data, ensure_ascii=False) + "\n")
+
+    def counted(self) -> list[Work]:
+        """The work that counts of each student."""
+        chosen = choose(list(self.works.values()), self.register.rubric.attempts.count)
+        return [work for _, work in sorted(chosen.items())]
+
+    def _rings(self) -> list[Ring]:
+        return rings_of([work for work in self.ordered if work.status == "graded"], self.past)
 
     @property
     def reused(self) -> int:
@@ -223,6 +257,7 @@ class _Batch:
         seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
         counted = choose(seen, rubric.attempts.count)
         self._kept = from_gradebook(book, kept, counted, rubric.maximum)
+        self._by_group, self._group_author = words_of_groups(book)
         refuse_too_many(self._kept, self.register)
         if submissions and options.decisions:
             items = Marker(self.register).assignment(self.register.books[0])[0].items
@@ -236,10 +271,17 @@ class _Batch:
         before = load_decisions(self.folder)
         counted = self._decided(kept, also=before)  # what was seen before the new words
         works, decisions = list(self.works.values()), kept
+        groups = waiting_groups(self.register, self.ordered, self._rings())
+        names = {group.name for group in groups}
+        # What the gradebook says of a group that waits no more was taken in before.
+        by_group = [words for words in self._by_group if words[0] in names]
         try:
             decisions = decided(
-                kept, self.register, works, counted, options.decisions, options.author
-            )
+                kept, self.register, works, counted, of_groups(by_group, groups),
+                self._group_author,
+            )  # fmt: skip
+            words = of_groups(options.decisions, groups)
+            decisions = decided(decisions, self.register, works, counted, words, options.author)
         except InputError as error:
             refused = error
         if decisions or before:
@@ -355,13 +397,15 @@ class _Batch:
 
     def finish(self) -> dict[str, Any]:
         """All tables, the page of the class and its JSON: made first, then written together."""
-        rows, summary = self._rows(), summarise(self.register, self.ordered)
+        rings = self._rings()
+        rows = table_rows(self.register, self.ordered, rings)
+        summary = summarise(self.register, self.ordered, rings)
         maximum = self.register.rubric.maximum
         data = {**summary, "rows": [_row(row) for row in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
-            "gradebook.xlsx": gradebook_xlsx(rows, maximum),
+            "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"]),
             "moodle.csv": moodle_csv(rows),
             "summary.html": class_page(summary),
             "summary.json": text + "\n",
@@ -380,7 +424,7 @@ class _Batch:
         Raises:
             InputError: it is none.
         """
-        rows = table_rows(self.register, self.ordered)
+        rows = table_rows(self.register, self.ordered, self._rings())
         worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
 
@@ -412,6 +456,19 @@ def _stem(result: dict[str, Any]) -> str:
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
     name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
     return f"{name.strip('-') or 'file'}-{mark}"
+
+
+_PAST = "past.json"
+
+
+def _kept_past(folder: Path) -> list[PastWork]:
+    """What an earlier run has kept of earlier classes."""
+    path = folder / RESULTS / _PAST
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
+    except (OSError, ValueError, TypeError):
+        return []
 
 
 # --- where results may be written ----------------------------------------------------------------

@@ -19,6 +19,7 @@ from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
+from reports.grading.judging.traits import Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, own_marks
@@ -85,6 +86,11 @@ class _Tables:
     def proofs(self) -> Proofs:
         """The engines on which formulas are tried, and what is proven."""
         return Proofs(trials_of(self.assignment, self.register.books, self.register.trial_seed))
+
+    @cached_property
+    def textbook(self) -> Textbook:
+        """The program's formulas as trees."""
+        return Textbook(self.assignment, self.layout)
 
     @cached_property
     def own(self) -> dict[str, str]:
@@ -210,6 +216,10 @@ class Marker:
             result["doubts"].append(text)
             result["manual"].append(text)
         result["formulas"] = formula_marks(student, tables.own)
+        result["traits"] = traits_of(student, items, tables.textbook)
+        for text in _of_the_program(student, result["formulas"], tables.textbook):
+            result["doubts"].append(text)
+            result["manual"].append(text)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
@@ -254,6 +264,25 @@ class Marker:
     def titles(assignment: Assignment) -> dict[str, str]:
         """Name of an input → its title."""
         return {name: field.title for name, field in assignment.model.fields.items()}
+
+
+_MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
+
+
+def _of_the_program(
+    student: StudentBook, formulas: Mapping[str, Sequence[Any]], book: Textbook
+) -> list[str]:
+    """How the work comes of a book that the program has solved: a person decides."""
+    told = []
+    if sheet := pasted(student, book):
+        told.append(f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги")
+    own = sum(bool(mark[2]) for mark in formulas.values())
+    issued = any(name.startswith("col_") for name in student.grid.names)
+    if not issued and own >= max(_MANY, _NEARLY_ALL * len(formulas)):
+        told.append(
+            f"это книга, решённая программой: слово в слово {own} из {len(formulas)} формул"
+        )
+    return told
 
 
 def _equal(text: object, value: object) -> bool:

@@ -25,6 +25,7 @@ from reports.grading.judging.judgement import (
     RIGHT,
     STILL,
     TYPED,
+    UNKNOWN,
     WRONG,
     Judgement,
 )
@@ -104,6 +105,7 @@ def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
 
 # --- the small form ------------------------------------------------------------------------------
 
+Trait = tuple[str, str, str, str, str]  # kind, item, digest, digest as spelt, what it goes with
 _MARK = 16  # signs of a mark of right values
 _NONE = " " * _MARK
 
@@ -122,6 +124,8 @@ class Entry:
     cause: str
     mark: str
     formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
+    reason: str = ""  # why a person has to look, and the formula that he looks at
+    sample: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +152,7 @@ class Work:
     decision: dict[str, Any] | None
     decisions: tuple[dict[str, Any], ...]
     items: tuple[Entry, ...]
+    traits: tuple[Trait, ...]
     _rights: str
 
     @property
@@ -157,7 +162,7 @@ class Work:
             yield entry, self._rights[index * _MARK : (index + 1) * _MARK].strip()
 
 
-Shared = dict[Entry, Entry]
+Shared = dict[Any, Any]  # entries and traits
 
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
@@ -185,8 +190,14 @@ def work_of(result: dict[str, Any], shared: Shared) -> Work:
         decision=result.get("decision"),
         decisions=tuple(result.get("decisions", ())),
         items=tuple(shared.setdefault(entry, entry) for entry in entries),
+        traits=tuple(shared.setdefault(t, t) for t in map(_trait, result.get("traits", ()))),
         _rights="".join((line.get("right_mark") or _NONE) for line in result["items"]),
     )
+
+
+def _trait(fields: Sequence[str]) -> Trait:
+    kind, item, mark, spelt, group = fields
+    return kind, item, mark, spelt, group
 
 
 def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
@@ -202,11 +213,14 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         cause=line["cause"],
         mark=line.get("mark", "") if verdict in (WRONG, TYPED, STILL) else "",
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
+        reason=line.get("reason", "") if verdict == UNKNOWN else "",
+        sample=line.get("sample", "") if verdict == UNKNOWN else "",
     )
 
 
 # --- lines of the feedback -----------------------------------------------------------------------
 
+_SAMPLE = 200  # signs of a formula that a person looks at
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
 
@@ -244,6 +258,9 @@ def feedback_line(
         "where": _where(student, judgement),
         "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
     }
+    if judgement.verdict == UNKNOWN:
+        runs = (run for node in item.nodes for run in student.runs(node))
+        line["sample"] = next((run.text for run in runs), "")[:_SAMPLE]
     if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
         line["cells"] = _cells(student, judgement)
         line["mark"] = fingerprint(item, judgement.values)

@@ -97,6 +97,10 @@ def _user() -> str:
 @path_option("--memory", metavar="ПАПКА",
              help="Память прошлых лет: отпечатки редких формул и ошибок.")  # fmt: skip
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@path_option("--form", metavar="ФАЙЛ", help="Ведомость института .xlsx: заполнить её оценками.")
+@click.option("--copies", is_flag=True, help="Вернуть книги студентов с пометками в ячейках.")
+@click.option("--questions", is_flag=True, help="Вопросы к защите по числам каждого студента.")
+@click.option("--anonymous", is_flag=True, help="Номера вместо имён на страницах.")
 @click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @click.option(
@@ -129,6 +133,10 @@ def grade(
     rubric: Path | None,
     roster: Path | None,
     memory: Path | None,
+    form: Path | None,
+    copies: bool,
+    questions: bool,
+    anonymous: bool,
     secret: Path | None,
     pdf: bool,
     jobs: int,
@@ -168,7 +176,8 @@ def grade(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
         options=GradeSetup(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
                         worksheet=worksheet,
-                        author=author, roster=roster, memory=memory),
+                        author=author, roster=roster, memory=memory,
+                        form=form, copies=copies, questions=questions, anonymous=anonymous),
     )  # fmt: skip
     summary = done.summary
     click.echo(f"{folder}: проверено файлов: {summary['files']}, с оценкой: {summary['graded']}")

@@ -28,9 +28,9 @@ def line(item: str, verdict: str, points: float = 10.0) -> dict:
             "verdict": verdict, "points": paid, "of": points}  # fmt: skip
 
 
-def scored(lines: list[dict], rubric, handed: HandedIn = HandedIn()) -> dict:
+def scored(lines: list[dict], rubric, handed: HandedIn | None = None) -> dict:
     result = {"items": lines, "notes": [], "manual": []}
-    score(result, rubric, handed)
+    score(result, rubric, handed or HandedIn())
     return result
 
 

@@ -6,10 +6,12 @@ import hashlib
 import json
 import re
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+from markupsafe import escape
 
 from reports.grading.batch.decisions import (
     Decision,
@@ -25,7 +27,7 @@ from reports.grading.batch.decisions import (
     words_of_groups,
 )
 from reports.grading.batch.memory import remember, remembered
-from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
+from reports.grading.batch.pool import TIMEOUT_S, Outcome, copies, grade_all, grade_far
 from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import Student, read_roster
@@ -36,7 +38,7 @@ from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
-from reports.grading.pages.pages import class_page, student_page
+from reports.grading.pages.pages import class_page, questions_page, student_page
 from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.background import processors
@@ -45,7 +47,7 @@ from reports.shared.files import make_dir, read_json, write_bytes, write_text
 from reports.shared.progress import Progress
 from reports.shared.resources import source_digest
 
-PAGES = "pages"
+PAGES, QUESTIONS = "pages", "questions"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 
@@ -62,6 +64,10 @@ class GradeSetup:
     worksheet: Path | None = None  # of Moodle, to be filled in
     roster: Path | None = None  # with the deadlines put off since the issue
     memory: Path | None = None  # folder with the traits of earlier classes
+    form: Path | None = None  # of the institute, to be filled in
+    copies: bool = False  # the students' books back with marks in them
+    questions: bool = False  # for the defence
+    anonymous: bool = False  # numbers for names on all pages
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +113,7 @@ def grade(
     submissions = collect(submitted)
     refuse_overlap(submitted, folder, issued)
     refuse_another_class(folder, register)
-    batch = _Batch(register, folder)
+    batch = _Batch(register, folder, anonymous=options.anonymous)
     if options.memory is not None:
         batch.past = remembered(options.memory, batch.class_id)
     batch.check(options, submissions)
@@ -137,6 +143,12 @@ def grade(
         raise refused
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
+    if options.form is not None:
+        batch.fill_form(options.form)
+    if options.copies:
+        batch.write_copies(submissions, workers, options.timeout_s)
+    if options.questions:
+        batch.write_questions()
     if options.pdf:
         batch.write_pdf()
     return Graded(folder, summary, batch.reused, time.monotonic() - started)
@@ -190,15 +202,16 @@ class _Batch:
     In memory there is only what the tables of the class need of each work.
     """
 
-    def __init__(self, register: Register, folder: Path) -> None:
+    def __init__(self, register: Register, folder: Path, *, anonymous: bool = False) -> None:
         self.register, self.folder = register, folder
+        self._veil = Veil(register) if anonymous else None
         self.works: dict[str, Work] = {}
         self._shared: Shared = {}
         self.waiting: list[Submission] = []
         self.register_file = folder / RESULTS / FILE
         self._written = time.monotonic()
         self._rules = hashlib.sha256(
-            f"{source_digest()} {register.json_text()}".encode()
+            f"{source_digest()} {anonymous} {register.json_text()}".encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
@@ -215,6 +228,10 @@ class _Batch:
     def class_id(self) -> str:
         """Identity of a class in the memory of years: nobody's name, no number of a variant."""
         return self.register.trial_seed[:12]
+
+    def _shown(self, page: str, *files: str) -> str:
+        """A page as people see it: with numbers for names where that is asked."""
+        return page if self._veil is None else self._veil.over(page, files)
 
     def keep_past(self) -> None:
         """Keep what was remembered beside the results: decisions come without the memory."""
@@ -306,15 +323,18 @@ class _Batch:
         for key, result in results.items():
             counts = counted[result["number"]].key == key
             shown = waiting(result, decisions) if counts else result
-            write_text(self.folder / shown["page"], student_page(shown, self.register.rubric))
+            page = self._shown(student_page(shown, self.register.rubric), shown["file"])
+            write_text(self.folder / shown["page"], page)
             self._keep(shown)
         return counted
 
     def _result(self, work: Work) -> dict[str, Any]:
         """The result of a work as the program has made it."""
-        path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
-        result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        result: dict[str, Any] = json.loads(self._json_of(work).read_text(encoding="utf-8"))
         return result
+
+    def _json_of(self, work: Work) -> Path:
+        return self.folder / RESULTS / f"{Path(work.page).stem}.json"
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -375,10 +395,10 @@ class _Batch:
             blank["sha256"] = self._sha256[submission.key]
             result = marker.refused(blank, submission, outcome.problem)
             page = student_page(result, self.register.rubric)
-        stem = _stem(result)
+        stem = _stem(result, number_only=self._veil is not None)
         result["fingerprint"] = self._hashes[submission.key]
         result["page"] = f"{PAGES}/{stem}.html"
-        write_text(self.folder / result["page"], page)
+        write_text(self.folder / result["page"], self._shown(page, result["file"]))
         text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
         write_text(self.folder / RESULTS / f"{stem}.json", text)
         self._keep(result)
@@ -407,7 +427,7 @@ class _Batch:
             "gradebook.csv": gradebook_csv(rows, maximum),
             "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"]),
             "moodle.csv": moodle_csv(rows),
-            "summary.html": class_page(summary),
+            "summary.html": self._shown(class_page(summary), *(w.file for w in self.ordered)),
             "summary.json": text + "\n",
         }
         if any(work.moodle_id for work in self.ordered):
@@ -427,6 +447,56 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, self._rings())
         worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
+
+    def fill_form(self, path: Path) -> None:
+        """The institute's form with points and marks.
+
+        Raises:
+            InputError: it cannot be read.
+        """
+        from reports.grading.pages.form import filled_form
+
+        rows = table_rows(self.register, self.ordered, self._rings())
+        form = filled_form(path, rows, self.register.rubric)
+        write_bytes(self.folder / "ведомость.xlsx", form.data)
+        if form.left:
+            write_text(self.folder / "ведомость-осталось.txt", "\n".join(form.left) + "\n")
+
+    def write_copies(
+        self, submissions: Sequence[Submission], workers: int, timeout_s: float
+    ) -> None:
+        """The books of the students back with coloured cells and comments, beside the pages."""
+        by_key = {submission.key: submission for submission in submissions}
+        works = [work for work in self.counted() if work.status == "graded"]
+        decisions = load_decisions(self.folder)
+        jobs = [
+            (by_key[work.key], applied(self._result(work), decisions), work)
+            for work in works
+            if work.key in by_key
+        ]
+        for work, data in copies(jobs, self.register.rubric, workers, timeout_s):
+            write_bytes((self.folder / work.page).with_suffix(".xlsx"), data)
+
+    def write_questions(self) -> None:
+        """Questions for the defence: a sheet for each student, one with answers for the class."""
+        from reports.grading.pages.questions import questions_for
+
+        marker, rubric = Marker(self.register), self.register.rubric
+        books = {book.number: book for book in self.register.books}
+        sheets = []
+        make_dir(self.folder / QUESTIONS)
+        for work in self.counted():
+            book = books[work.number or 0]
+            wrong = [line.id for line in work.items if line.of and line.points < line.of]
+            asked = questions_for(marker.assignment(book)[0], book.ticket, wrong)
+            student = book.student
+            sheet = {"student": student.full, "group": student.group, "number": book.number,
+                     "questions": asked}  # fmt: skip
+            sheets.append(sheet)
+            page = self._shown(questions_page([sheet], rubric, answers=False))
+            write_text(self.folder / QUESTIONS / Path(work.page).name, page)
+        page = self._shown(questions_page(sheets, rubric, answers=True))
+        write_text(self.folder / "questions.html", page)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.
@@ -451,11 +521,32 @@ def _row(row: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
 
 
-def _stem(result: dict[str, Any]) -> str:
-    """A file name that depends on the submission alone."""
+def _stem(result: dict[str, Any], *, number_only: bool) -> str:
+    """A file name that depends on the submission alone; it may tell no name."""
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
+    if number_only:
+        return f"{result['number'] or 0:03d}-{mark}"
     name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
     return f"{name.strip('-') or 'file'}-{mark}"
+
+
+class Veil:
+    """Numbers for the names of a class."""
+
+    def __init__(self, register: Register) -> None:
+        self._names: dict[str, str] = {}
+        for book in register.books:
+            student = book.student
+            first = student.name.split(" ")[0]
+            for name in (book.file, book.folder, student.full, f"{student.surname} {first}",
+                         f"{first} {student.surname}"):  # fmt: skip
+                self._names.setdefault(str(escape(name)), f"Студент {book.number}")
+
+    def over(self, page: str, files: Iterable[str]) -> str:
+        """A page with numbers for names and for the names of files."""
+        names = {str(escape(file)): f"файл {i}" for i, file in enumerate(files, 1)} | self._names
+        ordered = sorted(filter(None, names), key=len, reverse=True)
+        return re.sub("|".join(map(re.escape, ordered)), lambda match: names[match[0]], page)
 
 
 _PAST = "past.json"

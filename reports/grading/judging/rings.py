@@ -32,7 +32,7 @@ _KINDS = {
     HELPER: (0.08, 4.0), TEXT: (0.05, 3.0), LAYOUT: (0.1, 3.0),
 }  # fmt: skip
 _WEIGHT = 20  # students that the share before the class counts for
-HELD, TOLD = 20.0, 12.0  # bits from which works are held, and told
+HELD, TOLD = 20.0, 17.0  # bits from which works are held, and told
 _FORMS_ALONE = 30.0  # bits of forms that hold by themselves, spelt alike to a sign
 _SPELT = 0.8  # share of the common forms that must be spelt alike for that
 _CLASS = 12  # students in whose class a form may be rare at all

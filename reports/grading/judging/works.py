@@ -258,6 +258,8 @@ def feedback_line(
         "where": _where(student, judgement),
         "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
     }
+    if not line["where"]:
+        line["at"] = _at(student, item)
     if judgement.verdict == UNKNOWN:
         runs = (run for node in item.nodes for run in student.runs(node))
         line["sample"] = next((run.text for run in runs), "")[:_SAMPLE]
@@ -327,6 +329,16 @@ def _where(student: StudentBook, judgement: Judgement) -> list[str]:
         f"{sheet}!{range_text(first, last, column)}"
         for (sheet, column), cells in groupby(located, key=itemgetter(0))
         for first, last in stretches(row for _, row in cells)
+    ]
+
+
+def _at(student: StudentBook, item: Item) -> list[str]:
+    """The cells of an item as ranges."""
+    places = filter(None, map(student.placement.places.get, item.nodes))
+    return [
+        f"{place.sheet}!{range_text(place.span.first, place.span.last, place.column)}"
+        for place in places
+        if place.span is not None
     ]
 
 

@@ -102,6 +102,12 @@ def class_page(summary: dict[str, Any]) -> str:
     return _environment().get_template("summary.html.j2").render(summary=summary, words=WORDS)
 
 
+def questions_page(sheets: Sequence[dict[str, Any]], rubric: Rubric, *, answers: bool) -> str:
+    """Sheets of questions for the defence, with answers for the instructor."""
+    template = _environment().get_template("questions.html.j2")
+    return template.render(sheets=sheets, answers=answers, title=rubric.work.title)
+
+
 def _chart(line: dict[str, Any], full: bool) -> Markup:
     chart = line.get("chart")
     if not chart or line["verdict"] not in ("wrong", "error"):

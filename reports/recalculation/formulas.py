@@ -277,13 +277,21 @@ class Formula:
         if foreign:
             return f"функция {foreign[0]}" if foreign[0] != _GOOGLE else GOOGLE_ARRAY
         texts = [value[1:-1] for kind, value in self.pattern if kind == "text"]
-        if "CONVERT" in self.functions and not (len(texts) > 1 and set(texts) <= UNITS.keys()):
+        if "CONVERT" in self.functions and not self._converts_known_units():
             return "функция CONVERT, единицы — только длины, массы и углы"
         if "AGGREGATE" in self.functions and not self._aggregates_all():
             return "функция AGGREGATE: скрытые строки или место по порядку"
         if "SUBTOTAL" in self.functions and not self._totals_all():
             return "функция SUBTOTAL, которая пропускает скрытые строки"
         return TEXT_NUMBER if any(map(is_doubtful, texts)) else ""
+
+    def _converts_known_units(self) -> bool:
+        """Whether each conversion names two units, and such as are calculated."""
+        places = zip(self.pattern, _places(self.pattern), strict=True)
+        units = [token for token, place in places if place.function == "CONVERT" and place.argument]
+        texts = [value[1:-1] for kind, value in units if kind == "text"]
+        calls = sum(kind == "name" and value.upper() == "CONVERT" for kind, value in self.pattern)
+        return len(texts) == 2 * calls and set(texts) <= UNITS.keys()
 
     def _totals_all(self) -> bool:
         """Whether its subtotals count hidden rows, too."""

@@ -20,7 +20,7 @@ from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
-from reports.shared.russian import fixed, short
+from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
@@ -201,7 +201,8 @@ class Causes:
         fields = self.student.assignment.model.fields
         for name in sorted(self._names(item.nodes[0])):
             if name in fields and isinstance(fields[name].value, (int, float)):
-                title = "частота вращения n" if name == "regime_speed_rpm" else fields[name].title
+                title = fields[name].title
+                title = "частота вращения n" if name == "regime_speed_rpm" else uncapital(title)
                 yield f"{title} вместо {item.symbol}", np.array([float(run.value(name))])
 
     def _moved_reference(self, item: Item) -> str:

@@ -20,7 +20,7 @@ from reports.formula.plain import plain
 from reports.grading.issuing.assignment import Assignment, Item
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation, node_of
-from reports.shared.russian import short, written
+from reports.shared.russian import short, uncapital, written
 
 Array = NDArray[np.float64]
 COUNT = 5  # questions for a student
@@ -146,7 +146,7 @@ class _Maker:
         if not np.isfinite(share) or abs(share) < _TELLING:
             return None
         what = "наибольшее по модулю значение " if item.is_column else ""
-        title = field.title[:1].lower() + field.title[1:]
+        title = uncapital(field.title)
         text = (
             f"Как изменится {what}{item.symbol} ({item.title}), если увеличить на 10 % величину "
             f"«{title}» ({short(float(value))} {field.unit}), а остальное оставить?"

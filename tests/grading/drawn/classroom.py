@@ -116,10 +116,14 @@ class DrawnClass:
 
     def book(self, number: int, texts: Mapping[str, str], helpers: Sequence[str] = ()) -> bytes:
         """The book that a student hands in."""
-        here = self.desk(number)
-        cells = filled_cells(here.assignment, here.layout, self.formulas(number, texts))  # type: ignore[arg-type]
-        data = typed(here, cells, self.desk(1))  # type: ignore[arg-type]
+        data = self.typed(number, self.formulas(number, texts))
         return with_helpers(data, helpers) if helpers else data
+
+    def typed(self, number: int, formulas: Mapping[str, Sequence[object]]) -> bytes:
+        """A student's book with formulas or numbers in the cells to fill in."""
+        here = self.desk(number)
+        cells = filled_cells(here.assignment, here.layout, formulas)  # type: ignore[arg-type]
+        return typed(here, cells, self.desk(1))
 
     def work(self, number: int, data: bytes, shared: dict) -> Work:
         """What the class keeps of a graded book."""

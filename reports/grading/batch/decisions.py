@@ -14,7 +14,7 @@ from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.scoring import rescored
 from reports.grading.judging.works import Work
 from reports.grading.pages.gradebook import DECISION, GROUPS, OF_FILE
-from reports.grading.pages.groups import NAME, Group
+from reports.grading.pages.groups import NAME, WaitingGroup
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import write_text
 
@@ -114,7 +114,7 @@ def refuse_wrong_words(
 
 
 def of_groups(
-    words: Sequence[tuple[str, str, str, str]], groups: Sequence[Group]
+    words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup]
 ) -> list[tuple[str, str, str, str]]:
     """The words of a command with those about a group said of each of its works.
 

@@ -6,12 +6,10 @@ import hashlib
 import json
 import re
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-from markupsafe import escape
 
 from reports.grading.batch.decisions import (
     Decision,
@@ -26,11 +24,21 @@ from reports.grading.batch.decisions import (
     waiting,
     words_of_groups,
 )
+from reports.grading.batch.extras import (
+    RESULTS,
+    Veil,
+    fill_form,
+    put_off,
+    refuse_another_class,
+    refuse_overlap,
+    write_copies,
+    write_questions,
+)
 from reports.grading.batch.memory import remember, remembered
-from reports.grading.batch.pool import TIMEOUT_S, Outcome, copies, grade_all, grade_far
+from reports.grading.batch.pool import TIMEOUT_S, Job, Outcome, grade_all, grade_far
 from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
-from reports.grading.issuing.roster import Student, read_roster
+from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
@@ -38,7 +46,7 @@ from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
-from reports.grading.pages.pages import class_page, questions_page, student_page
+from reports.grading.pages.pages import class_page, student_page
 from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.background import processors
@@ -47,7 +55,7 @@ from reports.shared.files import make_dir, read_json, write_bytes, write_text
 from reports.shared.progress import Progress
 from reports.shared.resources import source_digest
 
-PAGES, QUESTIONS = "pages", "questions"
+PAGES, _PAST = "pages", "past.json"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 
@@ -144,29 +152,17 @@ def grade(
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
     if options.form is not None:
-        batch.fill_form(options.form)
+        rows = table_rows(register, batch.ordered, batch.rings())
+        fill_form(folder, rows, register.rubric, options.form)
     if options.copies:
-        batch.write_copies(submissions, workers, options.timeout_s)
+        write_copies(
+            folder, batch.results(submissions), register.rubric, workers, options.timeout_s
+        )
     if options.questions:
-        batch.write_questions()
+        write_questions(folder, batch.counted(), Marker(register), batch.shown)
     if options.pdf:
         batch.write_pdf()
     return Graded(folder, summary, batch.reused, time.monotonic() - started)
-
-
-def put_off(register: Register, students: Sequence[Student]) -> Register:
-    """The register with the deadlines of a newer roster; nothing else is taken from it."""
-    given = {student.id: student.extension for student in students}
-    if given.keys().isdisjoint(book.student.id for book in register.books):
-        hint = "возьмите список, по которому выданы варианты, и впишите в него столбец «Срок»"
-        raise InputError(Problem("--roster", "в списке нет студентов этой выдачи", hint))
-    books = (
-        replace(book, student=replace(book.student, extension=given[book.student.id]))
-        if book.student.id in given
-        else book
-        for book in register.books
-    )
-    return replace(register, books=tuple(books))
 
 
 def _progress(done: int, count: int, reused: int, started: float) -> str:
@@ -229,7 +225,7 @@ class _Batch:
         """Identity of a class in the memory of years: nobody's name, no number of a variant."""
         return self.register.trial_seed[:12]
 
-    def _shown(self, page: str, *files: str) -> str:
+    def shown(self, page: str, *files: str) -> str:
         """A page as people see it: with numbers for names where that is asked."""
         return page if self._veil is None else self._veil.over(page, files)
 
@@ -243,7 +239,18 @@ class _Batch:
         chosen = choose(list(self.works.values()), self.register.rubric.attempts.count)
         return [work for _, work in sorted(chosen.items())]
 
-    def _rings(self) -> list[Ring]:
+    def results(self, submissions: Sequence[Submission]) -> list[Job]:
+        """The files that count with their results, as people have decided."""
+        by_key = {submission.key: submission for submission in submissions}
+        decisions = load_decisions(self.folder)
+        return [
+            (by_key[work.key], applied(self._result(work), decisions), work)
+            for work in self.counted()
+            if work.status == "graded" and work.key in by_key
+        ]
+
+    def rings(self) -> list[Ring]:
+        """Works with a common origin, those of earlier classes among them."""
         return rings_of([work for work in self.ordered if work.status == "graded"], self.past)
 
     @property
@@ -288,7 +295,7 @@ class _Batch:
         before = load_decisions(self.folder)
         counted = self._decided(kept, also=before)  # what was seen before the new words
         works, decisions = list(self.works.values()), kept
-        groups = waiting_groups(self.register, self.ordered, self._rings())
+        groups = waiting_groups(self.register, self.ordered, self.rings())
         names = {group.name for group in groups}
         # What the gradebook says of a group that waits no more was taken in before.
         by_group = [words for words in self._by_group if words[0] in names]
@@ -323,7 +330,7 @@ class _Batch:
         for key, result in results.items():
             counts = counted[result["number"]].key == key
             shown = waiting(result, decisions) if counts else result
-            page = self._shown(student_page(shown, self.register.rubric), shown["file"])
+            page = self.shown(student_page(shown, self.register.rubric), shown["file"])
             write_text(self.folder / shown["page"], page)
             self._keep(shown)
         return counted
@@ -398,7 +405,7 @@ class _Batch:
         stem = _stem(result, number_only=self._veil is not None)
         result["fingerprint"] = self._hashes[submission.key]
         result["page"] = f"{PAGES}/{stem}.html"
-        write_text(self.folder / result["page"], self._shown(page, result["file"]))
+        write_text(self.folder / result["page"], self.shown(page, result["file"]))
         text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
         write_text(self.folder / RESULTS / f"{stem}.json", text)
         self._keep(result)
@@ -417,7 +424,7 @@ class _Batch:
 
     def finish(self) -> dict[str, Any]:
         """All tables, the page of the class and its JSON: made first, then written together."""
-        rings = self._rings()
+        rings = self.rings()
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
         maximum = self.register.rubric.maximum
@@ -427,7 +434,7 @@ class _Batch:
             "gradebook.csv": gradebook_csv(rows, maximum),
             "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"]),
             "moodle.csv": moodle_csv(rows),
-            "summary.html": self._shown(class_page(summary), *(w.file for w in self.ordered)),
+            "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
             "summary.json": text + "\n",
         }
         if any(work.moodle_id for work in self.ordered):
@@ -444,59 +451,9 @@ class _Batch:
         Raises:
             InputError: it is none.
         """
-        rows = table_rows(self.register, self.ordered, self._rings())
+        rows = table_rows(self.register, self.ordered, self.rings())
         worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
-
-    def fill_form(self, path: Path) -> None:
-        """The institute's form with points and marks.
-
-        Raises:
-            InputError: it cannot be read.
-        """
-        from reports.grading.pages.form import filled_form
-
-        rows = table_rows(self.register, self.ordered, self._rings())
-        form = filled_form(path, rows, self.register.rubric)
-        write_bytes(self.folder / "ведомость.xlsx", form.data)
-        if form.left:
-            write_text(self.folder / "ведомость-осталось.txt", "\n".join(form.left) + "\n")
-
-    def write_copies(
-        self, submissions: Sequence[Submission], workers: int, timeout_s: float
-    ) -> None:
-        """The books of the students back with coloured cells and comments, beside the pages."""
-        by_key = {submission.key: submission for submission in submissions}
-        works = [work for work in self.counted() if work.status == "graded"]
-        decisions = load_decisions(self.folder)
-        jobs = [
-            (by_key[work.key], applied(self._result(work), decisions), work)
-            for work in works
-            if work.key in by_key
-        ]
-        for work, data in copies(jobs, self.register.rubric, workers, timeout_s):
-            write_bytes((self.folder / work.page).with_suffix(".xlsx"), data)
-
-    def write_questions(self) -> None:
-        """Questions for the defence: a sheet for each student, one with answers for the class."""
-        from reports.grading.pages.questions import questions_for
-
-        marker, rubric = Marker(self.register), self.register.rubric
-        books = {book.number: book for book in self.register.books}
-        sheets = []
-        make_dir(self.folder / QUESTIONS)
-        for work in self.counted():
-            book = books[work.number or 0]
-            wrong = [line.id for line in work.items if line.of and line.points < line.of]
-            asked = questions_for(marker.assignment(book)[0], book.ticket, wrong)
-            student = book.student
-            sheet = {"student": student.full, "group": student.group, "number": book.number,
-                     "questions": asked}  # fmt: skip
-            sheets.append(sheet)
-            page = self._shown(questions_page([sheet], rubric, answers=False))
-            write_text(self.folder / QUESTIONS / Path(work.page).name, page)
-        page = self._shown(questions_page(sheets, rubric, answers=True))
-        write_text(self.folder / "questions.html", page)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.
@@ -530,28 +487,6 @@ def _stem(result: dict[str, Any], *, number_only: bool) -> str:
     return f"{name.strip('-') or 'file'}-{mark}"
 
 
-class Veil:
-    """Numbers for the names of a class."""
-
-    def __init__(self, register: Register) -> None:
-        self._names: dict[str, str] = {}
-        for book in register.books:
-            student = book.student
-            first = student.name.split(" ")[0]
-            for name in (book.file, book.folder, student.full, f"{student.surname} {first}",
-                         f"{first} {student.surname}"):  # fmt: skip
-                self._names.setdefault(str(escape(name)), f"Студент {book.number}")
-
-    def over(self, page: str, files: Iterable[str]) -> str:
-        """A page with numbers for names and for the names of files."""
-        names = {str(escape(file)): f"файл {i}" for i, file in enumerate(files, 1)} | self._names
-        ordered = sorted(filter(None, names), key=len, reverse=True)
-        return re.sub("|".join(map(re.escape, ordered)), lambda match: names[match[0]], page)
-
-
-_PAST = "past.json"
-
-
 def _kept_past(folder: Path) -> list[PastWork]:
     """What an earlier run has kept of earlier classes."""
     path = folder / RESULTS / _PAST
@@ -560,29 +495,3 @@ def _kept_past(folder: Path) -> list[PastWork]:
         return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
     except (OSError, ValueError, TypeError):
         return []
-
-
-# --- where results may be written ----------------------------------------------------------------
-
-RESULTS = "results"
-
-
-def refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
-    """Results must not land among the files that are read."""
-    target = folder.resolve()
-    for read_folder in (submitted, issued):
-        source = read_folder.resolve()
-        if source.is_dir() and (target == source or source in target.parents):
-            what = f"результаты легли бы в папку {read_folder}"
-            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
-
-
-def refuse_another_class(folder: Path, register: Register) -> None:
-    """Decisions on one class are not those on the students with the same numbers of another."""
-    try:
-        earlier = load_register(folder / RESULTS / FILE)
-    except InputError:
-        return
-    if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
-        what = "здесь результаты и решения другой группы или другой выдачи"
-        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))

@@ -91,7 +91,15 @@ def _skeleton(word: str) -> str:
     return word
 
 
-_TWINS = str.maketrans("aceopxykmtbhёй", "асеорхукмтвнеи")
+# The Latin letters that look Cyrillic, by their Unicode names; ё for е, й for и.
+_TWINS = {
+    ord(unicodedata.lookup(f"LATIN SMALL LETTER {here}")): f"CYRILLIC SMALL LETTER {there}"
+    for here, there in (("A", "A"), ("C", "ES"), ("E", "IE"), ("O", "O"), ("P", "ER"), ("X", "HA"),
+                        ("Y", "U"), ("K", "KA"), ("M", "EM"), ("T", "TE"), ("B", "VE"), ("H", "EN"))
+}  # fmt: skip
+_TWINS = {code: unicodedata.lookup(name) for code, name in _TWINS.items()} | {
+    ord("ё"): "е", ord("й"): "и",
+}  # fmt: skip
 
 
 def twin(text: str) -> str:

@@ -129,7 +129,7 @@ class Minimum(_Section):
     tables: dict[str, Share] = {}
 
 
-class Scale(_Section):
+class MarkScale(_Section):
     """[scale]: least points of each mark, or of the credit."""
 
     marks: dict[str, Points] = {}
@@ -173,7 +173,7 @@ class Rubric(_Section):
     minimum: Minimum = Minimum()
     needs: dict[str, tuple[Name, ...]] = {}
     messages: tuple[Message, ...] = ()
-    scale: Scale = Scale()
+    scale: MarkScale = MarkScale()
     form: Form = Form()
     feedback: Feedback = Feedback()
 

@@ -17,7 +17,7 @@ _NUMBERS = re.compile(r"\d+([.,]\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class WaitingGroup:
     """Works that one decision can serve; ``item`` is empty where it is about the whole work."""
 
     name: str
@@ -33,7 +33,7 @@ class Group:
 def groups_of(
     counted: Mapping[int, Work], held: Mapping[str, Sequence[str]], rings: Sequence[Ring],
     maximum: float,
-) -> list[Group]:  # fmt: skip
+) -> list[WaitingGroup]:  # fmt: skip
     """Groups of the works that count, the largest first; what is decided waits for nobody."""
     members: dict[tuple[str, str], list[Work]] = {}
     told: dict[tuple[str, str], tuple[str, str, str, float]] = {}
@@ -53,7 +53,7 @@ def groups_of(
             members.setdefault(("", words), []).append(work)
             told.setdefault(("", words), ("вся работа", why, "", maximum))
     groups = [
-        Group(_name(key), key[0], *told[key], tuple(work.number or 0 for work in works),
+        WaitingGroup(_name(key), key[0], *told[key], tuple(work.number or 0 for work in works),
               tuple(work.student for work in works))
         for key, works in members.items()
     ]  # fmt: skip

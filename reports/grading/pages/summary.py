@@ -13,7 +13,7 @@ from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED, UNKN
 from reports.grading.judging.rings import Ring
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.works import Work
-from reports.grading.pages.groups import Group, groups_of
+from reports.grading.pages.groups import WaitingGroup, groups_of
 from reports.grading.pages.pages import moment
 from reports.shared.russian import short
 
@@ -179,7 +179,7 @@ def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]
 
 def waiting_groups(
     register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
-) -> list[Group]:
+) -> list[WaitingGroup]:
     """Works that count and wait, by what is the same about them."""
     chosen = choose(results, register.rubric.attempts.count)
     return groups_of(chosen, suspicions(results, rings), rings, register.rubric.maximum)

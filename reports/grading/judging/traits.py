@@ -118,7 +118,6 @@ class _Own:
 
     def __init__(self, student: StudentBook, book: Textbook) -> None:
         self.student, self.book = student, book
-        self.reader = Reader(self._node_at, self._formula_at, self._constant_at, self._named)
 
     @cached_property
     def cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
@@ -135,7 +134,8 @@ class _Own:
     def _title(self, sheet: str) -> str:
         return self.student.grid.title(sheet) or sheet
 
-    def _formula_at(self, sheet: str, row: int, column: int) -> tuple[Token, ...] | None:
+    def formula_at(self, sheet: str, row: int, column: int) -> tuple[Token, ...] | None:
+        """Tokens of the formula of a cell."""
         for run in self.student.grid.column(self._title(sheet), column).runs_in(row, row):
             return run.formula.pattern if run.formula is not None else None
         return None
@@ -157,13 +157,14 @@ class _Own:
         shared = bool(node) and self.student.as_laid_out
         if shared and key in self.book.known:
             return self.book.known[key]
-        self.reader.helped = False
+        # Kept nowhere: a circle of references would keep the whole book with it.
+        reader = Reader(self._node_at, self.formula_at, self._constant_at, self._named)
         try:
             at = run.sheet, run.first, run.column
-            tree: Tree | None = self.reader.tree(run.formula.pattern, at, index)
+            tree: Tree | None = reader.tree(run.formula.pattern, at, index)
         except (UnknownFormula, RecursionError):
             tree = None
-        if shared and not self.reader.helped and len(self.book.known) < 50_000:
+        if shared and not reader.helped and len(self.book.known) < 50_000:
             self.book.known[key] = tree
         return tree
 
@@ -260,7 +261,7 @@ def pasted(student: StudentBook, book: Textbook) -> str:
             continue
         for area in student.grid.precedents(run):
             at = (area.sheet, area.first_row, area.first_column)
-            tokens = None if at in own.cells else own.reader.formula_at(*at)
+            tokens = None if at in own.cells else own.formula_at(*at)
             if tokens is not None and tokens in book.patterns:
                 of_program[area.sheet] += 1
     sheet, count = of_program.most_common(1)[0] if of_program else ("", 0)

@@ -106,11 +106,19 @@ def rings_of(graded: Sequence[Work], past: Past = ()) -> list[Ring]:
         found = _evidence(everyone[one].traits, everyone[other].traits, owners, count)
         if found.bits >= TOLD:
             pairs[one, other] = found
-    rings = []
+    rings: list[Ring] = []
     for held in (True, False):
         links = {pair: found for pair, found in pairs.items() if found.held == held}
-        rings += [_ring(group, everyone, links, held=held) for group in _groups(links)]
+        for group in _groups(links):
+            ring = _ring(group, everyone, links, held=held)
+            if not any(_has(known, ring) for known in rings):  # a part of what is told already
+                rings.append(ring)
     return rings
+
+
+def _has(whole: Ring, part: Ring) -> bool:
+    keys = {work.key for work in whole.works}
+    return whole.held and keys >= {work.key for work in part.works} and not part.past
 
 
 def _owner(work: Work | PastWork) -> tuple[str, object]:

@@ -103,14 +103,20 @@ class Textbook:
         return self._cells.get((sheet, row, column))
 
     def _named(self, name: str) -> tuple[str, int, int] | None:
-        return self._by_name.get(name)
+        return self.names.get(name)
 
     @cached_property
-    def _by_name(self) -> dict[str, tuple[str, int, int]]:
+    def names(self) -> dict[str, tuple[str, int, int]]:
+        """Name, folded by case → its cell, as issued."""
         cells = self.layout.cells
         return {
             name.casefold(): (cell.sheet, cell.row, cell.column) for name, cell in cells.items()
         }
+
+    @cached_property
+    def defined(self) -> dict[str, tuple[str, int, int]]:
+        """Names that the issued book defines."""
+        return {name.casefold(): self.names[name.casefold()] for name in self.layout.named}
 
 
 class _Own:
@@ -154,7 +160,7 @@ class _Own:
         known = self._node_at(run.sheet, run.first, run.column)
         index = known[1] if known is not None else 0
         key = node, run.formula, index
-        shared = bool(node) and self.student.as_laid_out
+        shared = bool(node) and self._as_issued
         if shared and key in self.book.known:
             return self.book.known[key]
         # Kept nowhere: a circle of references would keep the whole book with it.
@@ -167,6 +173,12 @@ class _Own:
         if shared and not reader.helped and len(self.book.known) < 50_000:
             self.book.known[key] = tree
         return tree
+
+    @cached_property
+    def _as_issued(self) -> bool:
+        """Whether cells and names are as issued: what is read then is the same for a class."""
+        issued = self.book.defined
+        return self.student.as_laid_out and all(self._named(n) == at for n, at in issued.items())
 
     @cached_property
     def helpers(self) -> list[Run]:

@@ -24,25 +24,33 @@ from reports.shared.errors import KshmError
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @file_argument("БАЗА")
-@path_option("--roster", required=True, metavar="ФАЙЛ", help="Список группы: .xlsx или CSV.")
-@path_option("-o", "--output", "folder", required=True, help="Папка для выдачи.")
+@path_option("--roster", metavar="ФАЙЛ", help="Список группы: .xlsx или CSV.")
+@path_option("-o", "--output", "folder", help="Папка для выдачи.")
 @click.option("--seed", default=1, metavar="ЧИСЛО", show_default=True,
               help="Зерно: то же зерно — те же варианты.")  # fmt: skip
 @path_option("--rubric", metavar="ФАЙЛ", help="Рубрика TOML (без неё — правила по умолчанию).")
 @path_option("--ranges", metavar="ФАЙЛ", help="Диапазоны, если их нет в разделе [variants].")
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@path_option("--try-rubric", "samples", metavar="ФАЙЛ",
+             help="Не выдавать, а проверить рубрику на пробных работах.")  # fmt: skip
 @verbose_option
 def issue(
     source: Path,
-    roster: Path,
-    folder: Path,
+    roster: Path | None,
+    folder: Path | None,
     seed: int,
     rubric: Path | None,
     ranges: Path | None,
     secret: Path | None,
+    samples: Path | None,
 ) -> int:
     """Выдать каждому студенту свой вариант и рабочую книгу."""
+    if samples is not None:
+        return _try_rubric(source, samples, rubric, ranges)
     from reports.grading.issuing.issue import issue as issue_books
+
+    if roster is None or folder is None:
+        raise KshmError("нужны список группы (--roster) и папка для выдачи (-o)")
 
     done = issue_books(
         source, roster, folder, seed=seed,
@@ -58,6 +66,21 @@ def issue(
     return DONE
 
 
+def _try_rubric(source: Path, samples: Path, rubric: Path | None, ranges: Path | None) -> int:
+    from reports.grading.batch.rubric_trial import try_rubric
+    from reports.shared.russian import short
+
+    tried = try_rubric(source, samples, rubric_file=rubric, ranges_file=ranges)
+    for one in tried:
+        points, wanted = short(one.points, 4), short(one.sample.points, 4)
+        said = "как задано" if one.is_as_expected else f"а задано {wanted}"
+        click.echo(f"{one.sample.name}: {points} — {said}")
+    unlike = sum(not one.is_as_expected for one in tried)
+    if unlike:
+        click.echo(f"Баллы не те, что заданы: {unlike} из {len(tried)}", err=True)
+    return LOOK if unlike else DONE
+
+
 def _user() -> str:
     """Login name, empty where the system has none: a container, Windows by the page."""
     with suppress(ImportError, KeyError, OSError):
@@ -70,7 +93,14 @@ def _user() -> str:
 @click.argument("submitted", metavar="[СДАНО]", required=False, type=click.Path(path_type=Path))
 @path_option("-o", "--output", "folder", help="Папка для результатов.")
 @path_option("--rubric", metavar="ФАЙЛ", help="Другая рубрика вместо выданной.")
+@path_option("--roster", metavar="ФАЙЛ", help="Список с продлёнными сроками (столбец «Срок»).")
+@path_option("--memory", metavar="ПАПКА",
+             help="Память прошлых лет: отпечатки редких формул и ошибок.")  # fmt: skip
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@path_option("--form", metavar="ФАЙЛ", help="Ведомость института .xlsx: заполнить её оценками.")
+@click.option("--copies", is_flag=True, help="Вернуть книги студентов с пометками в ячейках.")
+@click.option("--questions", is_flag=True, help="Вопросы к защите по числам каждого студента.")
+@click.option("--anonymous", is_flag=True, help="Номера вместо имён на страницах.")
 @click.option("--pdf", is_flag=True, help="Сделать и PDF каждой страницы.")
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @click.option(
@@ -89,7 +119,7 @@ def _user() -> str:
     nargs=4,
     multiple=True,
     metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
-    help="Решение преподавателя: кто, столбец или «всё», баллы, примечание.",
+    help="Решение преподавателя: кто или группа Г-…, столбец или «всё», баллы, примечание.",
 )
 @click.option(
     "--author", metavar="ИМЯ", default="", help="Кто решает (по умолчанию имя пользователя)."
@@ -101,6 +131,12 @@ def grade(
     submitted: Path | None,
     folder: Path | None,
     rubric: Path | None,
+    roster: Path | None,
+    memory: Path | None,
+    form: Path | None,
+    copies: bool,
+    questions: bool,
+    anonymous: bool,
     secret: Path | None,
     pdf: bool,
     jobs: int,
@@ -140,7 +176,8 @@ def grade(
         issued, submitted, folder, rubric_file=rubric, secret_file=secret,
         options=GradeSetup(workers=jobs, timeout_s=timeout, pdf=pdf, dask=dask, decisions=decisions,
                         worksheet=worksheet,
-                        author=author),
+                        author=author, roster=roster, memory=memory,
+                        form=form, copies=copies, questions=questions, anonymous=anonymous),
     )  # fmt: skip
     summary = done.summary
     click.echo(f"{folder}: проверено файлов: {summary['files']}, с оценкой: {summary['graded']}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import statistics
 from collections.abc import Callable, Iterable
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal
 from functools import partial
@@ -53,12 +54,56 @@ _FUNCTIONS: dict[str, tuple[Callable[..., Any], int, int]] = {
     "CEILING": (_ceiling, 1, 2), "FLOOR": (_floor, 1, 2),
 }  # fmt: skip
 NOT_LIFTED = frozenset(_FUNCTIONS)
-WRONG = frozenset(("CEILING", "FLOOR"))  # of negative numbers
+
+# Unit → kind and size: what CONVERT is known to turn into each other.
+UNITS = {
+    "mm": ("length", 1e-3), "cm": ("length", 1e-2), "m": ("length", 1.0), "km": ("length", 1e3),
+    "g": ("mass", 1e-3), "kg": ("mass", 1.0),
+    "rad": ("angle", 1.0), "deg": ("angle", math.pi / 180),
+}  # fmt: skip
+
+
+def _convert(value: Any, unit: Any, other: Any) -> Any:  # noqa: ANN401
+    (kind, size), (wanted, into) = (UNITS.get(name, (name, 0.0)) for name in (unit, other))
+    if kind != wanted or not into:
+        return {"type": "Error", "kind": "Na"}
+    return _one(lambda number: number * size / into, [value])
+
+
+_COUNTS: dict[int, Callable[[list[float]], float]] = {
+    1: statistics.fmean, 2: len, 4: max, 5: min, 6: math.prod, 7: statistics.stdev,
+    8: statistics.pstdev, 9: math.fsum, 10: statistics.variance, 11: statistics.pvariance,
+    12: statistics.median,
+}  # fmt: skip
+
+
+def _aggregate(code: float, option: float, block: Any) -> Any:  # noqa: ANN401
+    """AGGREGATE of the options that hidden rows do not matter to: 4 and 6."""
+    cells = [cell for line in block for cell in line] if isinstance(block, list) else [block]
+    errors = [cell for cell in cells if isinstance(cell, dict)]
+    if errors and option == 4:
+        return errors[0]
+    numbers = [float(c) for c in cells if isinstance(c, (int, float)) and not isinstance(c, bool)]
+    try:
+        return float(_COUNTS[int(code)](numbers))
+    except (KeyError, ValueError, statistics.StatisticsError):
+        return {"type": "Error", "kind": "Value"}
+
+
+# Functions of texts and rectangles, called as they are.
+_WHOLE = {"CONVERT": _convert, "AGGREGATE": _aggregate}
+# Of negative numbers, of angles, of ranges.
+WRONG = frozenset(("CEILING", "FLOOR", *_WHOLE))
 
 
 def register(book: Workbook, names: Iterable[str]) -> None:
     """Register the functions in place of formualizer's own; errors keep their kind."""
     for name in names:
+        if name in _WHOLE:
+            book.register_function(
+                name, _WHOLE[name], min_args=3, max_args=3, allow_override_builtin=True
+            )
+            continue
         function, least, most = _FUNCTIONS[name]
         book.register_function(
             name, _over_rectangles(function), min_args=least, max_args=most,

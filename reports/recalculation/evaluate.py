@@ -295,7 +295,6 @@ def _numbers(values: list[Any]) -> tuple[Array, str]:
         elif isinstance(value, str):
             kind = TEXT
         elif not (isinstance(value, dict) and value.get("kind") in _ERRORS):
-            what = value.get("kind", "") if isinstance(value, dict) else type(value).__name__
-            raise UnknownFormula(f"ответ вычислителя: {what}")
+            raise UnknownFormula("действие, которого программа не умеет")
         kinds.append(kind)
     return numbers, "".join(kinds)

@@ -7,6 +7,8 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from reports.recalculation.array_functions import UNITS
+
 MAX_LENGTH = 8192
 MAX_ROW, MAX_COLUMN = 1_048_576, 16_384
 
@@ -75,7 +77,10 @@ def tokens(text: str) -> list[Token]:
     while at < len(text):
         match = _TOKEN.match(text, at)
         if match is None:
-            raise UnknownFormula(f"непонятный знак «{text[at]}»")
+            table = text[at] == "["
+            raise UnknownFormula(
+                "ссылка на умную таблицу" if table else f"непонятный знак «{text[at]}»"
+            )
         token = (str(match.lastgroup), match.group())
         at = match.end()
         if token[0] == "sheet" and parsed[-1:] == [("op", ":")]:
@@ -183,16 +188,16 @@ def unquoted(token: str) -> str:
 
 # Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
 _ALLOWED = """
-ABS ACOS ACOSH ACOT AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF AVERAGEIFS
-CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN CONCATENATE CONVERT COS COSH COT COUNT COUNTA
-COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH FORECAST
-FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS INDEX INT INTERCEPT ISBLANK ISERR
-ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT LARGE LCM LEFT LEN LET LN LOG LOG10
-LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD MROUND N NA NOT ODD OR PI POWER PRODUCT
-QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP ROW ROWS SEC SERIESSUM SIGN SIN SINH
-SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ
-SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP
-XMATCH XOR
+ABS ACOS ACOSH ACOT AGGREGATE AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF
+AVERAGEIFS CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN COMPLEX CONCATENATE CONVERT COS COSH
+COT COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH
+FORECAST FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS IMABS IMAGINARY IMREAL
+INDEX INT INTERCEPT ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT
+LARGE LCM LEFT LEN LET LN LOG LOG10 LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD
+MROUND N NA NOT ODD OR PI POWER PRODUCT QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP
+ROW ROWS SEC SERIESSUM SIGN SIN SINH SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBSTITUTE
+SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE
+TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XMATCH XOR
 """
 ALLOWED = frozenset(_ALLOWED.split())
 # Where a rectangle may stand as a whole: every argument of these, some of the others.
@@ -206,12 +211,12 @@ _TAKES_RANGES: dict[str, Collection[int]] = {
     **dict.fromkeys(_OF_RECTANGLES.split(), range(256)),
     "INDEX": (0,), "MATCH": (1,), "VLOOKUP": (1,), "HLOOKUP": (1,), "LOOKUP": (1, 2),
     "XLOOKUP": (1, 2), "XMATCH": (1,), "SUMIF": (0, 2), "AVERAGEIF": (0, 2), "COUNTIF": (0,),
-    "RANK": (1,), "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
+    "AGGREGATE": (2,), "RANK": (1,), "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
 }  # fmt: skip
 # Inside of these a rectangle is taken value by value.
 _TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
-_UNITS = frozenset(("mm", "cm", "m", "km", "g", "kg"))  # that the engine converts
 _TOTALS = frozenset(map(str, range(1, 12)))
+_PLAIN_TOTALS = _TOTALS - {"3"} | {"12"}
 _PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
 # Where it stands is all that these tell: in a rectangle that is not one place.
 PLACES = frozenset(("ROW", "COLUMN"))
@@ -272,11 +277,21 @@ class Formula:
         if foreign:
             return f"функция {foreign[0]}" if foreign[0] != _GOOGLE else GOOGLE_ARRAY
         texts = [value[1:-1] for kind, value in self.pattern if kind == "text"]
-        if "CONVERT" in self.functions and not (len(texts) > 1 and set(texts) <= _UNITS):
-            return "функция CONVERT, единицы — только длины и массы"
+        if "CONVERT" in self.functions and not self._converts_known_units():
+            return "функция CONVERT, единицы — только длины, массы и углы"
+        if "AGGREGATE" in self.functions and not self._aggregates_all():
+            return "функция AGGREGATE: скрытые строки или место по порядку"
         if "SUBTOTAL" in self.functions and not self._totals_all():
             return "функция SUBTOTAL, которая пропускает скрытые строки"
         return TEXT_NUMBER if any(map(is_doubtful, texts)) else ""
+
+    def _converts_known_units(self) -> bool:
+        """Whether each conversion names two units, and such as are calculated."""
+        places = zip(self.pattern, _places(self.pattern), strict=True)
+        units = [token for token, place in places if place.function == "CONVERT" and place.argument]
+        texts = [value[1:-1] for kind, value in units if kind == "text"]
+        calls = sum(kind == "name" and value.upper() == "CONVERT" for kind, value in self.pattern)
+        return len(texts) == 2 * calls and set(texts) <= UNITS.keys()
 
     def _totals_all(self) -> bool:
         """Whether its subtotals count hidden rows, too."""
@@ -285,6 +300,17 @@ class Formula:
             code[1] in _TOTALS
             for name, code in zip(padded, padded[2:], strict=False)
             if _PREFIX.sub("", name[1].upper()) == "SUBTOTAL"
+        )
+
+    def _aggregates_all(self) -> bool:
+        """Whether its totals are plain ones of all rows: code up to 12, option 4 or 6."""
+        padded = (*self.pattern, *[("", "")] * 5)
+        return all(
+            code[1] in _PLAIN_TOTALS and option[1] in ("4", "6") and end == ("op", ",")
+            for name, code, option, end in zip(
+                padded, padded[2:], padded[4:], padded[5:], strict=False
+            )
+            if _PREFIX.sub("", name[1].upper()) == "AGGREGATE"
         )
 
     @cached_property

@@ -136,9 +136,10 @@ class Classes(Queue):
              **_handed(folder / "works" / book.file)}
             for book in (load_register(issued).books if (issued / FILE).exists() else ())
         ]  # fmt: skip
+        summary = read_json(results / "summary.json")
         return Shown(
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
-             "rows": read_json(results / "summary.json").get("rows", []),
+             "rows": summary.get("rows", []), "groups": summary.get("groups", []),
              "files": [*files], "graded": len(pages)},
             {**files, **pages, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},

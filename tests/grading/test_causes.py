@@ -44,7 +44,13 @@ def cause(
     )
 
 
-V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s", "j1_m_s2"))
+V1, S1, S, V, J1, V2 = (
+    f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s", "j1_m_s2", "v2_m_s")
+)
+
+
+def LAM() -> float:
+    return float(right("geometry.lam")[0])
 
 
 @pytest.mark.parametrize(
@@ -77,6 +83,17 @@ V1, S1, S, V, J1 = (f"P3_1.{key}" for key in ("v1_m_s", "s1_mm", "s_mm", "v_m_s"
                 1e6 * right("P4_1.K_MPa") * right("geometry.F_piston") * right("geometry.r_crank")
             ),
             "Kуд вместо Tуд",
+        ),
+        ("geometry.F_piston", lambda v: v * 3 / np.pi, "π взято как 3"),
+        ("geometry.F_piston", lambda v: v * 3.14 / np.pi, "π взято как 3,14"),
+        (V2, lambda v: v * LAM(), "λ в квадрате, а надо в первой степени"),
+        ("P3_2.beta_rad", lambda v: np.arcsin(np.sin(v) * LAM()), "λ в квадрате"),
+        ("P4_3_1.R_MPa", lambda v: v**2, "корень не извлечён"),
+        ("P3_2.eps_rod_exact_1_s2", lambda v: v / (1 - LAM() ** 2), "множитель (1 − λ²)"),
+        (
+            J1,
+            lambda v: v * np.cos(np.radians(np.arange(0, 361, 30))),
+            "cos φ в квадрате, а надо в первой степени",
         ),
         ("geometry.v_max", lambda v: right(V).max(keepdims=True), "П3.1, vп: между ними есть"),
     ],

@@ -21,7 +21,7 @@ from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.rubric import rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
-from reports.grading.judging.marking import late_factor, score
+from reports.grading.judging.scoring import HandedIn, late_factor, score
 from reports.grading.judging.works import Work, work_of
 from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.grading.pages.summary import choose, table_rows
@@ -372,17 +372,17 @@ def test_too_little_filled_in_is_worth_nothing(least, points):
     verdicts = [(RIGHT, 4.0, 4.0), (WRONG, 0.0, 4.0), *[(EMPTY, 0.0, 4.0)] * 4, (WRONG, 0.0, 0.0)]
     lines = [{"verdict": v, "points": got, "of": most} for v, got, most in verdicts]
     result = {"items": lines, "notes": []}
-    score(result, rubric, datetime(2026, 12, 1, 1))
+    score(result, rubric, HandedIn(datetime(2026, 12, 1, 1)))
     assert (result["raw"], result["points"], result["maximum"]) == (4.0, points, 24.0)
     assert (result["filled"], result["late"], result["enough"]) == (0.3333, 0.8, points > 0)
     short = "заполнено 33% при наименьшем 34%: 0 баллов"
-    notes = ["сдано после срока: баллы умножены на 0,8"]
+    notes = ["сдано через 1 ч после срока (часы Moodle): баллы умножены на 0,8"]
     assert result["notes"] == ([short] if not points else []) + notes
 
 
 def test_a_work_of_nothing_paid_is_not_filled_in():
     result = {"items": [], "notes": []}
-    score(result, rubric_of({}, "r"), None)
+    score(result, rubric_of({}, "r"), HandedIn())
     assert (result["filled"], result["points"], result["notes"]) == (0.0, 0.0, [])
 
 

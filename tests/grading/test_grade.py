@@ -16,7 +16,7 @@ from reports.cli import main
 from reports.grading.batch import grade as room
 from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.rubric import rubric_of
-from reports.grading.judging.marking import late_factor
+from reports.grading.judging.scoring import late_factor
 from reports.grading.reading.submissions import collect
 from reports.shared.errors import InputError
 from tests.grading import classroom

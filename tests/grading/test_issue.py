@@ -14,7 +14,8 @@ from openpyxl import load_workbook
 from reports.exports.build import load_input
 from reports.grading.issuing.assignment import assignment_of
 from reports.grading.issuing.handout import _live_cells, fill_cells
-from reports.grading.issuing.issue import draw_variants, issue, latin, load_base
+from reports.grading.issuing.issue import draw_variants, issue, load_base
+from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric, rubric_of

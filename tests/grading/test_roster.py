@@ -20,7 +20,9 @@ from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 PEOPLE = 'Фамилия;Имя;Группа\nИванов;Иван;ДВС-1\nПётр "Первый";Анна;ДВС-1\n'
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251"])
+@pytest.mark.parametrize(
+    "encoding", ["utf-8", "utf-8-sig", "cp1251", "cp866", "koi8-r", "mac-cyrillic", "utf-16"]
+)
 @pytest.mark.parametrize("delimiter", [";", ",", "\t"])
 def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
     path = tmp_path / "group.csv"
@@ -57,7 +59,8 @@ def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, 
         ('Фамилия;Имя\n"Иванов;Иван\n'.encode(), "не закрыта кавычка"),
         (b"PK\x03\x04xxxx", "файл .xlsx повреждён"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "зашифрована или в старом формате .xls"),
-        ("Фамилия;Имя\nИванов;Иван\n".encode("utf-16"), "UTF-16"),
+        ("Фамилия;Имя\nКузнецов;Пётр\nКузнецов;Петр\n".encode(), "один это человек или два"),
+        ("Фамилия;Имя\nKoзлов;Пётр\n".encode(), "«Koзлов Пётр»: .* другие: Ko"),
         (b"\x80\x81\xff\xfa surname name\n\xf0\xf1\n", "не UTF-8 и не Windows-1251"),
     ],
 )
@@ -81,6 +84,12 @@ def test_a_bad_roster_is_one_clear_line(tmp_path, data, words):
         ("Полное имя", "Петров Иван Ильич\nИван Иванов", "Петров Иван Ильич"),
         ("Full name", "Анна Ильинична Ким\nИван Иванов", "Ким Анна Ильинична"),
         ("Фамилия / Имя", "Петров Иван", "Петров Иван"),
+        ("Фамилия Имя", '"Иванов, Пётр"', "Иванов Пётр"),
+        ("Student", '"Петров, Иван"', "Петров Иван"),
+        ("Student,ID", 'Points Possible,\n"Петров, Иван",1\n"Student, Test",9', "Петров Иван"),
+        ("Фамилия,Имя", "Дата,\nБаллы,\nПетров,Иван", "Петров Иван"),
+        ("№;ФИО;;;Группа", "1;Петров;Иван;Ильич;ДВС-1", "Петров Иван Ильич"),
+        ("Фамилия;;Группа", "Петров;Иван;ДВС-1", "Петров Иван"),
         ("Полное имя", "Ким Иван Ильич\nАнна Ильинична Ким", "не видно, где фамилия"),
         ("Full name", "Иван Петров\nПётр Иванов", "не видно, где фамилия"),
         ("Student", "John Smith", "не видно, где фамилия"),
@@ -157,6 +166,23 @@ def test_numbers_of_a_book_are_as_its_sheet_shows_them(tmp_path):
     assert [s.number for s in read_roster(book(tmp_path, rows, edit=edit))] == [
         "001234", "20230115", "7",
     ]  # fmt: skip
+
+
+def test_a_group_that_is_merged_downwards_is_everybodys(tmp_path):
+    rows = [("ФИО", None, "Группа"), ("Иванов", "Иван", "Д-1"), ("Петров", "Пётр", None)]
+
+    def edit(sheet: Worksheet) -> None:
+        sheet.merge_cells("A1:B1")
+        sheet.merge_cells("C2:C3")
+
+    found = [(s.full, s.group) for s in read_roster(book(tmp_path, rows, edit=edit))]
+    assert found == [("Иванов Иван", "Д-1"), ("Петров Пётр", "Д-1")]
+
+
+def test_zeros_that_a_site_keeps_through_excel(tmp_path):
+    path = tmp_path / "group.csv"
+    path.write_text('Фамилия;Имя;Номер\nПетров;Иван;="00012"\n', encoding="utf-8")
+    assert read_roster(path)[0].number == "00012"
 
 
 def test_hidden_rows_are_people_and_hidden_sheets_are_not(tmp_path):

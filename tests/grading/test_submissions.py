@@ -188,3 +188,13 @@ def renamed(student: Student) -> Register:
     register = classroom.register()
     books = [replace(b, student=student) if i == 1 else b for i, b in enumerate(register.books)]
     return replace(register, books=type(register.books)(books))
+
+
+@pytest.mark.parametrize("name", ["Iurii Iakovlev", "Yakovlev Yuriy", "Jakovlev J Jurij"])
+def test_a_name_in_the_letters_of_a_passport_is_known(name):
+    register = renamed(Student("x", "Яковлев", "Юрий Ильич"))
+    mine = register.books[1]
+    for surname in ("Яковлев", "Jakovlev"):
+        assert find_by_name(register, submission(f"{surname}.xlsx")).book is mine
+    match = find_owner(register, submission("work.xlsx", name), grid_with(mine.ticket), Parts())
+    assert (match.book, match.doubts) == (mine, ())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import re
 import zipfile
 
@@ -55,6 +56,9 @@ SELDOM = {
     "FORECAST(A2,A1:A5,B1:B5)": 1.02229, "FORECAST.LINEAR(2.5,A1:A5,B1:B5)": 1.0375,
     "SERIESSUM(A3,1,2,B1:B3)": -1465.9396613103, "RANK.EQ(A3,A1:A5,1)": 1.0,
     "SUBTOTAL(9,A1:A7)": 5.48, "SUBTOTAL(1,A1:A2,A4:A5)": 2.2225, "SUBTOTAL(11,A1:A5)": 6.728864,
+    'CONVERT(B3*60,"deg","rad")': math.pi, 'CONVERT(A1,"rad","deg")': 71.6197243913529,
+    "AGGREGATE(4,6,A1:A5)": 4.5, "AGGREGATE(9,4,A1:A7)": 5.48, "AGGREGATE(12,6,A1:A5)": 1.25,
+    "IMABS(COMPLEX(B3,B4))": 5.0, 'LEN(SUBSTITUTE("a1a","a",""))': 1.0,
     "SUBTOTAL(9,C1:C5)": 17.78, 'CONVERT(A1,"mm","m")': 0.00125, 'CONVERT(A3,"kg","g")': -3410.0,
 }  # fmt: skip
 
@@ -78,6 +82,9 @@ def test_functions_that_people_seldom_need_are_calculated():
         'CONVERT(A1,"MM","m")',
         "SUBTOTAL(109,A1:A3)",
         "SUBTOTAL(A1,A1:A3)",
+        "AGGREGATE(14,6,A1:A3,1)",
+        "AGGREGATE(9,5,A1:A3)",
+        "SUM(MMULT(A1:A3,A1:A1))",
     ],
 )
 def test_what_the_engine_would_get_wrong_in_them_is_unknown(text):
@@ -285,3 +292,9 @@ def test_sums_and_products_of_any_length_are_calculated():
     engine = engine_of({"A1": 2.0, "A2": 1.0, "B1": f"={many}", "B2": f"=SUM({mixed},1)",
                         "B3": f"=({many})/2-({many})"})  # fmt: skip
     assert engine.values("Sheet", 2, 1, 3)[0].tolist() == [1000, 2 - 299 * 2 + 2 + 1, -500]
+
+
+@pytest.mark.parametrize("text", ["MMULT(A1:A1,A1:A1)", "NOSUCH(A1)", "A1+Таблица1[Столбец]"])
+def test_why_a_formula_is_not_calculated_is_said_in_russian(text):
+    with pytest.raises(UnknownFormula, match=r"^(функция|ссылка на умную таблицу)"):
+        engine_of({"A1": 9, "C1": f"={text}"}).shown("Sheet", 3, 1)

@@ -47,7 +47,7 @@ def taken(page: Any, selector: str) -> bytes:
 
 def points(page: Any) -> dict[str, str]:
     """Surname → what the gradebook on the page shows."""
-    rows = page.locator("#class table tbody tr").all()
+    rows = page.locator("#class [aria-label='Ведомость'] tbody tr").all()
     cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in rows]
     return {row[0].split()[1]: row[2] for row in cells}  # after the number
 

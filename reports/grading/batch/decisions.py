@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.marking import rescored
+from reports.grading.judging.scoring import rescored
 from reports.grading.judging.works import Work
-from reports.grading.pages.gradebook import DECISION, OF_FILE
+from reports.grading.pages.gradebook import DECISION, GROUPS, OF_FILE
+from reports.grading.pages.groups import NAME, WaitingGroup
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import write_text
 
@@ -103,11 +104,46 @@ def refuse_wrong_words(
         InputError: no such student, file or item, or points that are none.
     """
     for who, what, points, _ in words:
+        if NAME.fullmatch(who):
+            continue
         if who not in files:
             _student(register, (), who)
         _item(what, items)
         if points.strip() not in (ACCEPT, WITHDRAW):
             _points(points, register.rubric.maximum)
+
+
+def of_groups(
+    words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup]
+) -> list[tuple[str, str, str, str]]:
+    """The words of a command with those about a group said of each of its works.
+
+    Points may be a share: «50%» of what the group is about.
+
+    Raises:
+        InputError: no such group waits.
+    """
+    by_name = {group.name: group for group in groups}
+    said = []
+    for who, what, points, remark in words:
+        if not NAME.fullmatch(who):
+            said.append((who, what, points, remark))
+            continue
+        group = by_name.get(who)
+        if group is None:
+            hint = "имена групп — на странице группы и на листе «Решения» ведомости"
+            raise InputError(Problem(who, "такая группа работ не ждёт решения", hint))
+        value = _of_share(points, group.of)
+        said += [(str(n), group.item or "всё", value, remark) for n in group.numbers]
+    return said
+
+
+def _of_share(points: str, of: float) -> str:
+    text = points.strip().replace(",", ".")
+    try:
+        return f"{float(text[:-1]) / 100 * of:.6g}" if text.endswith("%") else points
+    except ValueError:
+        return points
 
 
 def _item(what: str, known: Collection[str]) -> str:
@@ -237,7 +273,17 @@ def from_gradebook(
     return list(entries.values())
 
 
-def _lines(path: Path) -> tuple[list[tuple[Any, ...]], str, str]:
+def words_of_groups(path: Path) -> tuple[list[tuple[str, str, str, str]], str]:
+    """Decisions on groups that a person has written into the gradebook, and who saved it."""
+    lines, author, _ = _lines(path, GROUPS)
+    if not lines or any(head not in lines[0] for head in ("Группа", *DECISION)):
+        return [], author
+    at = [lines[0].index(head) for head in ("Группа", *DECISION)]
+    rows = [[str("" if line[i] is None else line[i]).strip() for i in at] for line in lines[1:]]
+    return [(name, "", points, remark) for name, points, remark in rows if points], author
+
+
+def _lines(path: Path, title: str = _SHEET) -> tuple[list[tuple[Any, ...]], str, str]:
     """Rows of a gradebook, who saved it and when; none where there is no such book."""
     from openpyxl import load_workbook
 
@@ -245,7 +291,11 @@ def _lines(path: Path) -> tuple[list[tuple[Any, ...]], str, str]:
         return [], "", ""
     try:
         book = load_workbook(path, read_only=True, data_only=True)
-        sheet = book[_SHEET] if _SHEET in book.sheetnames else book.worksheets[0]
+        if title == _SHEET and title not in book.sheetnames:
+            title = book.sheetnames[0]
+        if title not in book.sheetnames:
+            return [], "", ""
+        sheet = book[title]
         lines = list(sheet.iter_rows(values_only=True))
         author = book.properties.lastModifiedBy or "ведомость"
         date = datetime.fromtimestamp(int(path.stat().st_mtime)).isoformat(timespec="minutes")

@@ -17,22 +17,37 @@ from reports.grading.batch.decisions import (
     decided,
     from_gradebook,
     load_decisions,
+    of_groups,
     refuse_too_many,
     refuse_wrong_words,
     save_decisions,
     waiting,
+    words_of_groups,
 )
-from reports.grading.batch.pool import TIMEOUT_S, Outcome, grade_all, grade_far
-from reports.grading.issuing.issue import latin
+from reports.grading.batch.extras import (
+    RESULTS,
+    Veil,
+    fill_form,
+    put_off,
+    refuse_another_class,
+    refuse_overlap,
+    write_copies,
+    write_questions,
+)
+from reports.grading.batch.memory import remember, remembered
+from reports.grading.batch.pool import TIMEOUT_S, Job, Outcome, grade_all, grade_far
+from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
+from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
 from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
+from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
-from reports.grading.pages.summary import choose, summarise, table_rows
+from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.background import processors
 from reports.shared.errors import InputError, Problem
@@ -40,7 +55,7 @@ from reports.shared.files import make_dir, read_json, write_bytes, write_text
 from reports.shared.progress import Progress
 from reports.shared.resources import source_digest
 
-PAGES = "pages"
+PAGES, _PAST = "pages", "past.json"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
 
 
@@ -55,6 +70,12 @@ class GradeSetup:
     decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
     author: str = ""
     worksheet: Path | None = None  # of Moodle, to be filled in
+    roster: Path | None = None  # with the deadlines put off since the issue
+    memory: Path | None = None  # folder with the traits of earlier classes
+    form: Path | None = None  # of the institute, to be filled in
+    copies: bool = False  # the students' books back with marks in them
+    questions: bool = False  # for the defence
+    anonymous: bool = False  # numbers for names on all pages
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,15 +114,21 @@ def grade(
     if rubric_file is not None:
         register = replace(register, rubric=load_rubric(rubric_file))
         Marker(register).assignment(register.books[0])  # the rubric must fit the engine
+    if options.roster is not None:
+        register = put_off(register, read_roster(options.roster))
     if options.worksheet is not None:
         read_worksheet(options.worksheet)  # a wrong one is told before the work
     submissions = collect(submitted)
     refuse_overlap(submitted, folder, issued)
     refuse_another_class(folder, register)
-    batch = _Batch(register, folder)
+    batch = _Batch(register, folder, anonymous=options.anonymous)
+    if options.memory is not None:
+        batch.past = remembered(options.memory, batch.class_id)
     batch.check(options, submissions)
     make_dir(folder)
     batch.start(submissions)
+    if options.memory is not None:
+        batch.keep_past()
     workers = options.workers or processors()
     outcomes = (
         grade_far(
@@ -118,10 +145,21 @@ def grade(
             progress.step(_progress(len(batch.works), len(submissions), batch.reused, started))
         refused = batch.decide(options)
         summary = batch.finish()
+    if options.memory is not None:
+        remember(options.memory, batch.class_id, batch.counted())
     if refused is not None:
         raise refused
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
+    if options.form is not None:
+        rows = table_rows(register, batch.ordered, batch.rings())
+        fill_form(folder, rows, register.rubric, options.form)
+    if options.copies:
+        write_copies(
+            folder, batch.results(submissions), register.rubric, workers, options.timeout_s
+        )
+    if options.questions:
+        write_questions(folder, batch.counted(), Marker(register), batch.shown)
     if options.pdf:
         batch.write_pdf()
     return Graded(folder, summary, batch.reused, time.monotonic() - started)
@@ -160,21 +198,60 @@ class _Batch:
     In memory there is only what the tables of the class need of each work.
     """
 
-    def __init__(self, register: Register, folder: Path) -> None:
+    def __init__(self, register: Register, folder: Path, *, anonymous: bool = False) -> None:
         self.register, self.folder = register, folder
+        self._veil = Veil(register) if anonymous else None
         self.works: dict[str, Work] = {}
         self._shared: Shared = {}
         self.waiting: list[Submission] = []
         self.register_file = folder / RESULTS / FILE
         self._written = time.monotonic()
         self._rules = hashlib.sha256(
-            f"{source_digest()} {register.json_text()}".encode()
+            f"{source_digest()} {anonymous} {register.json_text()}".encode()
         ).hexdigest()
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
+        self._by_group: list[
+            tuple[str, str, str, str]
+        ] = []  # those that the gradebook has of groups
+        self._group_author = ""
+        self.past: Past = _kept_past(folder)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
+
+    @property
+    def class_id(self) -> str:
+        """Identity of a class in the memory of years: nobody's name, no number of a variant."""
+        return self.register.trial_seed[:12]
+
+    def shown(self, page: str, *files: str) -> str:
+        """A page as people see it: with numbers for names where that is asked."""
+        return page if self._veil is None else self._veil.over(page, files)
+
+    def keep_past(self) -> None:
+        """Keep what was remembered beside the results: decisions come without the memory."""
+        data = [[work.batch, work.number, *map(list, work.traits)] for work in self.past]
+        write_text(self.folder / RESULTS / _PAST, json.dumps(data, ensure_ascii=False) + "\n")
+
+    def counted(self) -> list[Work]:
+        """The work that counts of each student."""
+        chosen = choose(list(self.works.values()), self.register.rubric.attempts.count)
+        return [work for _, work in sorted(chosen.items())]
+
+    def results(self, submissions: Sequence[Submission]) -> list[Job]:
+        """The files that count with their results, as people have decided."""
+        by_key = {submission.key: submission for submission in submissions}
+        decisions = load_decisions(self.folder)
+        return [
+            (by_key[work.key], applied(self._result(work), decisions), work)
+            for work in self.counted()
+            if work.status == "graded" and work.key in by_key
+        ]
+
+    def rings(self) -> list[Ring]:
+        """Works with a common origin, those of earlier classes among them."""
+        return rings_of([work for work in self.ordered if work.status == "graded"], self.past)
 
     @property
     def reused(self) -> int:
@@ -204,6 +281,7 @@ class _Batch:
         seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
         counted = choose(seen, rubric.attempts.count)
         self._kept = from_gradebook(book, kept, counted, rubric.maximum)
+        self._by_group, self._group_author = words_of_groups(book)
         refuse_too_many(self._kept, self.register)
         if submissions and options.decisions:
             items = Marker(self.register).assignment(self.register.books[0])[0].items
@@ -217,10 +295,17 @@ class _Batch:
         before = load_decisions(self.folder)
         counted = self._decided(kept, also=before)  # what was seen before the new words
         works, decisions = list(self.works.values()), kept
+        groups = waiting_groups(self.register, self.ordered, self.rings())
+        names = {group.name for group in groups}
+        # What the gradebook says of a group that waits no more was taken in before.
+        by_group = [words for words in self._by_group if words[0] in names]
         try:
             decisions = decided(
-                kept, self.register, works, counted, options.decisions, options.author
-            )
+                kept, self.register, works, counted, of_groups(by_group, groups),
+                self._group_author,
+            )  # fmt: skip
+            words = of_groups(options.decisions, groups)
+            decisions = decided(decisions, self.register, works, counted, words, options.author)
         except InputError as error:
             refused = error
         if decisions or before:
@@ -245,15 +330,18 @@ class _Batch:
         for key, result in results.items():
             counts = counted[result["number"]].key == key
             shown = waiting(result, decisions) if counts else result
-            write_text(self.folder / shown["page"], student_page(shown, self.register.rubric))
+            page = self.shown(student_page(shown, self.register.rubric), shown["file"])
+            write_text(self.folder / shown["page"], page)
             self._keep(shown)
         return counted
 
     def _result(self, work: Work) -> dict[str, Any]:
         """The result of a work as the program has made it."""
-        path = self.folder / RESULTS / f"{Path(work.page).stem}.json"
-        result: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        result: dict[str, Any] = json.loads(self._json_of(work).read_text(encoding="utf-8"))
         return result
+
+    def _json_of(self, work: Work) -> Path:
+        return self.folder / RESULTS / f"{Path(work.page).stem}.json"
 
     def start(self, submissions: Sequence[Submission]) -> None:
         """Take over what an earlier run has finished of the same files under the same rules."""
@@ -302,7 +390,7 @@ class _Batch:
         except InputError as error:
             data = str(error)
         self._sha256[submission.key] = data
-        about = f"{data} {submission.key} {submission.time} {self._rules}"
+        about = f"{data} {submission.key} {submission.time} {submission.clock} {self._rules}"
         return hashlib.sha256(about.encode()).hexdigest()
 
     def take(self, outcome: Outcome) -> None:
@@ -314,10 +402,10 @@ class _Batch:
             blank["sha256"] = self._sha256[submission.key]
             result = marker.refused(blank, submission, outcome.problem)
             page = student_page(result, self.register.rubric)
-        stem = _stem(result)
+        stem = _stem(result, number_only=self._veil is not None)
         result["fingerprint"] = self._hashes[submission.key]
         result["page"] = f"{PAGES}/{stem}.html"
-        write_text(self.folder / result["page"], page)
+        write_text(self.folder / result["page"], self.shown(page, result["file"]))
         text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
         write_text(self.folder / RESULTS / f"{stem}.json", text)
         self._keep(result)
@@ -336,15 +424,17 @@ class _Batch:
 
     def finish(self) -> dict[str, Any]:
         """All tables, the page of the class and its JSON: made first, then written together."""
-        rows, summary = self._rows(), summarise(self.register, self.ordered)
+        rings = self.rings()
+        rows = table_rows(self.register, self.ordered, rings)
+        summary = summarise(self.register, self.ordered, rings)
         maximum = self.register.rubric.maximum
         data = {**summary, "rows": [_row(row) for row in rows]}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
-            "gradebook.xlsx": gradebook_xlsx(rows, maximum),
+            "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"]),
             "moodle.csv": moodle_csv(rows),
-            "summary.html": class_page(summary),
+            "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
             "summary.json": text + "\n",
         }
         if any(work.moodle_id for work in self.ordered):
@@ -361,7 +451,7 @@ class _Batch:
         Raises:
             InputError: it is none.
         """
-        rows = table_rows(self.register, self.ordered)
+        rows = table_rows(self.register, self.ordered, self.rings())
         worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
 
@@ -388,34 +478,20 @@ def _row(row: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
 
 
-def _stem(result: dict[str, Any]) -> str:
-    """A file name that depends on the submission alone."""
+def _stem(result: dict[str, Any], *, number_only: bool) -> str:
+    """A file name that depends on the submission alone; it may tell no name."""
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
+    if number_only:
+        return f"{result['number'] or 0:03d}-{mark}"
     name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
     return f"{name.strip('-') or 'file'}-{mark}"
 
 
-# --- where results may be written ----------------------------------------------------------------
-
-RESULTS = "results"
-
-
-def refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
-    """Results must not land among the files that are read."""
-    target = folder.resolve()
-    for read_folder in (submitted, issued):
-        source = read_folder.resolve()
-        if source.is_dir() and (target == source or source in target.parents):
-            what = f"результаты легли бы в папку {read_folder}"
-            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
-
-
-def refuse_another_class(folder: Path, register: Register) -> None:
-    """Decisions on one class are not those on the students with the same numbers of another."""
+def _kept_past(folder: Path) -> list[PastWork]:
+    """What an earlier run has kept of earlier classes."""
+    path = folder / RESULTS / _PAST
     try:
-        earlier = load_register(folder / RESULTS / FILE)
-    except InputError:
-        return
-    if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
-        what = "здесь результаты и решения другой группы или другой выдачи"
-        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
+        data = json.loads(path.read_text(encoding="utf-8"))
+        return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
+    except (OSError, ValueError, TypeError):
+        return []

@@ -13,12 +13,15 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from reports.grading.issuing.rubric import Rubric
+from reports.grading.judging.works import Work
 from reports.grading.reading.submissions import Submission
 from reports.shared.errors import InputError, KshmError
 from reports.shared.parallel_map import in_order
@@ -90,6 +93,30 @@ def _outcome(submission: Submission, future: Future[Marked]) -> Outcome:
 def _marking(register_folder: Path) -> Callable[[Submission], Marked]:
     begin: Callable[[Path], Callable[[Submission], Marked]] = import_module(_NEEDS).marking
     return begin(register_folder)
+
+
+# --- copies --------------------------------------------------------------------------------------
+
+_COPIES = "reports.grading.pages.marked_copy"
+Job = tuple[Submission, dict[str, Any], Work]
+
+
+def copies(
+    jobs: Sequence[Job], rubric: Rubric, workers: int, timeout_s: float
+) -> Iterator[tuple[Work, bytes]]:
+    """Marked copies as they come; a book that cannot be copied costs its copy alone."""
+    if not jobs:
+        return
+    with Workers(min(workers, len(jobs)), _copying, rubric, needs=_COPIES, memory=MEMORY) as pool:
+        futures = {pool.ask(one, result, seconds=timeout_s): work for one, result, work in jobs}
+        for future, work in futures.items():
+            with suppress(Exception):
+                yield work, future.result()
+
+
+def _copying(rubric: Rubric) -> Callable[..., bytes]:
+    made: Callable[..., bytes] = import_module(_COPIES).copying(rubric)
+    return made
 
 
 # --- a Dask cluster ------------------------------------------------------------------------------

@@ -269,6 +269,10 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     check("points", rubric.points, known, what)
     check("tolerance.items", rubric.tolerance.items, known, what)
     check("formulas.optional", rubric.formulas.optional, known, what)
+    check("messages.items", (message.items for message in rubric.messages), known, what)
+    check("minimum.tables", rubric.minimum.tables, sorted(filled), "заполняемой таблицы")
+    check("needs", rubric.needs, known, what)
+    check("needs", (name for needed in rubric.needs.values() for name in needed), known, what)
     if not problems and assignment.rubric.maximum and not sum(assignment.points.values()):
         hint = "исправьте [points] или [work]"
         problems.append(Problem(source, "ни один столбец не оценивается", hint))

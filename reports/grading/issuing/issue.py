@@ -9,7 +9,6 @@ import json
 import math
 import random
 import re
-import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +19,7 @@ import tomlkit
 from reports.exports.own_books import refuse_faults
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import check_for_leaks, handout_bytes
+from reports.grading.issuing.names import latin
 from reports.grading.issuing.register import (
     FILE,
     Issued,
@@ -167,16 +167,6 @@ def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -
 
 # --- the class -----------------------------------------------------------------------------------
 
-# Russian letters and those of neighbours.
-_LATIN = dict(
-    zip(
-        "абвгдеёжзийклмнопрстуфхцчшщъыьэюя",
-        ("a", "b", "v", "g", "d", "e", "e", "zh", "z", "i", "y", "k", "l", "m", "n", "o", "p", "r",
-         "s", "t", "u", "f", "kh", "ts", "ch", "sh", "shch", "", "y", "", "e", "yu", "ya"),
-        strict=True,
-    )
-) | dict(zip("іїєґўәғқңөұүһҳҷҗӯ", "iieguagknouuhhjju", strict=True))  # fmt: skip
-
 
 @dataclass(frozen=True, slots=True)
 class Result:
@@ -270,15 +260,6 @@ def _write(folder: Path, book: Issued, assignment: Assignment, source: str) -> N
 def _slug(name: str) -> str:
     """A file name that no system minds."""
     return re.sub(r"[^a-z0-9]+", "-", latin(name)).strip("-")[:60] or "student"
-
-
-def latin(text: str) -> str:
-    """Small letters, Cyrillic ones spelt in Latin, without accents."""
-    plain = unicodedata.normalize("NFC", text.casefold())
-    spelled = "".join(_LATIN.get(char, char) for char in plain)
-    return "".join(
-        char for char in unicodedata.normalize("NFKD", spelled) if not unicodedata.combining(char)
-    )
 
 
 def _batch(base: Base, seed: int) -> str:

@@ -2,170 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
-import unicodedata
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.file_types import ARCHIVE, OFFICE, TEXT, UTF16, kind_of, read_bytes
-from reports.workbook.intake import check_data
-from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, Cell
-
-if TYPE_CHECKING:  # openpyxl is loaded when a book is read
-    from openpyxl.cell import ReadOnlyCell
-    from openpyxl.worksheet.worksheet import Worksheet
-
-MAX_BYTES, MAX_FIELD = 2_000_000, 200
-_MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
-_FIRST_LINES = 20  # by which the delimiter is known
-
-
-@dataclass(frozen=True, slots=True)
-class RosterLine:
-    """A line that holds anything; ``faults`` are columns whose cells cannot be read, and why."""
-
-    number: int
-    cells: list[str]
-    faults: dict[int, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class RosterListing:
-    """The lines of a CSV file, or of a sheet with a title."""
-
-    file: str
-    title: str
-    lines: list[RosterLine]
-
-    def place(self, line: RosterLine, column: int) -> str:
-        """Address of a cell, for messages."""
-        if not self.title:
-            return f"{self.file}, строка {line.number}"
-        address = Cell("", line.number, column + 1).coordinate
-        return f"{self.file}, лист «{self.title}», {address}"
-
-
-def listings(path: Path) -> list[RosterListing]:
-    """What a CSV file or the sheets of a book hold, in their order; hidden sheets are left out.
-
-    Raises:
-        InputError: it is neither.
-    """
-    data = read_bytes(path, MAX_BYTES, "это не список группы")
-    kind = kind_of(data)
-    if kind in (ARCHIVE, OFFICE):
-        return _sheets(path, data)
-    if kind == UTF16:
-        raise refused(path, "кодировка UTF-16", "сохраните как «CSV UTF-8»")
-    if kind != TEXT:
-        raise refused(path, "это двоичный файл, а нужен CSV или .xlsx", "выберите другой файл")
-    return [RosterListing(path.name, "", _csv_lines(path, _text(path, data)))]
-
-
-def refused(path: Path, what: str, hint: str) -> InputError:
-    """The error of a file that is no list."""
-    return InputError(Problem(path.name, what, hint))
-
-
-def _clean(cell: str) -> str:
-    return one_line(unicodedata.normalize("NFC", cell), MAX_FIELD + 1)
-
-
-# --- CSV -------------------------------------------------------------------------------------
-
-
-def _csv_lines(path: Path, text: str) -> list[RosterLine]:
-    first = text.splitlines()[:_FIRST_LINES]
-    delimiter = max(";\t,", key=lambda char: sum(char in line for line in first))
-    try:
-        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True))
-    except csv.Error:
-        raise refused(path, "это не CSV: не закрыта кавычка", "сохраните список заново") from None
-    lines = [RosterLine(i, [_clean(cell) for cell in row]) for i, row in enumerate(rows, 1)]
-    lines = [line for line in lines if any(line.cells)]
-    if lines and lines[0].cells[0].casefold() == "sep=":  # Excel's word on the delimiter
-        del lines[0]
-    return lines
-
-
-def _text(path: Path, data: bytes) -> str:
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        pass
-    text = data.decode("cp1251", errors="replace")
-    letters = [char for char in text if char.isalpha()]
-    russian = sum("а" <= char.casefold() <= "я" or char in "ёЁ" for char in letters)
-    if "\ufffd" in text or russian < len(letters) / 3:
-        raise refused(path, "кодировка не UTF-8 и не Windows-1251", "сохраните как «CSV UTF-8»")
-    return text
-
-
-# --- a book of Excel -------------------------------------------------------------------------
-
-
-def _sheets(path: Path, data: bytes) -> list[RosterListing]:
-    from openpyxl import load_workbook
-
-    check_data(data, path.name)
-    try:
-        shown, written = (
-            load_workbook(io.BytesIO(data), read_only=True, data_only=values)
-            for values in (True, False)
-        )
-        return [
-            RosterListing(path.name, sheet.title, list(_sheet_lines(sheet, written[sheet.title])))
-            for sheet in shown.worksheets
-            if sheet.sheet_state == "visible"
-        ]
-    except Exception:  # whatever openpyxl meets in a file of a program that it does not know
-        raise refused(path, "книга не читается", "сохраните список как CSV") from None
-
-
-def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
-    """Lines of a sheet with the saved values of its formulas."""
-    for sheet in (shown, written):
-        sheet.reset_dimensions()  # a claim of the file, and often a wrong one
-    edge = {"max_row": _MOST_ROWS, "max_col": _MOST_COLUMNS}
-    rows = (sheet.iter_rows(**edge) for sheet in (shown, written))
-    for number, (values, sources) in enumerate(zip(*rows, strict=True), 1):
-        faults = {
-            i: why
-            for i, (cell, source) in enumerate(zip(values, sources, strict=True))
-            if (why := _fault(cell, source))
-        }
-        cells = ["" if i in faults else _clean(_shown(cell)) for i, cell in enumerate(values)]
-        if any(cells) or faults:
-            yield RosterLine(number, cells, faults)
-
-
-def _fault(cell: ReadOnlyCell, source: ReadOnlyCell) -> str:
-    """Why a cell's text is not known, empty where it is."""
-    if cell.value is None:
-        return "значение формулы не сохранено" if source.data_type == "f" else ""
-    if cell.data_type == "e":
-        return f"ошибка {cell.value}"
-    if cell.is_date:  # what was typed is lost: «3-12» became the third of December
-        return "дата вместо текста"
-    return "логическое значение вместо текста" if cell.data_type == "b" else ""
-
-
-def _shown(cell: ReadOnlyCell) -> str:
-    """The text of a cell as its sheet shows it."""
-    value = cell.value
-    if not isinstance(value, (int, float)):
-        return str(value or "")
-    text = f"{value:.15g}".replace(".", ",")
-    zeros = cell.number_format  # «000000»: a number with the zeros in front of it
-    return text.zfill(len(zeros)) if zeros and not zeros.strip("0") else text
-
-
-# --- students ------------------------------------------------------------------------------------
+from reports.grading.issuing.listings import (
+    A_DATE,
+    MAX_FIELD,
+    RosterLine,
+    RosterListing,
+    listings,
+    refused,
+)
+from reports.grading.issuing.names import foreign_letters, twin
+from reports.shared.errors import InputError, Problem
+from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 
 MAX_STUDENTS = 2000
 _TITLES = 20  # lines above the head: what the list is, of which year
@@ -184,11 +37,16 @@ _HEADS = {
     "id": ("номер", "шифр", "id", "id number", "индивидуальный номер", "логин", "login",
            "username", "имя пользователя", "зачетка", "номер зачетки", "номер зачетной книжки",
            "№ зачетки", "№ зачетной книжки"),
+    "extension": ("срок", "продление", "продлено до", "отсрочка", "срок сдачи", "extension",
+                  "deadline", "due"),
     "email": ("email", "e-mail", "почта", "адрес электронной почты", "email address"),
 }  # fmt: skip
 _SURNAMES = ("surname", "full", "turned", "either")  # columns with a surname, the plainest first
 # What a head says besides, and what stands among the people and is none.
 _BESIDES = frozenset(("студента", "студентов", "обучающегося", "полностью", "учебная"))
+# Lines of Canvas and Google Classroom between the head and the people.
+_SERVICE = frozenset(("points possible", "student, test", "test student", "read only", "date",
+                      "points", "дата", "баллы", "максимальный балл", "class average"))  # fmt: skip
 _NOBODY = frozenset(("группа", "итого", "всего", "куратор", "староста", "преподаватель"))
 
 
@@ -202,6 +60,7 @@ class Student:
     group: str = ""
     email: str = ""
     number: str = ""  # as the list gives it
+    extension: str = ""  # an own deadline (ISO), or hours more: "+48"
 
     @property
     def full(self) -> str:
@@ -210,7 +69,7 @@ class Student:
 
 
 def read_roster(path: Path) -> list[Student]:
-    """Students of a CSV file (UTF-8 or Windows-1251; comma, semicolon or tab) or of an Excel book.
+    """Students of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -273,12 +132,55 @@ def _headed(listing: RosterListing) -> _List | None:
         for line in listing.lines[last + 1 :]
         if line.cells not in repeated and not _is_number(line)
     ]
-    headed = _List(listing, heads[first] | heads[last], people)
+    columns = heads[first] | heads[last]
+    people = [line for line in people if not _is_service(line, columns)]
+    headed = _List(listing, columns, _joined(people, columns, listing.lines[first : last + 1]))
     if headed.columns.keys() & set(_SURNAMES) != {"either"}:
         return headed
     column = headed.columns.pop("either")
     headed.columns[_order(headed, head, column)] = column
     return headed
+
+
+def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
+    """Whether a site of learning has put a line of its own among the people."""
+    at = [columns[key] for key in _SURNAMES if key in columns]
+    texts = [line.cells[i].casefold().strip() for i in at if i < len(line.cells)]
+    alone = all(not line.cells[i] for i in (columns.get("name"), columns.get("email"))
+                if i is not None and i < len(line.cells))  # fmt: skip
+    return alone and any(text in _SERVICE for text in texts)
+
+
+_NAME = re.compile(r"[^\W\d_]+(?:[- .’'][^\W\d_]+)*\.?")
+
+
+def _joined(
+    people: list[RosterLine], columns: dict[str, int], head: Sequence[RosterLine]
+) -> list[RosterLine]:
+    """People with their names in one cell where the head above two or three of them is one."""
+    key = next((key for key in ("full", "turned", "either", "surname") if key in columns), None)
+    if key is None or (key == "surname" and "name" in columns):
+        return people
+    start = columns[key]
+    end = start + 1
+    while all(end < len(line.cells) and not line.cells[end] for line in head) and _are_names(
+        [line.cells[end] for line in people if end < len(line.cells)]
+    ):
+        end += 1
+    if end == start + 1:
+        return people
+    if key == "surname":
+        columns["full"] = columns.pop(key)
+    return [
+        replace(line, cells=[*line.cells[:start], " ".join(filter(None, line.cells[start:end])),
+                             *[""] * (end - start - 1), *line.cells[end:]])
+        for line in people
+    ]  # fmt: skip
+
+
+def _are_names(cells: Sequence[str]) -> bool:
+    known = [cell for cell in cells if cell]
+    return bool(known) and all(_NAME.fullmatch(cell) for cell in known)
 
 
 def _order(headed: _List, head: RosterLine, column: int) -> str:
@@ -287,6 +189,8 @@ def _order(headed: _List, head: RosterLine, column: int) -> str:
     A patronymic stands behind a name; how a site writes one name it writes them all.
     """
     names = [line.cells[column].split() for line in headed.people if column < len(line.cells)]
+    if names and all(words and "," in words[0] for words in names):  # «Иванов, Пётр»
+        return "full"
     marks = [[_is_patronymic(word) for word in words[1:]] for words in names if len(words) == 3]
     second = {first for first, last in marks if first != last}
     if len(second) == 1 or not names:
@@ -322,46 +226,91 @@ def _named(given: dict[str, str]) -> tuple[str, str]:
     if not surname and "turned" in given:
         name, _, surname = given["turned"].rpartition(" ")
     elif not surname:
-        surname, _, name = given.get("full", "").partition(" ")
-    return surname, f"{name} {given.get('patronymic', '')}".strip()
+        full = given.get("full", "")
+        surname, _, name = full.partition("," if "," in full else " ")
+    return surname.strip(" ,"), f"{name.strip(' ,')} {given.get('patronymic', '')}".strip()
 
 
 def _students(headed: _List) -> list[Student]:
     problems: list[Problem] = []
     students: list[Student] = []
     seen: dict[str, int] = {}
+    twins: dict[str, str] = {}
     for line in headed.people:
-        given, where = headed.given(line), headed.where(line)
-        surname, name = _named(given)
-        if faults := sorted(line.faults.keys() & headed.columns.values()):
-            where = headed.listing.place(line, faults[0])
-            problems.append(Problem(where, line.faults[faults[0]], "впишите текст"))
+        student = _student(headed, line)
+        if isinstance(student, Problem):
+            problems.append(student)
             continue
-        words = given.get("turned", "").split()
-        nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
-        if nobody or not surname:
-            what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
-            problems.append(Problem(where, what, "впишите её или удалите строку"))
-            continue
-        if len(words) > 2 and not _is_patronymic(words[-2]):
-            what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
-            problems.append(Problem(where, f"«{' '.join(words)}»: {what}", hint))
-            continue
-        if any(len(value) > MAX_FIELD for value in given.values()):
-            problems.append(Problem(where, "слишком длинный текст", "это не список группы"))
-            continue
-        group = given.get("group", "")
-        key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
-        if key.casefold() in seen:
-            what = f"студент «{key}» уже есть в строке {seen[key.casefold()]}"
+        where, key = headed.where(line), student.id.casefold()
+        like = f"{twin(student.full)}, {student.group}"
+        if key in seen:
+            what = f"студент «{student.id}» уже есть в строке {seen[key]}"
             problems.append(Problem(where, what, "однофамильцам добавьте столбец «Номер»"))
-            continue
-        seen[key.casefold()] = line.number
-        email, given_id = given.get("email", ""), given.get("id", "")
-        students.append(Student(key, surname, name, group, email, given_id))
+        elif like in twins and not student.number and not student.email:
+            what = f"«{student.full}» и «{twins[like]}»: один это человек или два?"
+            hint = "удалите лишнюю строку или добавьте столбец «Номер»"
+            problems.append(Problem(where, what, hint))
+        else:
+            seen[key] = line.number
+            twins.setdefault(like, student.full)
+            students.append(student)
     if problems:
         raise InputError(problems[:50])
     return students
+
+
+def _student(headed: _List, line: RosterLine) -> Student | Problem:
+    """The student of a line, or what is wrong with it."""
+    given, where = headed.given(line), headed.where(line)
+    surname, name = _named(given)
+    own = headed.columns.get("extension")
+    kept = {i for i, why in line.faults.items() if i != own or why != A_DATE}
+    if faults := sorted(kept & set(headed.columns.values())):
+        where = headed.listing.place(line, faults[0])
+        return Problem(where, line.faults[faults[0]], "впишите текст")
+    words = given.get("turned", "").split()
+    nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
+    if nobody or not surname:
+        what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
+        return Problem(where, what, "впишите её или удалите строку")
+    if len(words) > 2 and not _is_patronymic(words[-2]):
+        what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
+        return Problem(where, f"«{' '.join(words)}»: {what}", hint)
+    if any(len(value) > MAX_FIELD for value in given.values()):
+        return Problem(where, "слишком длинный текст", "это не список группы")
+    if letters := foreign_letters(f"{surname} {name}"):
+        what = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
+        return Problem(where, what, "наберите имя заново в одной раскладке")
+    extension = _extension(given.get("extension", ""))
+    if extension is None:
+        what = f"срок «{given['extension']}» непонятен"
+        hint = "нужна дата 25.12.2026, дата и время 25.12.2026 18:00 или «+2 дня», «+48 ч»"
+        return Problem(where, what, hint)
+    group = given.get("group", "")
+    key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
+    return Student(key, surname, name, group, given.get("email", ""), given.get("id", ""),
+                   extension)  # fmt: skip
+
+
+_MORE = re.compile(r"\+?\s*(\d{1,3})\s*(д|дн|дня|дней|день|сут\w*|ч|час|часа|часов|d|h)\.?")
+
+
+def _extension(text: str) -> str | None:
+    """An own deadline as ISO or hours more, empty where none is given; None: not understood."""
+    text = text.strip().casefold()
+    if not text:
+        return ""
+    if more := _MORE.fullmatch(text):
+        return f"+{int(more[1]) * (1 if more[2][0] in 'чh' else 24)}"
+    for form in ("%d.%m.%Y %H:%M", "%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dt%H:%M",
+                 "%d.%m.%Y", "%Y-%m-%d"):  # fmt: skip
+        try:
+            moment = datetime.strptime(text, form)
+        except ValueError:
+            continue
+        ends = "%h" not in form.casefold() or (moment.hour, moment.minute) == (0, 0)
+        return (moment.replace(hour=23, minute=59) if ends else moment).isoformat()
+    return None
 
 
 def _columns(head: list[str]) -> dict[str, int]:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from pydantic_core import PydanticCustomError
 
+from reports.formula.parse import FormulaError, parse
 from reports.inputs import messages
 from reports.inputs.load import tables_of
 from reports.inputs.normalise import read_text
@@ -18,6 +19,8 @@ from reports.shared.errors import InputError, Problem, one_line
 Share = Annotated[float, Field(ge=0, le=1)]
 Positive = Annotated[float, Field(gt=0)]
 Points = Annotated[float, Field(ge=0, le=1e6)]
+Name = Annotated[str, Field(min_length=1, max_length=100)]
+Letters = Annotated[str, Field(pattern=r"^[A-Z]{0,3}$")]
 
 
 class _Section(BaseModel):
@@ -87,6 +90,29 @@ class Late(_Section):
         return value
 
 
+class Message(_Section):
+    """[[messages]]: own words for a wrong item whose cause or numbers fit.
+
+    ``cause`` is a part of the program's cause, ``formula`` a wrong formula in the language of the
+    tables; without both the words stand at every mistake of the items.
+    """
+
+    items: Name = "*"
+    cause: Annotated[str, Field(max_length=200)] = ""
+    formula: Annotated[str, Field(max_length=500)] = ""
+    text: Annotated[str, Field(min_length=1, max_length=500)]
+
+    @field_validator("formula")
+    @classmethod
+    def _in_the_language(cls, value: str) -> str:
+        if value:
+            try:
+                parse(value)
+            except FormulaError as error:
+                raise PydanticCustomError("formula", "no formula") from error
+        return value
+
+
 class Attempts(_Section):
     """[attempts]: which of several files counts."""
 
@@ -94,9 +120,37 @@ class Attempts(_Section):
 
 
 class Minimum(_Section):
-    """[minimum]: share of the items that must be filled in for any points at all."""
+    """[minimum]: share of the items that must be filled in for any points at all.
+
+    ``tables`` are such shares of single tables, for the points of these tables.
+    """
 
     filled: Share = 0.0
+    tables: dict[str, Share] = {}
+
+
+class MarkScale(_Section):
+    """[scale]: least points of each mark, or of the credit."""
+
+    marks: dict[str, Points] = {}
+    none: Annotated[str, Field(max_length=20)] = "2"
+
+    def mark(self, points: float) -> str:
+        """The mark for points."""
+        reached = [(least, mark) for mark, least in self.marks.items() if points >= least]
+        return max(reached)[1] if reached else self.none
+
+
+class Form(_Section):
+    """[form]: cells of the institute's own form; columns are letters."""
+
+    sheet: Annotated[str, Field(max_length=31)] = ""
+    first_row: Annotated[int, Field(ge=1, le=10_000)] = 2
+    student: Letters = "B"
+    mark: Letters = ""
+    points: Letters = ""
+    number: Letters = ""
+    cells: dict[Annotated[str, Field(pattern=r"^[A-Z]{1,3}[1-9][0-9]{0,4}$")], str] = {}
 
 
 class Feedback(_Section):
@@ -117,6 +171,10 @@ class Rubric(_Section):
     late: Late = Late()
     attempts: Attempts = Attempts()
     minimum: Minimum = Minimum()
+    needs: dict[str, tuple[Name, ...]] = {}
+    messages: tuple[Message, ...] = ()
+    scale: MarkScale = MarkScale()
+    form: Form = Form()
     feedback: Feedback = Feedback()
 
 
@@ -183,6 +241,9 @@ _WANTED = {
     "model_type": "нужен раздел",
     "string_type": "нужен текст",
     "missing": "ключ обязателен",
+    "formula": "нужна формула на языке таблиц: r_crank*(1 - cos(rad(phi_deg)))",
+    "string_pattern_mismatch": "нужны буквы столбца или адрес ячейки: B, E12",
+    "string_too_short": "нужен текст",
     "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00",
     "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00",
 }

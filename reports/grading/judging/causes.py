@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
-from reports.formula.parse import names, parse
+from reports.formula.parse import FormulaError, names, parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.judgement import Array, Judgement, close, distance, tolerance
 from reports.grading.judging.mistakes import mistakes, symbol_of
@@ -21,11 +20,10 @@ from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
-from reports.shared.russian import fixed, short
+from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
-_PI = re.compile(r"\bpi\b")
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
 _CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 _VARIED = 4  # different values of a column that tells anything
@@ -70,6 +68,20 @@ class Causes:
         good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
         rows = [] if cause or judgement.coarse else slips(judgement, good)
         return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
+
+    def gives(self, judgement: Judgement, text: str) -> bool:
+        """Whether a formula in the language of the tables gives the wrong values of an item."""
+        item, values = judgement.item, judgement.values
+        known = self._known(judgement)
+        for base in [known, {}] if known else [{}]:
+            run = self.student.expected.fork(base)
+            try:
+                attempt = self._rewritten(item, run, lambda _: parse(text))
+            except (KeyError, ValueError, TypeError, FormulaError):  # no formula of this table
+                return False
+            if attempt is not None and self._fits(item, values, attempt, judgement.expected, ()):
+                return True
+        return False
 
     def _common(self, judgement: Judgement) -> str:
         """A cause that all values have in common."""
@@ -160,8 +172,6 @@ class Causes:
         yield "результат в градусах вместо радиан", np.degrees(right)
         yield "результат в радианах вместо градусов", np.radians(right)
         yield from self._changed_formulas(item, run)
-        if any(_PI.search(self.student.assignment.graph.expression(n) or "") for n in item.nodes):
-            yield "π взято как 3,14", right * (3.14 / np.pi)
         if len(right) > 3 and item.is_column:
             yield "значения сдвинуты на одну строку вниз", moved(right, values, 1)
             yield "значения сдвинуты на одну строку вверх", moved(right, values, -1)
@@ -191,7 +201,8 @@ class Causes:
         fields = self.student.assignment.model.fields
         for name in sorted(self._names(item.nodes[0])):
             if name in fields and isinstance(fields[name].value, (int, float)):
-                title = "частота вращения n" if name == "regime_speed_rpm" else fields[name].title
+                title = fields[name].title
+                title = "частота вращения n" if name == "regime_speed_rpm" else uncapital(title)
                 yield f"{title} вместо {item.symbol}", np.array([float(run.value(name))])
 
     def _moved_reference(self, item: Item) -> str:

@@ -6,7 +6,6 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import datetime, timedelta
 from functools import cached_property
 from typing import Any
 
@@ -15,11 +14,12 @@ import numpy as np
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import EMPTY, GROUNDLESS, UNKNOWN
+from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
+from reports.grading.judging.scoring import HandedIn, score
+from reports.grading.judging.traits import Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, own_marks
@@ -47,7 +47,7 @@ from reports.shared.russian import short
 from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout
 
-FORMAT = 7
+FORMAT = 8
 Result = dict[str, Any]
 
 
@@ -58,6 +58,7 @@ def blank_result(submission: Submission) -> Result:
         "key": submission.key,
         "file": submission.label,
         "time": submission.time.isoformat() if submission.time else None,
+        "clock": submission.clock,
         "moodle_id": submission.moodle_id,
         "sha256": "",
         "items": [],
@@ -85,6 +86,11 @@ class _Tables:
     def proofs(self) -> Proofs:
         """The engines on which formulas are tried, and what is proven."""
         return Proofs(trials_of(self.assignment, self.register.books, self.register.trial_seed))
+
+    @cached_property
+    def textbook(self) -> Textbook:
+        """The program's formulas as trees."""
+        return Textbook(self.assignment, self.layout)
 
     @cached_property
     def own(self) -> dict[str, str]:
@@ -123,7 +129,8 @@ class Marker:
             return result
         result["properties"] = file_properties(package)
         self._grade(result, grid, match.book, package)
-        score(result, self.register.rubric, submission.time)
+        handed = HandedIn(submission.time, submission.clock, match.book.student.extension)
+        score(result, self.register.rubric, handed)
         return result
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
@@ -209,6 +216,10 @@ class Marker:
             result["doubts"].append(text)
             result["manual"].append(text)
         result["formulas"] = formula_marks(student, tables.own)
+        result["traits"] = traits_of(student, items, tables.textbook)
+        for text in _of_the_program(student, result["formulas"], tables.textbook):
+            result["doubts"].append(text)
+            result["manual"].append(text)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
@@ -253,6 +264,25 @@ class Marker:
     def titles(assignment: Assignment) -> dict[str, str]:
         """Name of an input → its title."""
         return {name: field.title for name, field in assignment.model.fields.items()}
+
+
+_MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
+
+
+def _of_the_program(
+    student: StudentBook, formulas: Mapping[str, Sequence[Any]], book: Textbook
+) -> list[str]:
+    """How the work comes of a book that the program has solved: a person decides."""
+    told = []
+    if sheet := pasted(student, book):
+        told.append(f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги")
+    own = sum(bool(mark[2]) for mark in formulas.values())
+    issued = any(name.startswith("col_") for name in student.grid.names)
+    if not issued and own >= max(_MANY, _NEARLY_ALL * len(formulas)):
+        told.append(
+            f"это книга, решённая программой: слово в слово {own} из {len(formulas)} формул"
+        )
+    return told
 
 
 def _equal(text: object, value: object) -> bool:
@@ -329,47 +359,3 @@ def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
         f"верные формулы остались без баллов, потому что опираются на пустое или круговое "
         f"({names}): величин {len(taken)}, баллов {short(lost, 4)}; засчитать их?"
     ]
-
-
-def score(result: Result, rubric: Rubric, time: datetime | None) -> None:
-    """The points of a result from those of its lines, and what takes them away."""
-    lines = result["items"]
-    paid = [line for line in lines if line["of"] > 0]
-    filled = [line for line in paid if line["verdict"] != EMPTY]
-    result["filled"] = round(len(filled) / len(paid), 4) if paid else 0.0
-    result["maximum"] = rubric.maximum
-    result["enough"] = result["filled"] >= rubric.minimum.filled
-    if not result["enough"]:
-        result["notes"].append(
-            f"заполнено {result['filled']:.0%} при наименьшем {rubric.minimum.filled:.0%}: 0 баллов"
-        )
-    factor = late_factor(rubric, time)
-    result["late"] = factor
-    if factor < 1:
-        result["notes"].append(f"сдано после срока: баллы умножены на {short(factor)}")
-    rescored(result)
-
-
-def rescored(result: Result) -> None:
-    """The sum of a result from the points of its lines; a person may have given more for one."""
-    raw = min(sum(line["points"] for line in result["items"]), result["maximum"])
-    result["raw"] = round(raw, 2)
-    result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
-
-
-def late_factor(rubric: Rubric, time: datetime | None) -> float:
-    """Factor of the strictest late rule that applies; without a time none does."""
-    deadline = rubric.late.deadline
-    if deadline is None or time is None:
-        return 1.0
-    # File times carry no zone: they are the clock of the place where the deadline is meant.
-    late = time - deadline.replace(tzinfo=None)
-    if late <= timedelta(0):
-        return 1.0
-    hours = late.total_seconds() / 3600
-    if rubric.late.per_day:
-        days = max(0, math.ceil(hours / 24) - rubric.late.free_days)
-        return max(rubric.late.least, 1 - rubric.late.per_day * days)
-    return min(
-        [rule.factor for rule in rubric.late.rules if hours >= rule.after_hours], default=1.0
-    )

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
-from typing import ClassVar
+from typing import ClassVar, TypeGuard
 
-from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, names, parse
+from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, is_known_function, names, parse
+from reports.formula.plain import plain
 from reports.model.blocks import Model, TableSpec
 from reports.model.evaluation import node_of
 from reports.shared.russian import short
@@ -41,8 +42,24 @@ def summands(tree: ast.AST) -> list[ast.expr]:
     return terms
 
 
+def _is_power(tree: ast.AST) -> TypeGuard[ast.BinOp]:
+    return isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Pow)
+
+
 def _is_sum(tree: ast.AST) -> bool:
     return isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
+
+
+def brackets(tree: ast.expr) -> list[str]:
+    """Sums in brackets by which a formula multiplies or divides, with a power or without."""
+    found: dict[str, None] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
+            for side in (node.left, node.right):
+                base = side.left if _is_power(side) else side
+                if _is_sum(base):
+                    found[ast.unparse(base)] = None
+    return list(found)
 
 
 def factors(tree: ast.expr) -> list[str]:
@@ -103,16 +120,86 @@ class WithoutFactor(ast.NodeTransformer):
 
 
 class WithoutPower(ast.NodeTransformer):
-    """Takes the power from a name."""
+    """Takes the power from a name or a function."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, text: str) -> None:
+        self.text = text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The name alone."""
+        """The name or function alone."""
         self.generic_visit(node)
-        named = isinstance(node.left, ast.Name) and node.left.id == self.name
+        named = ast.unparse(node.left) == self.text
         return node.left if isinstance(node.op, ast.Pow) and named else node
+
+
+class Squared(ast.NodeTransformer):
+    """Squares a name or a function that has no power."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """What has a power keeps it."""
+        return node if _is_power(node) else self.generic_visit(node)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        """The name of a table is no quantity."""
+        return node
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """The square of a name."""
+        return self._squared(node)
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The square of a function."""
+        node.args = [self.visit(argument) for argument in node.args]
+        return self._squared(node)
+
+    def _squared(self, node: ast.expr) -> ast.expr:
+        is_it = ast.unparse(node) == self.text
+        return ast.BinOp(node, ast.Pow(), ast.Constant(2)) if is_it else node
+
+
+class WithoutRoot(ast.NodeTransformer):
+    """Leaves the root out."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """What stands under it."""
+        self.generic_visit(node)
+        rooted = isinstance(node.func, ast.Name) and node.func.id == "sqrt"
+        return node.args[0] if rooted else node
+
+
+class Swapped(ast.NodeTransformer):
+    """Swaps the arguments of atan2, whose order a spreadsheet has the other way round."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The function with its arguments in the other order."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "atan2":
+            node.args = node.args[::-1]
+        return node
+
+
+class OtherPi(ast.NodeTransformer):
+    """Takes a rough π, in the conversion of angles as well."""
+
+    def __init__(self, value: float) -> None:
+        self.value = ast.Constant(value)
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """The rough π."""
+        return self.value if node.id == "pi" else node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """An angle turned into radians or degrees by it."""
+        self.generic_visit(node)
+        name = node.func.id if isinstance(node.func, ast.Name) else ""
+        if name not in ("rad", "deg"):
+            return node
+        ratio = ast.BinOp(self.value, ast.Div(), ast.Constant(180))
+        turn = ast.Mult() if name == "rad" else ast.Div()
+        return ast.BinOp(node.args[0], turn, ratio)
 
 
 class WithoutPowers(ast.NodeTransformer):
@@ -233,6 +320,9 @@ class Flipped(ast.NodeTransformer):
 
 # --- the mistakes --------------------------------------------------------------------------------
 
+_ROUGH = ((3.14, "3,14"), (3.0, "3"), (22 / 7, "22/7"))
+# Conversions, not quantities.
+_UNSQUARED = ("rad(", "deg(", "to_", "of_", "sqrt(")
 _PRODUCTS = 4  # of a formula, in which it may divide instead
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
 
@@ -244,6 +334,14 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for which in (None, 0, 1, 2):
         yield "sin и cos взяты друг вместо друга", OtherRatio(which).visit
     yield from _shorter(tree, block, model)
+    yield "значение под корнем: корень не извлечён", WithoutRoot().visit
+    yield "аргументы ATAN2 переставлены: первым стоит x", Swapped().visit
+    for value, words in _ROUGH:
+        yield f"π взято как {words}", OtherPi(value).visit
+    for text in factors(tree):
+        if not text.startswith(_UNSQUARED) and not is_known_function(text):
+            symbol = _symbols(parse(text), block, model)
+            yield f"{symbol} в квадрате, а надо в первой степени", Squared(text).visit
     for wrong_for, taken, words in MIXED:
         if wrong_for in used and (taken in model.scalars or taken in model.fields):
             more = ""
@@ -268,7 +366,10 @@ def _columns(table: TableSpec, used: frozenset[str]) -> Iterator[Mistake]:
 
 
 def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
-    """Something left out of the formula: a summand, a factor, a power, a number."""
+    """Something left out of the formula: a bracket, a summand, a factor, a power, a number."""
+    for text in brackets(tree):
+        words = plain(text, lambda name: symbol_of(name, block, model))
+        yield f"пропущен множитель ({words})", WithoutFactor(text).visit
     for number, dropped in enumerate(summands(tree)):
         words = f"пропущено слагаемое {_symbols(dropped, block, model)}"
         yield words, WithoutSummand(number).changed

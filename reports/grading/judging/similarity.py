@@ -8,51 +8,46 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
+from reports.grading.judging.rings import Ring, who
 from reports.grading.judging.works import Work
 
 Works = Sequence[Work]
 
 _COMMON = {"", "kshm", "openpyxl"}
-_FEW = 3  # students who share what the others do not have
+_FEW = 3  # owners of a value that are named
 _SHARED = 3  # formulas, or columns, from which it is no chance
 _MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
 
 
-def signals(results: Works) -> list[str]:
+def signals(results: Works, rings: Sequence[Ring] = ()) -> list[str]:
     """Signals over all results of a batch, in a fixed order."""
     graded = [result for result in results if result.status == "graded"]
     return [
         *_same_files(results),
         *_same_values(graded),
         *(text for _, text in _foreign_values(graded)),
-        *_same_formulas(graded, odd=False),
+        *(ring.text() for ring in rings if not ring.held),
         *_of_the_program(graded),
         *_same_people(graded),
         *_foreign(results),
     ]
 
 
-def suspicions(results: Works) -> dict[str, list[str]]:
+def suspicions(results: Works, rings: Sequence[Ring] = ()) -> dict[str, list[str]]:
     """Key of a result → why a person has to decide before it gives points."""
     graded = [result for result in results if result.status == "graded"]
     reasons: dict[str, list[str]] = {r.key: list(r.doubts) for r in results if r.doubts}
-    for group, shared in _sharing(graded, odd=True):
-        for result in group:
-            others = ", ".join(_who(other) for other in group if other is not result)
-            text = f"те же необычные формулы, что у: {others} — {_named(shared, result)}"
-            reasons.setdefault(result.key, []).append(text)
+    for ring in rings:
+        for result in ring.works if ring.held else ():
+            reasons.setdefault(result.key, []).append(ring.text(result))
     for result, text in _foreign_values(graded):
         reasons.setdefault(result.key, []).append(text)
     for group in _file_groups(results):
         if len({r.number for r in group}) > 1:
             for result in group:
-                others = ", ".join(_who(other) for other in group if other is not result)
+                others = ", ".join(who(other) for other in group if other is not result)
                 reasons.setdefault(result.key, []).append(f"тот же файл сдан: {others}")
     return reasons
-
-
-def _who(result: Work) -> str:
-    return f"{result.student} ({result.file})" if result.student else result.file
 
 
 def _named(items: Sequence[str], result: Work, limit: int = 3) -> str:
@@ -83,7 +78,7 @@ def _file_groups(results: Works) -> list[list[Work]]:
 
 def _same_files(results: Works) -> list[str]:
     return [
-        "одинаковые файлы: " + ", ".join(_who(result) for result in group)
+        "одинаковые файлы: " + ", ".join(who(result) for result in group)
         for group in _file_groups(results)
     ]
 
@@ -103,7 +98,7 @@ def _same_values(graded: Works) -> list[str]:
             continue
         for (right, first), (other, second) in combinations(group, 2):
             if right != other and first.number != second.number:
-                names = sorted((_who(first), _who(second)))
+                names = sorted((who(first), who(second)))
                 pairs.setdefault((names[0], names[1]), []).append(item)
     return [
         f"одинаковые неверные значения при разных вариантах: {first} и {second} — "
@@ -130,43 +125,12 @@ def _foreign_values(graded: Works) -> list[tuple[Work, str]]:
                 continue
             for owner in owners.get((line.id, line.mark), ())[:_FEW]:
                 if owner.number != result.number:
-                    sources.setdefault(_who(owner), []).append(line.id)
+                    sources.setdefault(who(owner), []).append(line.id)
         for name, items in sorted(sources.items()):
             if len(items) >= _SHARED:
                 text = f"значения верны для чужого варианта: {name} — {_named(items, result)}"
-                pairs.append((result, f"{_who(result)}: {text}"))
+                pairs.append((result, f"{who(result)}: {text}"))
     return pairs
-
-
-def _sharing(graded: Works, *, odd: bool) -> list[tuple[list[Work], list[str]]]:
-    """Few students with the same formulas that no one else has, and these formulas' items."""
-    by_mark: dict[tuple[str, str], list[Work]] = {}
-    for result in graded:
-        for line in result.items:
-            if line.formula and (line.formula[1] or not odd):
-                by_mark.setdefault((line.id, line.formula[0]), []).append(result)
-    shared: dict[tuple[str, ...], list[str]] = {}
-    known = {result.key: result for result in graded}
-    for (item, _), group in sorted(by_mark.items()):
-        if 1 < len({r.number for r in group}) <= _FEW:
-            keys = tuple(sorted(result.key for result in group))
-            shared.setdefault(keys, []).append(item)
-    return [
-        ([known[key] for key in keys], items)
-        for keys, items in sorted(shared.items())
-        if len(items) >= _SHARED
-    ]
-
-
-def _same_formulas(graded: Works, *, odd: bool) -> list[str]:
-    if len({result.number for result in graded}) <= 2 * _FEW:
-        return []  # in a small class nothing is rare
-    return [
-        "те же формулы, каких нет у других: "
-        + ", ".join(map(_who, group))
-        + f" — {_named(items, group[0])}"
-        for group, items in _sharing(graded, odd=odd)
-    ]
 
 
 def _of_the_program(graded: Works) -> list[str]:
@@ -176,7 +140,7 @@ def _of_the_program(graded: Works) -> list[str]:
         own = [line.formula[2] for line in result.items if line.formula]
         if len(own) >= _MANY and sum(own) >= _NEARLY_ALL * len(own):
             text = "формулы слово в слово как в книге, решённой программой"
-            labels.append(f"{_who(result)}: {text} — {sum(own)} из {len(own)}")
+            labels.append(f"{who(result)}: {text} — {sum(own)} из {len(own)}")
     return labels
 
 
@@ -186,7 +150,7 @@ def _same_people(graded: Works) -> list[str]:
         if result.saved_by.casefold() not in _COMMON:
             pairs.append((result.saved_by, result))
     return [
-        f"файлы последним сохранил «{name}»: " + ", ".join(_who(result) for result in group)
+        f"файлы последним сохранил «{name}»: " + ", ".join(who(result) for result in group)
         for name, group in _groups(pairs).items()
     ]
 
@@ -196,5 +160,5 @@ def _foreign(results: Works) -> list[str]:
     for result in results:
         for text in result.manual:
             if "идентификатор" in text:
-                labels.append(f"{_who(result)}: {text}")
+                labels.append(f"{who(result)}: {text}")
     return labels

@@ -10,6 +10,7 @@ import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from fnmatch import fnmatchcase
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -24,6 +25,7 @@ from reports.grading.judging.judgement import (
     RIGHT,
     STILL,
     TYPED,
+    UNKNOWN,
     WRONG,
     Judgement,
 )
@@ -103,6 +105,7 @@ def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
 
 # --- the small form ------------------------------------------------------------------------------
 
+Trait = tuple[str, str, str, str, str]  # kind, item, digest, digest as spelt, what it goes with
 _MARK = 16  # signs of a mark of right values
 _NONE = " " * _MARK
 
@@ -121,6 +124,8 @@ class Entry:
     cause: str
     mark: str
     formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
+    reason: str = ""  # why a person has to look, and the formula that he looks at
+    sample: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +152,7 @@ class Work:
     decision: dict[str, Any] | None
     decisions: tuple[dict[str, Any], ...]
     items: tuple[Entry, ...]
+    traits: tuple[Trait, ...]
     _rights: str
 
     @property
@@ -156,7 +162,7 @@ class Work:
             yield entry, self._rights[index * _MARK : (index + 1) * _MARK].strip()
 
 
-Shared = dict[Entry, Entry]
+Shared = dict[Any, Any]  # entries and traits
 
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
@@ -184,8 +190,14 @@ def work_of(result: dict[str, Any], shared: Shared) -> Work:
         decision=result.get("decision"),
         decisions=tuple(result.get("decisions", ())),
         items=tuple(shared.setdefault(entry, entry) for entry in entries),
+        traits=tuple(shared.setdefault(t, t) for t in map(_trait, result.get("traits", ()))),
         _rights="".join((line.get("right_mark") or _NONE) for line in result["items"]),
     )
+
+
+def _trait(fields: Sequence[str]) -> Trait:
+    kind, item, mark, spelt, group = fields
+    return kind, item, mark, spelt, group
 
 
 def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
@@ -201,11 +213,14 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         cause=line["cause"],
         mark=line.get("mark", "") if verdict in (WRONG, TYPED, STILL) else "",
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
+        reason=line.get("reason", "") if verdict == UNKNOWN else "",
+        sample=line.get("sample", "") if verdict == UNKNOWN else "",
     )
 
 
 # --- lines of the feedback -----------------------------------------------------------------------
 
+_SAMPLE = 200  # signs of a formula that a person looks at
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
 
@@ -236,12 +251,18 @@ def feedback_line(
         "of": round(worth, 6),
         "reason": judgement.reason,
         "cause": cause,
+        "message": _message(judgement, causes, cause, assignment),
         "origins": list(judgement.origins),
         "right_mark": fingerprint(item, judgement.expected),
         "rows": [item.labels[i] for i in judgement.rows],
         "where": _where(student, judgement),
         "typed": [item.labels[i] for i in judgement.typed] if judgement.verdict != RIGHT else [],
     }
+    if not line["where"]:
+        line["at"] = _at(student, item)
+    if judgement.verdict == UNKNOWN:
+        runs = (run for node in item.nodes for run in student.runs(node))
+        line["sample"] = next((run.text for run in runs), "")[:_SAMPLE]
     if judgement.verdict in (WRONG, CARRIED, TYPED, STILL, BROKEN):
         line["cells"] = _cells(student, judgement)
         line["mark"] = fingerprint(item, judgement.values)
@@ -252,6 +273,18 @@ def feedback_line(
                 "right": _plain(judgement.expected),
             }
     return line
+
+
+def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assignment) -> str:
+    """The instructor's own words for a mistake, the first that fit."""
+    item = judgement.item
+    for message in assignment.rubric.messages if judgement.verdict == WRONG else ():
+        about = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
+        if not about or message.cause.casefold() not in cause.casefold():
+            continue
+        if not message.formula or causes.gives(judgement, message.formula):
+            return message.text
+    return ""
 
 
 def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
@@ -296,6 +329,16 @@ def _where(student: StudentBook, judgement: Judgement) -> list[str]:
         f"{sheet}!{range_text(first, last, column)}"
         for (sheet, column), cells in groupby(located, key=itemgetter(0))
         for first, last in stretches(row for _, row in cells)
+    ]
+
+
+def _at(student: StudentBook, item: Item) -> list[str]:
+    """The cells of an item as ranges."""
+    places = filter(None, map(student.placement.places.get, item.nodes))
+    return [
+        f"{place.sheet}!{range_text(place.span.first, place.span.last, place.column)}"
+        for place in places
+        if place.span is not None
     ]
 
 

@@ -61,7 +61,9 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
     return stream.getvalue()
 
 
-def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
+def gradebook_xlsx(
+    rows: Sequence[dict[str, Any]], maximum: float, groups: Sequence[Mapping[str, Any]] = ()
+) -> bytes:
     """The gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
     from openpyxl import Workbook
     from openpyxl.styles import Alignment, Font, PatternFill, Protection
@@ -114,8 +116,44 @@ def gradebook_xlsx(rows: Sequence[dict[str, Any]], maximum: float) -> bytes:
     sheet.col_breaks.append(Break(id=len(head)))
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
+    if groups:
+        _add_groups(book, groups)
     add_printed(book, rows, [_shares(row) for row in rows], blocks)
     return finish(book)
+
+
+GROUPS = "Решения"
+_GROUP_HEAD = ("Группа", "Работ", "Что", "Почему ждёт", "Формула", "Из", *DECISION, "Студенты")
+_GROUP_WIDTHS = (11, 8, 20, 46, 40, 7, 10, 26, 60)
+
+
+def _add_groups(book: Workbook, groups: Sequence[Mapping[str, Any]]) -> None:
+    """Add the sheet on which one decision serves all works of a group."""
+    from openpyxl.styles import Alignment, Font, PatternFill
+
+    from reports.workbook.styles import as_text
+
+    sheet = book.create_sheet(GROUPS)
+    sheet.append(_GROUP_HEAD)
+    wrapped = Alignment(wrap_text=True, vertical="top")
+    for group in groups:
+        known = [group["what"], group["why"], group["formula"], group["of"]]
+        students = ", ".join(group["students"])
+        sheet.append([group["name"], len(group["numbers"]), *known, None, None, students])
+        for cell in sheet[sheet.max_row]:
+            as_text(cell)
+            cell.alignment = wrapped
+        for column in (7, 8):
+            sheet.cell(sheet.max_row, column).fill = PatternFill("solid", fgColor="FFF9DB")
+    for cell, width in zip(sheet[1], _GROUP_WIDTHS, strict=True):
+        cell.font, cell.alignment = Font(name="Calibri", bold=True), wrapped
+        cell.fill = PatternFill("solid", fgColor="D9E2F3")
+        sheet.column_dimensions[cell.column_letter].width = width
+    sheet.freeze_panes = "B2"
+    sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", sheet.PAPERSIZE_A4
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.print_title_rows = "1:1"
 
 
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -39,7 +39,7 @@ def _environment() -> Environment:
 def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     """Feedback of one submission as a page that needs no other file: what is wrong first."""
     full = rubric.feedback.mode == "full"
-    lines = [{**line, "svg": _chart(line, full)} for line in result.get("items", [])]
+    lines = [_line(line, full) for line in result.get("items", [])]
     labels = {line["id"]: line["label"] for line in lines}
     wrong = [line for line in lines if line["verdict"] not in ("right", "carried")]
     rank = {word: number for number, word in enumerate(WORDS)}
@@ -55,7 +55,9 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     template = _environment().get_template("student.html.j2")
     return template.render(
         result=result,
-        wrong=[line for line in wrong if line not in empty],
+        wrong=(shown := [line for line in wrong if line not in empty]),
+        figures=any(line["svg"] for line in shown),
+        waits=bool(result["manual"] or result.get("doubts")),
         empty=_by_heading(empty),
         carried=_by_heading([line for line in lines if line["verdict"] == "carried"]),
         right=_by_heading([line for line in lines if line["verdict"] == "right"]),
@@ -68,6 +70,10 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
         share=rubric.credit.carried,
         title=rubric.work.title,
     )
+
+
+def _line(line: dict[str, Any], full: bool) -> dict[str, Any]:
+    return {"message": "", "needs": (), **line, "svg": _chart(line, full)}
 
 
 def _by_heading(lines: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
@@ -94,6 +100,12 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def class_page(summary: dict[str, Any]) -> str:
     """The summary of a class."""
     return _environment().get_template("summary.html.j2").render(summary=summary, words=WORDS)
+
+
+def questions_page(sheets: Sequence[dict[str, Any]], rubric: Rubric, *, answers: bool) -> str:
+    """Sheets of questions for the defence, with answers for the instructor."""
+    template = _environment().get_template("questions.html.j2")
+    return template.render(sheets=sheets, answers=answers, title=rubric.work.title)
 
 
 def _chart(line: dict[str, Any], full: bool) -> Markup:
@@ -176,13 +188,13 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str =
             f'<text x="{at_x(value):.1f}" y="{HEIGHT - 8}" text-anchor="{anchor}">{value:g}</text>'
         )
     if right is not None:
-        parts.append(_line(x, right, at_x, at_y, "right"))
-    parts.append(_line(x, own, at_x, at_y, "own"))
+        parts.append(_path(x, right, at_x, at_y, "right"))
+    parts.append(_path(x, own, at_x, at_y, "own"))
     parts.append("</svg>")
     return "".join(parts)
 
 
-def _line(x: Sequence[float], y: Points, at_x: object, at_y: object, name: str) -> str:
+def _path(x: Sequence[float], y: Points, at_x: object, at_y: object, name: str) -> str:
     assert callable(at_x) and callable(at_y)
     path, pen = [], "M"
     for position, value in zip(x, y, strict=True):

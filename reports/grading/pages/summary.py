@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import asdict
 from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
 from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED, UNKNOWN, WRONG
+from reports.grading.judging.rings import Ring
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.works import Work
+from reports.grading.pages.groups import WaitingGroup, groups_of
 from reports.grading.pages.pages import moment
 from reports.shared.russian import short
 
@@ -88,10 +91,12 @@ def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> l
     ]  # fmt: skip
 
 
-def table_rows(register: Register, results: Sequence[Work]) -> list[dict[str, Any]]:
+def table_rows(
+    register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
+) -> list[dict[str, Any]]:
     """A row for each student of the register, then one for each file without an owner."""
     count = register.rubric.attempts.count
-    chosen, held = choose(results, count), suspicions(results)
+    chosen, held = choose(results, count), suspicions(results, rings)
     times: dict[int | None, list[str]] = {}
     for r in results:
         if r.submitter is None and not _is_beside(r, chosen):
@@ -172,13 +177,23 @@ def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]
     return remarks
 
 
-def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
+def waiting_groups(
+    register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
+) -> list[WaitingGroup]:
+    """Works that count and wait, by what is the same about them."""
+    chosen = choose(results, register.rubric.attempts.count)
+    return groups_of(chosen, suspicions(results, rings), rings, register.rubric.maximum)
+
+
+def summarise(
+    register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
+) -> dict[str, Any]:
     """Everything that the page of the class shows."""
-    rows = table_rows(register, results)
+    rows = table_rows(register, results, rings)
     chosen = choose(results, register.rubric.attempts.count)
     graded = [r for _, r in sorted(chosen.items()) if r.status == "graded"]
     marks = [float(row["points"]) for row in rows if row["points"] is not None]
-    held = suspicions(results)
+    held = suspicions(results, rings)
     questions = [(r, _asked(r, held.get(r.key, ()), chosen)) for r in results]
     times = sorted(r.time for r in chosen.values() if r.time)
     return {
@@ -194,7 +209,8 @@ def summarise(register: Register, results: Sequence[Work]) -> dict[str, Any]:
         "late": sum(result.late < 1 for result in graded),
         "distribution": _distribution(marks, register.rubric.maximum),
         "hardest": _hardest(graded),
-        "signals": signals(results),
+        "signals": signals(results, rings),
+        "groups": [asdict(group) for group in waiting_groups(register, results, rings)],
         "manual": [
             {"who": _name(r), "why": list(dict.fromkeys(why)), "page": r.page}
             for r, why in questions

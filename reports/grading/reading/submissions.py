@@ -6,14 +6,15 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
 
 from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
-from reports.grading.issuing.issue import latin
+from reports.grading.issuing.names import skeletons
+from reports.grading.issuing.names import words as words_of
 from reports.grading.issuing.register import PATTERN, Issued, Register
 from reports.recalculation.grid import BadBook, CellGrid
 from reports.recalculation.sheets import parse_xml
@@ -30,9 +31,16 @@ _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplement
 _MOODLE = re.compile(r"(?P<name>[^/]+?)_(?P<id>\d+)_assignsubmission_file(?:_|/|$)")
 
 
+MOODLE, ZIP, FILE_TIME = "moodle", "zip", "file"
+CLOCKS = {MOODLE: "часы Moodle", ZIP: "время в архиве", FILE_TIME: "время файла"}
+
+
 @dataclass(frozen=True, slots=True)
 class Submission:
-    """One file handed in; ``members`` lead to it where it lies in a zip, or a zip in a zip."""
+    """One file handed in; ``members`` lead to it where it lies in a zip, or a zip in a zip.
+
+    ``clock`` is what its time was taken from: Moodle's own zip, another one, the file.
+    """
 
     key: str
     path: Path
@@ -40,6 +48,7 @@ class Submission:
     time: datetime | None
     moodle_id: str = ""
     moodle_name: str = ""
+    clock: str = FILE_TIME
 
     @property
     def label(self) -> str:
@@ -148,7 +157,9 @@ def _zip(file: Submission, stream: BinaryIO, prefix: str, *, nested: bool = Fals
             keys.add(key)
             members = (*(file.members or ()), index)
             time = file.time if theirs else _time(info)
-            submission = Submission(key, file.path, members, time, **_moodle(key))
+            named = _moodle(key)
+            clock = file.clock if theirs else MOODLE if named else ZIP
+            submission = Submission(key, file.path, members, time, **named, clock=clock)
             inner: list[Submission] = []
             if not nested and _is_zip(key):
                 try:
@@ -342,29 +353,31 @@ def _is_stranger(register: Register, submission: Submission) -> bool:
 
 
 def _named(register: Register, text: str) -> list[Issued]:
-    """Those whose names stand in a text, or else their surnames."""
-    words = _words(text)
-    hits = _standing_in(words, [(book, _names(book)) for book in register.books])
-    return hits or _standing_in(words, [(book, _surname(book)) for book in register.books])
+    """Those whose names stand in a text, or else their surnames, in whatever spelling."""
+    for spelt, of in ((words_of(text), words_of), (skeletons(text), skeletons)):
+        for name in (_names, _surname):
+            hits = _standing_in(spelt, [(book, name(book, of)) for book in register.books])
+            if hits:
+                return hits
+    return []
 
 
-def _names(book: Issued) -> set[str]:
-    first, surname = _words(book.student.name.split(" ")[0]), _words(book.student.surname)
+Spelling = Callable[[str], set[str]]
+_SURE = 4  # letters of a surname's skeleton that is no word by chance
+
+
+def _names(book: Issued, of: Spelling) -> set[str]:
+    first, surname = of(book.student.name.split(" ")[0]), of(book.student.surname)
     return first | surname if first - surname else set()
 
 
-def _surname(book: Issued) -> set[str]:
+def _surname(book: Issued, of: Spelling) -> set[str]:
     """The words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
-    words = _words(book.student.surname)
-    return words if any(len(word) > 2 for word in words) else set()
+    words, least = of(book.student.surname), 3 if of is words_of else _SURE
+    return words if any(len(word) >= least for word in words) else set()
 
 
 def _standing_in(words: set[str], names: Iterable[tuple[Issued, set[str]]]) -> list[Issued]:
     """Whose name stands among some words, and is no part of another that does."""
     hits = [(book, name) for book, name in names if name and name <= words]
     return [book for book, name in hits if not any(name < other for _, other in hits)]
-
-
-def _words(text: str) -> set[str]:
-    """Words in Latin letters, so that Иванов is found in ivanov_kr.xlsx."""
-    return set(filter(None, re.split(r"[\W\d_]+", latin(text))))

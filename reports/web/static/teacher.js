@@ -57,7 +57,19 @@ const decision = ({number, student, manual, unknown}) => html`
       <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
       <button>Решить</button></form></details>`;
 
-const issued = ({open, students, rows, files}) => html`
+// One decision for all works that wait for the same reason.
+const many = groups => table("Решить сразу для многих", groups.map(({name, what, why, formula, students}) =>
+  row([[name], [`${what}: ${why}`], [formula], [students.join(", ")], [html`<form onSubmit=${e => {
+    act(door("grade"), {who: name, what: "всё", ...given(e)}, "Решение принято.");
+    e.target.reset();
+  }}>
+    <input name="points" aria-label=${`Баллы: ${name}`} size="12" placeholder="баллы, 50% или +" required />
+    <input name="remark" aria-label=${`Примечание: ${name}`} placeholder="примечание" maxlength="300" />
+    <button>Решить</button></form>`]], {key: name})),
+html`<thead><tr>${["Группа", "Что и почему", "Формула", "Студенты", "Решение"].map(title =>
+  html`<th scope="col">${title}</th>`)}</tr></thead>`);
+
+const issued = ({open, students, rows, groups, files}) => html`
   <p class="tool-bar">
     ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
     ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
@@ -67,6 +79,7 @@ const issued = ({open, students, rows, files}) => html`
       onChange=${e => act(door("open"), {open: state.own.open = e.target.checked})} /> студенты видят свои страницы</label></p>
   <p id="results" class="tool-bar">${files.map(name => link(name, name,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
+  ${groups.length > 0 && many(groups)}
   ${rows.length > 0 && gradebook(rows)}
   <details id="links" open><summary>Ссылки студентов</summary>
     <ol>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>

@@ -174,7 +174,8 @@ def test_an_edited_workbook_is_compared_with_its_file(tmp_path):
          "{d-240}: файл назван дважды; уберите повтор или сделайте копию с правками"),
         (("d-240", "d-260"), "c.docx",
          "c.docx: нужно окончание .xlsx, .pdf, .html, .csv, .json; укажите имя ключом -o"),
-        (("d-240", "d-260"), "c", "c: нужно окончание .xlsx, .pdf, .html, .csv, .json; укажите имя ключом -o"),
+        (("d-240", "d-260"), "c",
+         "c: нужно окончание .xlsx, .pdf, .html, .csv, .json; укажите имя ключом -o"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_compared_is_refused_in_a_line(tmp_path, names, target, message):

@@ -34,6 +34,7 @@ class Reason:
         above: what follows above the span.
         below: what follows below it.
         by_size: the span grows with the bore as that of table 4.
+        one_rod: the span is that of a throw with one rod.
     """
 
     key: str
@@ -48,6 +49,7 @@ class Reason:
     above: str
     below: str
     by_size: bool = False
+    one_rod: bool = False
 
     def span(self, kind: str, heavier: float = 1.0) -> Span:
         """Usual span of a kind of engine; of an unknown one that of both."""
@@ -99,7 +101,8 @@ REASONS: tuple[Reason, ...] = (
            ("m_k/F_piston",), THROW["steel", "petrol"], THROW["steel", "diesel"], "кг/м²", 1,
            "табл. 4",
            "растёт центробежная сила, нужны тяжёлые противовесы",
-           "колено легче обычного, его прочность следует проверить отдельно", by_size=True),
+           "колено легче обычного, его прочность следует проверить отдельно", by_size=True,
+           one_rod=True),
     Reason("rod_share", "Доля массы шатуна у пальца", r"m_1/m_{\mathrm{ш}}",
            ("m_1/masses_rod_kg",), SHARE, SHARE, "", 3, "п. 2.2",
            "растут возвратно движущиеся массы", "растут вращающиеся массы"),

@@ -8,6 +8,7 @@ from functools import partial
 
 from markupsafe import Markup
 
+from kshm.engine.arrangement import rods_beside
 from reports.document.chapters.chapter import Chapter, after_noun
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
@@ -16,6 +17,7 @@ from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import rich
 from reports.formula.numeric import evaluate
 from reports.inputs.checks.bands import stated_kind
+from reports.inputs.firing import arrangement_of
 from reports.inputs.reasons import REASONS, Reason
 from reports.inputs.to_si.masses import Sizes
 from reports.shared.russian import fixed, short, uncapital
@@ -97,9 +99,10 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     bore = 2000 * float(evaluate("sqrt(F_piston/pi)", number))
     sizes = Sizes(bore, 1000 * number("r_crank"), 1000 * number("L_rod"))
     kind, times = stated_kind(model), sizes.heavier
+    several = rods_beside(arrangement_of(model), 0) > 1
     for reason in REASONS:
         value = _value(reason, chapter.terms)
-        if value is not None:
+        if value is not None and not (reason.one_rod and several):
             other = _value(reason, prototype) if prototype is not None else None
             yield Judged(reason, value, other, *reason.span(kind, times))
 

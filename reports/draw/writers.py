@@ -128,13 +128,18 @@ def parts_placed(item: Words) -> Iterable[Words]:
 
 def _svg_text(item: Words, left: float, high: float) -> str:
     if is_drawn(item.text):
-        return _svg_strokes(item, left, high)
+        # What is drawn in strokes is searched and copied by the unseen letters over it.
+        return _svg_strokes(item, left, high) + _svg_letters(item, left, high, ' fill-opacity="0"')
+    return _svg_letters(item, left, high)
+
+
+def _svg_letters(item: Words, left: float, high: float, look: str = "") -> str:
     x, y = item.place[0] - left, high - item.place[1]
     anchor = {0.0: "start", 0.5: "middle", 1.0: "end"}[item.align]
     turn = f' transform="rotate({-item.angle:g} {x:.2f} {y:.2f})"' if item.angle else ""
     return (
         f'<text x="{x:.2f}" y="{y:.2f}" font-style="italic" font-size="{item.height / CAPITAL:.2f}"'
-        f' text-anchor="{anchor}"{turn} xml:space="preserve">{escape(item.text)}</text>'
+        f' text-anchor="{anchor}"{look}{turn} xml:space="preserve">{escape(item.text)}</text>'
     )
 
 

@@ -256,7 +256,7 @@ def test_what_is_no_number_is_refused_as_it_was_written(word: str) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--bore", 5), "--bore: получается диаметр цилиндра 5 мм; возможно от 20 до 1000 мм"),
+        (("--bore", 5), "--bore: получается диаметр цилиндра 5 мм; возможно от 10 до 1000 мм"),
         (("--stroke", 1), "--stroke: получается диаметр цилиндра 1,1 мм"),
         (("--rod", 10), "geometry"),
         (("--rod", 200, "--lambda", 0.3), "--rod и --lambda вместе не нужны"),

@@ -20,6 +20,7 @@ from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,
     INPUT_SHEET,
+    KEY_COLUMN,
     NUMBER_ROW,
     SOURCE_COLUMN,
     VALUE_COLUMN,
@@ -41,7 +42,7 @@ from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WI
 from reports.workbook.styles import HEADER, SUBTITLE
 
 _LIST = {
-    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
+    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
@@ -80,6 +81,7 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         _widen(sheet, blocks, layout, values)
         _raise_labels(sheet, blocks, layout)
         if sheet.title == INPUT_SHEET:
+            sheet.freeze_panes = Cell(sheet.title, NUMBER_ROW, 1).coordinate
             _fit_inputs(sheet, model, layout)
         return
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate

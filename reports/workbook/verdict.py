@@ -23,7 +23,7 @@ from reports.model.blocks import NO, YES, Model, scalars_of
 from reports.workbook import styles
 from reports.workbook.inputs import options
 from reports.workbook.layout import (
-    FIRST_ROW,
+    HEADER_ROW,
     INPUT_SHEET,
     KEY_COLUMN,
     TITLE_COLUMN,
@@ -299,7 +299,7 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
         if options(item) or item.minimum is not None:
             rows[layout.cells[item.name].row].append(item)
     column = 1 + max(KEY_COLUMN, *(layout.cells[item.name].column for item in model.inputs))
-    sheet.cell(FIRST_ROW - 1, column, _BEYOND).style = styles.HEADER
+    sheet.cell(HEADER_ROW, column, _BEYOND).style = styles.HEADER
     for row, items in rows.items():
         tests, usual = list(_tests(items, layout)), list[str]()
         state = 0.0

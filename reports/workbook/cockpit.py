@@ -39,12 +39,13 @@ from reports.workbook.verdict import GOOD
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
     "regime_speed_rpm", "gas_max_pressure_mpa", "cycle_max_pressure_mpa",
-    "masses_reciprocating_kg", "masses_piston_group_kg", "geometry_rod_length_mm", "geometry_lambda",
-    "geometry_bore_mm", "cyc_D", "geometry_stroke_mm", "geometry_crank_radius_mm", "cyc_S",
-    "V_engine",
+    "masses_reciprocating_kg", "masses_piston_group_kg", "geometry_rod_length_mm",
+    "geometry_lambda", "geometry_bore_mm", "cyc_D", "geometry_stroke_mm",
+    "geometry_crank_radius_mm", "cyc_S", "V_engine",
 )  # fmt: skip
 RESULTS = (
-    "cyc_N_e", "N_e_calc", "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg", "M_min", "c_m", "j_tdc",
+    "cyc_N_e", "N_e_calc", "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg",
+    "M_min", "c_m", "j_tdc",
     "worst_pin_load", "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load",
     "worst_main_torque", "delta_work", "I_flywheel",
 )  # fmt: skip

@@ -42,7 +42,8 @@ from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WI
 from reports.workbook.styles import HEADER, SUBTITLE
 
 _LIST = {
-    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
+    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11,
+    SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header

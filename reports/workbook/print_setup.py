@@ -284,7 +284,13 @@ def print_beginning(sheet: Worksheet) -> None:
     page = sheet.page_setup
     page.fitToWidth = page.fitToHeight = 1
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
-    sheet.print_area = area(Cell("", 1, 1), Cell("", _SHOWN_ROWS, sheet.max_column))
+    written = [cell.row for cell in sheet["A"] if cell.value is not None and cell.row > HEADER_ROW]
+    # Of a work-book that has lists only the rows begin far below the title.
+    first = written[0] - 1 if written and written[0] > _SHOWN_ROWS else 1
+    if first > 1:
+        sheet.print_title_rows = "1:1"
+    last = first + _SHOWN_ROWS - 1
+    sheet.print_area = area(Cell("", first, 1), Cell("", last, sheet.max_column))
 
 
 def set_margins(sheet: Worksheet) -> None:

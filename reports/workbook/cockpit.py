@@ -14,6 +14,7 @@ from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.model.blocks import Model
+from reports.model.contents import Contents
 from reports.model.shape import Shape, pin_figure, pin_name
 from reports.shared.russian import capital
 from reports.tables.left_out import left_out_note
@@ -87,7 +88,7 @@ def write_cockpit(
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
     row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
-    _chapters(sheet, titles)
+    _chapters(sheet, titles, contents_for(model))
     boxes = _charts(sheet, model, writer)
     row = _sheets(sheet, titles, model, row + 1)
     _legend(sheet, model, legend, row + 1)
@@ -125,13 +126,14 @@ def _samples(sheet: Worksheet, legend: Sequence[tuple[str, str]], row: int) -> i
     return row + 1
 
 
-def _chapters(sheet: Worksheet, titles: Sequence[str]) -> None:
+def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> None:
     """Links to the sheets of the first chapter and to the first ones of the others."""
     others = [title for title in titles if title != sheet.title]
-    firsts = {title: chapter_of(title) for title in others[:3]}
+    firsts = {title: chapter_of(title, contents) for title in others[:3]}
     for title in others[3:]:
-        if chapter_of(title) not in firsts.values():
-            firsts[title] = chapter_of(title)
+        chapter = chapter_of(title, contents)
+        if chapter not in firsts.values():
+            firsts[title] = chapter
     for number, (title, chapter) in enumerate(firsts.items()):
         row, across = divmod(number, _ACROSS)
         at = Cell(sheet.title, _TOP + row, _LINKS + _EACH * across)

@@ -151,14 +151,12 @@ def _input_cells(
         reference = f"{title}!{match.group(1)}{match.group(2)}"
         row, column = coordinate_to_tuple(match.group(1) + match.group(2))
         cell = sheet.get((row, column))
-        value = None if cell is None else cell.value
-        if cell is not None and cell.data_type == "f":
-            value = arithmetic(str(getattr(value, "text", value)))
-            if value is None:
-                what = "в ячейке исходных данных стоит формула, а не число"
-                hint = "впишите число или действия над числами, например =80+10"
-                problems.append(Problem(f"{source}, {reference}", what, hint))
-                continue
+        value = _typed(cell)
+        if value is None and cell is not None:
+            what = "в ячейке исходных данных стоит формула, а не число"
+            hint = "впишите число или действия над числами, например =80+10"
+            problems.append(Problem(f"{source}, {reference}", what, hint))
+            continue
         cells[name], places[name] = value, reference
         beside = sheet.get((row, UNIT_COLUMN))
         if column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
@@ -169,6 +167,13 @@ def _input_cells(
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
     return cells, places, units, books
+
+
+def _typed(cell: ReadOnlyCell | None) -> Any:  # noqa: ANN401
+    """What a person typed into a cell that holds something; None of a formula with more in it."""
+    if cell is None or cell.data_type != "f":
+        return None if cell is None else cell.value
+    return arithmetic(str(getattr(cell.value, "text", cell.value)))
 
 
 def _books_of(cells: dict[tuple[int, int], ReadOnlyCell]) -> dict[str, str]:

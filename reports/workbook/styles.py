@@ -117,12 +117,13 @@ def look(sheet: Worksheet, colour: str) -> None:
     sheet.sheet_format.customHeight = True
     sheet.sheet_properties.tabColor = colour
     under = Border(bottom=Side(style="medium", color=colour))
-    first = [sheet.cell(row, 1) for row in range(1, sheet.max_row + 1)]
+    rows = range(1, sheet.max_row + 1)
+    first = [cell for cell in (sheet.cell(row, 1) for row in rows) if isinstance(cell.value, str)]
     for cell in (*first, *sheet[_TITLES_ROW]):
-        if cell.style in _SIZES:
-            cell.font = Font(name=FONT, size=_SIZES[cell.style], bold=True, color=colour)
-    for cell in first:
-        if cell.style == HEADER and sheet.cell(cell.row, 2).style == HEADER:
+        named = cell.style if cell.value is not None else ""  # takes long to find
+        if named in _SIZES:
+            cell.font = Font(name=FONT, size=_SIZES[named], bold=True, color=colour)
+        elif named == HEADER and sheet.cell(cell.row, 2).style == HEADER:
             for head in sheet[cell.row]:
-                if head.style == HEADER:
+                if head.value is not None and head.style == HEADER:
                     head.border = under

@@ -130,6 +130,7 @@ _BEARINGS: tuple[Row, ...] = (
     ("pivot", "d", "m", "диагональный член после исключения", 4),
     *((f"load_{side}{axis}", f"{side}_{{{axis}}}", "Nm2", "грузовой член пролёта", 1)
       for side in "AB" for axis in "UL"),
+    ("spans_m", r"\Sigma_{\mathrm{гр}}", "Nm2", "грузовые члены пролётов слева и справа от опоры", 2),
     ("step_m", "m", "Nm", "прогонка", 1),
     *((f"Ms{axis}#_Nm", rf"M_{{\mathrm{{оп}}\,{axis}#}}", "Nm", f"опорный момент на опоре #, ось {axis}", 1) for axis in "xy"),
     *((f"Rc{axis}#_MPa", f"R_{{{axis}#}}", "MPa", f"реакция опоры # неразрезного вала, ось {axis}", 3) for axis in "xy"),

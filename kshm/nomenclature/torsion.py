@@ -29,6 +29,7 @@ ROWS: tuple[Row, ...] = (
     ("tor_e", "e", "1_Nm", "податливость колена по выбранной формуле", scientific(3)),
     *((f"tor_f1_{key}_hz", rf"f_{{1,\mathrm{{{short}}}}}", "hz", f"первая частота при жёсткости по {who}", 2) for key, short, who in _FORMULAS),
     ("tor_f1_spread", r"\Delta f_1", "percent", "разброс первой частоты по трём формулам", 1),
+    ("tor_circle", r"\omega_{\mathrm{Г}}^2", "1_s2", "граница Гершгорина строки: 2(c₋ + c)/J", scientific(4)),
     ("tor_limit", r"\omega_{\mathrm{в}}", "1_s", "граница, выше которой частот нет", 1),
     ("tor_step", "i", "", "шаг деления пополам", 0),
     ("tor_low", r"\omega_{\mathrm{л}}", "1_s", "левый конец отрезка", 6),

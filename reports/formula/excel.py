@@ -149,6 +149,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
     if name == "first_largest":
         run = refs.column(_key(args[0]), repeat_last=True)
         return f"MATCH(MAX({run}),{run},0)", _ATOM
+    if name == "run_sum":
+        return f"SUM({refs.column(_key(args[0]), repeat_last=True)})", _ATOM
     if name == "place":
         body = refs.column(_key(args[1]), repeat_last=False)
         return f"MATCH({_emit(args[0], refs)[0]},{body},1)", _ATOM
@@ -158,6 +160,8 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
     if name == "round":
         decimals = _emit(args[1], refs)[0] if args[1:] else "0"
         return f"ROUND({_emit(args[0], refs)[0]},{decimals})", _ATOM
+    if name == "round_up":
+        return f"ROUNDUP({_emit(args[0], refs)[0]},0)", _ATOM
     if name == "atan2":
         # Excel takes (x, y) where everybody else takes (y, x).
         y, x = (_emit(arg, refs)[0] for arg in args)

@@ -62,6 +62,11 @@ def _rounded(value: Value, decimals: Value = 0.0) -> Value:
     return np.copysign(np.floor(np.abs(value) * scale + 0.5) / scale, value) + 0.0
 
 
+def _rounded_up(value: Value) -> Value:
+    # As a spreadsheet does: away from zero.
+    return np.copysign(np.ceil(np.abs(value)), value) + 0.0
+
+
 def _following(column: Value) -> Value:
     return np.append(column[1:], column[-1])
 
@@ -70,9 +75,10 @@ def _previous(column: Value) -> Value:
     return np.insert(np.asarray(column, dtype=float)[:-1], 0, 0.0)
 
 
-_FUNCTIONS |= {"element": _element, "round": _rounded, "place": _place}
+_FUNCTIONS |= {"element": _element, "round": _rounded, "round_up": _rounded_up, "place": _place}
 _FUNCTIONS |= {"rank": lambda value, run: 1.0 + float(np.sum(np.asarray(run) < value))}
 _FUNCTIONS |= {"first_largest": lambda run: float(np.argmax(run) + 1)}
+_FUNCTIONS |= {"run_sum": lambda run: float(np.sum(run))}
 _FUNCTIONS |= {"following": _following, "previous": _previous, "running_sum": np.cumsum}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
 _FUNCTIONS |= {"wave_cos": _wave(np.cos), "wave_sin": _wave(np.sin)}

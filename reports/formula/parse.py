@@ -12,11 +12,13 @@ FUNCTIONS: dict[str, tuple[int, int]] = {
     "sin": (1, 1), "cos": (1, 1), "tan": (1, 1), "asin": (1, 1), "acos": (1, 1),
     "atan2": (2, 2), "sqrt": (1, 1), "exp": (1, 1), "ln": (1, 1), "abs": (1, 1), "floor": (1, 1),
     "round": (1, 2),  # and to how many decimals
+    "round_up": (1, 1),  # to a whole number, away from zero
     "mod": (2, 2), "min": (1, 40), "max": (1, 40), "total": (1, 40),
     "rad": (1, 1), "deg": (1, 1),
     "place": (2, 2),  # number of the last of some rising points that is not beyond a value
     "rank": (2, 2),  # place of a value among a run's, the least has 1
     "first_largest": (1, 1),  # its number in a run, from 1
+    "run_sum": (1, 1),  # of all values of a run
     "element": (2, 2),  # of a run by its number from 1
     "fourier_cos": (3, 3), "fourier_sin": (3, 3),
     # Sum of cos of (weights,) angles [deg] times an order.

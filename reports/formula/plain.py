@@ -16,7 +16,8 @@ _SIGNS: dict[type[ast.AST], tuple[str, int]] = {
     ast.Div: ("/", _PRODUCT),
 }  # fmt: skip
 _WORDS = {
-    "asin": "arcsin", "acos": "arccos", "total": "Σ", "floor": "целая часть", "round": "окр",
+    "asin": "arcsin", "acos": "arccos", "total": "Σ", "run_sum": "Σ", "floor": "целая часть",
+    "round": "окр", "round_up": "окр вверх",
     "mod": "остаток", "col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ",
     "col_last": "последнее", "element": "из строки", "place": "номер", "following": "следующее",
     "running_sum": "Σ до строки", "first_largest": "номер наибольшего", "rank": "место",

@@ -309,6 +309,8 @@ class _Printer:
             *weight, angle = (_Printer(self.symbols, None).text(arg) for arg in args[:-1])
             turn, order = name.removeprefix("wave_"), self.text(args[-1])
             return rf"\sum {''.join(weight)} \{turn}\left({order} {angle}\right)", _PRODUCT
+        if name == "run_sum":
+            return rf"\sum {_Printer(self.symbols, None).text(args[0])}", _PRODUCT
         if name == "total":
             return " + ".join(self._wrap(arg, _SUM) for arg in args), _SUM
         if name in _NAMES:

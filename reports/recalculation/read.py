@@ -22,7 +22,7 @@ from reports.recalculation.formulas import (
 from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, CellGrid
 from reports.recalculation.ranges import cross, pick
 from reports.recalculation.sheets import MAIN, Forms, parse_xml, read_sheet, rich_text
-from reports.workbook.intake import Package
+from reports.workbook.intake import STRICT, Package
 
 _MOST = 60  # tokens of a name: nobody calls more than that by one word
 
@@ -180,7 +180,7 @@ def read_grid(book: bytes | Package, forms: Forms | None = None) -> CellGrid:
 def _read(package: Package, forms: Forms | None) -> CellGrid:
     root = parse_xml(package.read("xl/workbook.xml"))
     if str(root.tag).startswith(_STRICT):
-        raise BadBook("книга сохранена в строгом формате Open XML; сохраните её как обычную .xlsx")
+        raise BadBook("; ".join(STRICT))
     targets = _targets(package)
     sheets = list(root.iter(f"{MAIN}sheet"))
     if len(sheets) > MAX_SHEETS:

@@ -21,7 +21,7 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.writer.excel import ExcelWriter
 
 from reports.workbook.sheets import CacheValues, FilledColumn
-from reports.workbook.styles import FONT
+from reports.workbook.styles import FONT, SIZE
 
 _A = "http://schemas.openxmlformats.org/drawingml/2006/main"
 _C = "http://schemas.openxmlformats.org/drawingml/2006/chart"
@@ -263,6 +263,7 @@ def _fonts(data: bytes) -> bytes:
     # Columns are as wide as digits of the first font: one whose metrics every system has.
     first = root.find(f"{{{_MAIN}}}fonts")[0]
     first.find(f"{{{_MAIN}}}name").set("val", FONT)
+    first.find(f"{{{_MAIN}}}sz").set("val", str(SIZE))
     for other in ("family", "scheme"):
         first.remove(first.find(f"{{{_MAIN}}}{other}"))
     for font in root.iter(f"{{{_MAIN}}}font"):

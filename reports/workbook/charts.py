@@ -33,7 +33,7 @@ from reports.workbook.chapters import contents_for, is_smooth_sheet
 from reports.workbook.chart_ranges import CurveRanges, Drawn, limits, marks, rays
 from reports.workbook.layout import FIRST_ROW, Layout
 
-WIDE, HIGH = 408, 290  # px: several beside a table
+WIDE, HIGH = 408, 272  # px: several beside a table
 ROOMY = 480  # px: width of three in a row on a sheet of their own
 STUDY = (16.0, 7.6)  # cm
 _LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
@@ -42,7 +42,7 @@ _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _PARTS = 5  # of a half axis of a polar diagram, at most
-_COLOURS = ("1F3864", "C00000", "2E7D32", "7F6000")
+_COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
 
 
 def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:

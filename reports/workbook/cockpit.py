@@ -7,12 +7,14 @@ from itertools import groupby
 from math import isfinite
 
 from openpyxl.formatting.rule import FormulaRule
-from openpyxl.styles import Alignment, PatternFill
+from openpyxl.styles import Alignment, Border, PatternFill, Protection, Side
 from openpyxl.styles import Font as CellFont
 from openpyxl.workbook import Workbook
+from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.model.blocks import Model
+from reports.model.contents import Contents
 from reports.model.shape import Shape, pin_figure, pin_name
 from reports.shared.russian import capital
 from reports.tables.left_out import left_out_note
@@ -20,19 +22,31 @@ from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, contents_for, heading
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import HEADER_ROW, NOTE_ROW, Cell
-from reports.workbook.places import GAP, Box, anchor, flow, lines_of, raise_row, top_of, wrap_across
+from reports.workbook.layout import HEADER_ROW, NOTE_ROW, SOURCE_COLUMN, Cell
+from reports.workbook.places import (
+    GAP,
+    Box,
+    anchor,
+    column_px,
+    flow,
+    lines_of,
+    raise_row,
+    top_of,
+    wrap_across,
+)
 from reports.workbook.sheets import BlockWriter, link
 from reports.workbook.verdict import GOOD
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
-    "engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_stroke_mm",
-    "geometry_crank_radius_mm", "lam", "geometry_compression_ratio", "V_engine",
-    "regime_speed_rpm", "m_j",
+    "regime_speed_rpm", "gas_max_pressure_mpa", "cycle_max_pressure_mpa",
+    "masses_reciprocating_kg", "masses_piston_group_kg", "geometry_rod_length_mm",
+    "geometry_lambda", "geometry_bore_mm", "cyc_D", "geometry_stroke_mm",
+    "geometry_crank_radius_mm", "cyc_S", "V_engine",
 )  # fmt: skip
 RESULTS = (
-    "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg", "M_min", "c_m", "j_tdc",
+    "cyc_N_e", "N_e_calc", "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg",
+    "M_min", "c_m", "j_tdc",
     "worst_pin_load", "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load",
     "worst_main_torque", "delta_work", "I_flywheel",
 )  # fmt: skip
@@ -43,12 +57,16 @@ _OF_PINS = {
 }  # fmt: skip
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
+BESIDE = ("fig49", "fig50")
 _WORST = "worst_pin_load"
 _WORST_PIN = (
     ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
 )  # fmt: skip
-_WIDTHS = {"A": 60, "B": 11, "C": 11, "D": 7, "E": 1.5}
-_TOP = 3
+_WIDTHS = {"A": 52, "B": 11, "C": 11, "D": 8, "E": 1.5}
+_TOP = 2
+_LINKS, _ACROSS, _EACH = 6, 4, 3  # first column, chapters in a row, columns that each takes
+_CHARTS_TOP = 5  # row
+_SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 
 
 def write_cockpit(
@@ -67,8 +85,10 @@ def write_cockpit(
     styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
     row = _people(sheet, model, _TOP)
     row = _verdict(sheet, writer, row, verdict)
-    row = _values(sheet, writer, row + 1, "Двигатель", DATA)
+    row = _samples(sheet, legend, row)
+    row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
     row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    _chapters(sheet, titles, contents_for(model))
     boxes = _charts(sheet, model, writer)
     row = _sheets(sheet, titles, model, row + 1)
     _legend(sheet, model, legend, row + 1)
@@ -95,6 +115,37 @@ def _people(sheet: Worksheet, model: Model, row: int) -> int:
     return row
 
 
+def _samples(sheet: Worksheet, legend: Sequence[tuple[str, str]], row: int) -> int:
+    """Colours of cells in a word each; the whole legend stands below."""
+    sheet.cell(row, 1, "Цвета ячеек").style = styles.TEXT
+    shown_styles = [style for style, _ in legend if style in _SAMPLES]
+    for column, style in enumerate(shown_styles, 2):
+        cell = sheet.cell(row, column, _SAMPLES[style])
+        cell.style = style
+        cell.protection = Protection(locked=True)
+    return row + 1
+
+
+def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> None:
+    """Links to the sheets of the first chapter and to the first ones of the others."""
+    others = [title for title in titles if title != sheet.title]
+    firsts = {title: chapter_of(title, contents) for title in others[:3]}
+    for title in others[3:]:
+        chapter = chapter_of(title, contents)
+        if chapter not in firsts.values():
+            firsts[title] = chapter
+    for number, (title, chapter) in enumerate(firsts.items()):
+        row, across = divmod(number, _ACROSS)
+        at = Cell(sheet.title, _TOP + row, _LINKS + _EACH * across)
+        text = title if number < 3 else chapter.title
+        link(sheet, at, text, title)
+        for column in range(at.column, at.column + _EACH):
+            under = Side(style="medium", color=chapter.colour)
+            sheet.cell(at.row, column).border = Border(bottom=under)
+        sheet.merged_cells.add(CellRange(min_row=at.row, max_row=at.row, min_col=at.column,
+                                         max_col=at.column + _EACH - 1))  # fmt: skip
+
+
 def _verdict(
     sheet: Worksheet, writer: BlockWriter, row: int, verdict: tuple[str, str] | None
 ) -> int:
@@ -119,7 +170,12 @@ def _values(
         row += 1
         raise_row(sheet, row, {text: _WIDTHS["A"]})
         for column, words in ((1, text), (2, symbol), (4, unit)):
-            sheet.cell(row, column, words or None).style = styles.TEXT
+            look_of = styles.UNIT if column == 4 else styles.TEXT
+            sheet.cell(row, column, words or None).style = look_of
+        key = formula.removeprefix("=")
+        if key in writer.layout.model.fields:
+            at = writer.layout.cells[key]
+            link(sheet, Cell(sheet.title, row, 1), text, at.sheet, at.coordinate)
         writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
         sheet.cell(row, 3).number_format = look
@@ -173,13 +229,32 @@ def _finite(value: float | str) -> bool:
     return isinstance(value, str) or isfinite(value)
 
 
+def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
+    """Two diagrams that answer at once beside the input data, above the lists of records."""
+    left = sum(column_px(sheet, i) for i in range(1, SOURCE_COLUMN + 1)) + GAP
+    listed = [writer.layout.cells[item.name].row for item in model.inputs if item.listed]
+    top = top_of(sheet, HEADER_ROW + 1)
+    room = top_of(sheet, min(listed) - 2) - top if listed else 2 * (HIGH + GAP)
+    charts = BESIDE[: room // (HIGH + GAP)]
+    return _drawn(sheet, model, writer, charts, (left, top, left + WIDE))
+
+
 def _charts(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
     """The four that say most, two to a row and of one size."""
-    worst = _worst_pin(writer)
-    charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in CHARTS]
-    specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
     left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP
-    boxes = flow([(WIDE, HIGH)] * len(specs), left, top_of(sheet, _TOP), left + 2 * WIDE + GAP)
+    return _drawn(sheet, model, writer, CHARTS,
+                  (left, top_of(sheet, _CHARTS_TOP), left + 2 * WIDE + GAP))  # fmt: skip
+
+
+def _drawn(
+    sheet: Worksheet, model: Model, writer: BlockWriter, wanted: Sequence[str],
+    room: tuple[int, int, int],
+) -> list[Box]:  # fmt: skip
+    """Charts of one size from left to right and down; of several pins the most loaded one's."""
+    worst = _worst_pin(writer)
+    charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in wanted]
+    specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
+    boxes = flow([(WIDE, HIGH)] * len(specs), *room)
     for spec, box in zip(specs, boxes, strict=True):
         chart = make_chart(spec, writer.layout, writer.values, oblong=box.width / box.height)
         chart.anchor = anchor(sheet, box)
@@ -223,8 +298,8 @@ def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], r
 
 
 SHEET = "Что если"
-_STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 14, "F": 14}
-_HEAD = ("Величина", "Обозначение", "Было", "Стало", "Разница, %", "Единица")
+_STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 12, "F": 6, "G": 12}
+_HEAD = ("Величина", "Обозначение", "Было", "Стало", "Разница", "", "Единица")
 _NOTE = (
     "Измените жёлтую ячейку на листе «Исходные данные»: здесь видно, что от этого изменилось. "
     "Вернуть: впишите на том листе число из столбца «Было»."
@@ -263,16 +338,20 @@ def _part(
             continue
         row += 1
         raise_row(sheet, row, {text: _STUDY_WIDTHS["A"]})
-        for column, words in ((1, text), (2, symbol), (6, unit)):
-            sheet.cell(row, column, words or None).style = styles.TEXT
+        for column, words in ((1, text), (2, symbol), (7, unit)):
+            look_of = styles.UNIT if column == 7 else styles.TEXT
+            sheet.cell(row, column, words or None).style = look_of
         was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))
         sheet.cell(row, 3, value)
         writer.formula(sheet, row, 4, formula, value)
         # Noise of the last digits is no change; of what was nothing there is no part to tell.
         from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
-        difference = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
-        writer.formula(sheet, row, 5, difference, 0.0)
-        for column, form in ((3, look), (4, look), (5, "0.00")):
+        share = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
+        # An angle and a journal's number have no share to tell: their difference itself.
+        whole = unit == "°" or (look == "0" and not unit)
+        writer.formula(sheet, row, 5, f"=ROUND({now}-{was},9)" if whole else share, 0.0)
+        sheet.cell(row, 6, unit if whole else "%").style = styles.UNIT
+        for column, form in ((3, look), (4, look), (5, look if whole else "0.00")):
             sheet.cell(row, column).style = styles.FORMULA
             sheet.cell(row, column).number_format = form
     return row + 2

@@ -7,6 +7,8 @@ from itertools import groupby
 from textwrap import shorten
 
 from openpyxl.formatting.rule import CellIsRule
+from openpyxl.styles import Alignment, Protection
+from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -15,6 +17,7 @@ from reports.model.blocks import Model
 from reports.shared.russian import capital, short
 from reports.workbook import styles
 from reports.workbook.layout import (
+    HEADER_ROW,
     KEY_COLUMN,
     SOURCE_COLUMN,
     SYMBOL_COLUMN,
@@ -22,21 +25,49 @@ from reports.workbook.layout import (
     UNIT_COLUMN,
     VALUE_COLUMN,
     Layout,
+    arranged,
 )
 
+LEGEND_ROW = 3
+_HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "Пределы")
+_LEGEND = "Жёлтые меняют; после оранжевых нужна команда kshm build"
+_SAMPLES = ((styles.INPUT, "меняют"), (styles.STRUCTURE, "строение"))
+_FOLDED = "свёрнуто: «+» слева от строк"
 _TITLE_LETTERS = 32  # of a message box, as much as Excel takes
 
 
 def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
-    """All input fields of a model."""
+    """All input fields of a model below a legend and headings; words about the work folded."""
+    _legend(sheet)
+    for column, text in enumerate(_HEADINGS, 1):
+        sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
+    sheet.cell(HEADER_ROW, KEY_COLUMN, "Ключ в файле .toml").style = styles.HEADER
     # A section may be interrupted by the lists that stand within it in the file.
-    for section, run in groupby(model.inputs, lambda item: item.section):
+    for section, run in groupby(arranged(model.inputs), lambda item: item.section):
         items = list(run)
         top = layout.cells[items[0].name].row - (2 if items[0].listed else 1)
         sheet.cell(top, 1, section).style = styles.SUBTITLE
         for item in items:
             _field(sheet, item, layout, top)
+        if items[0].path[0] == "report":
+            sheet.cell(top, VALUE_COLUMN, _FOLDED).style = styles.NOTE
+            for item in items:
+                about = sheet.row_dimensions[layout.cells[item.name].row]
+                about.outlineLevel, about.hidden = 1, True
+    sheet.sheet_properties.outlinePr.summaryBelow = False
+    key = sheet.column_dimensions[get_column_letter(KEY_COLUMN)]
+    key.outlineLevel, key.hidden = 1, True
     _mark_wrong(sheet, model, layout)
+
+
+def _legend(sheet: Worksheet) -> None:
+    """What the colours of the cells say; the samples hold nothing and cannot be typed into."""
+    sheet.cell(LEGEND_ROW, 1, _LEGEND).style = styles.NOTE
+    for column, (look, text) in enumerate(_SAMPLES, VALUE_COLUMN):
+        cell = sheet.cell(LEGEND_ROW, column, text)
+        cell.style = look
+        cell.protection = Protection(locked=True)
+        cell.alignment = Alignment(horizontal="center", vertical="center")
 
 
 def _field(sheet: Worksheet, item: Field, layout: Layout, top: int) -> None:
@@ -72,6 +103,9 @@ def range_text(item: Field) -> str:
     return f"{short(item.minimum)} … {short(item.maximum)}"
 
 
+_LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT, SOURCE_COLUMN: styles.UNIT}
+
+
 def _labels(sheet: Worksheet, item: Field, row: int) -> None:
     texts = {
         TITLE_COLUMN: item.title,
@@ -83,9 +117,7 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
         ),
     }
     for column, text in texts.items():
-        sheet.cell(row, column, text or None).style = (
-            styles.NOTE if column == KEY_COLUMN else styles.TEXT
-        )
+        sheet.cell(row, column, text or None).style = _LOOKS.get(column, styles.TEXT)
     sheet.cell(row, VALUE_COLUMN)
 
 

@@ -32,6 +32,14 @@ class Package:
         """All parts as the directory tells them."""
         return self._archive.infolist()
 
+    def info(self, name: str) -> zipfile.ZipInfo:
+        """What the directory tells of a part.
+
+        Raises:
+            KeyError: there is no such part.
+        """
+        return self._archive.getinfo(name)
+
     def open(self, info: zipfile.ZipInfo) -> zipfile.ZipExtFile:
         """A part as a stream."""
         return self._archive.open(info)  # type: ignore[return-value]
@@ -52,6 +60,14 @@ class Package:
         return self._archive.read(name) if part is None else part
 
 
+_BOOK, _TYPES = "xl/workbook.xml", "[Content_Types].xml"
+_SHEET_TYPE = b"spreadsheetml.sheet.main+xml"
+_STRICT = b"http://purl.oclc.org/ooxml/spreadsheetml/main"
+_SAVE_AS = "откройте её в Excel или LibreOffice и сохраните как .xlsx: Файл → Сохранить как"
+STRICT = (
+    "книга сохранена в строгом формате Open XML",
+    "сохраните её как обычную книгу Excel .xlsx: Файл → Сохранить как",
+)
 MAX_FILE = 30 * 10**6
 MAX_UNPACKED = 300 * 2**20
 MAX_PARTS = 2000
@@ -117,10 +133,11 @@ def _check_parts(name: str, package: Package) -> None:
     names = [info.filename for info in infos]
     if len(infos) > MAX_PARTS or len(set(names)) != len(names):
         _refuse(name, "в книге слишком много частей", "это не книга kshm")
-    if "xl/workbook.xml" not in names and "content.xml" in names:
-        _refuse(name, "это книга .ods", "сохраните её как .xlsx: Файл → Сохранить как")
-    if "xl/workbook.xml" not in names:
-        _refuse(name, "это архив или документ, а не книга .xlsx", "нужна сама книга")
+    if _BOOK not in names:
+        _refuse(name, *_other_kind(package, names))
+    with package.open(package.info(_BOOK)) as stream:
+        if _STRICT in stream.read(_HEAD):
+            _refuse(name, *STRICT)
     if any(name.lower().endswith(("vbaproject.bin", ".exe", ".dll")) for name in names):
         _refuse(name, "в книге есть макросы", "сохраните её как .xlsx без макросов")
     if any("externallinks/" in name.lower() for name in names):
@@ -139,6 +156,21 @@ def _check_parts(name: str, package: Package) -> None:
                 _refuse(name, what, "сохраните книгу заново в Excel или LibreOffice")
             if size == len(part):
                 package.keep(info.filename, part)
+
+
+def _other_kind(package: Package, names: list[str]) -> tuple[str, str]:
+    """What a package without the usual workbook part is, and what to do."""
+    if "content.xml" in names:
+        return "это книга .ods", _SAVE_AS
+    if "xl/workbook.bin" in names:
+        return "это двоичная книга .xlsb", _SAVE_AS
+    if any(part.startswith("Index/") or part == "Index.zip" for part in names):
+        return "это документ Numbers", "выгрузите его: Файл → Экспортировать в → Excel"
+    if _TYPES in names:
+        with package.open(package.info(_TYPES)) as stream:
+            if _SHEET_TYPE in stream.read(_CHUNK):
+                return "части книги названы не так, как пишет Excel", _SAVE_AS
+    return "это архив или документ, а не книга .xlsx", "нужна сама книга"
 
 
 def _unpacked(name: str, package: Package, info: zipfile.ZipInfo, total: int) -> tuple[bytes, int]:

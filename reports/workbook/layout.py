@@ -8,8 +8,8 @@ defined names; cells of grids are absolute addresses.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from openpyxl.utils import get_column_letter
@@ -33,7 +33,29 @@ FIRST_ROW = 6
 
 # Columns of a scalar list and of the input list.
 TITLE_COLUMN, SYMBOL_COLUMN, VALUE_COLUMN, UNIT_COLUMN, SOURCE_COLUMN = 1, 2, 3, 4, 5
-KEY_COLUMN = 6
+KEY_COLUMN = 12  # folded, behind the widest list of records
+
+# What is changed most stands together behind what the engine is; words about the work stand last.
+_MAIN_DATA, _MAIN_SECTION = "Основные данные", "geometry"
+_MAIN_NAMES = {
+    "regime_speed_rpm", "gas_max_pressure_mpa", "cycle_max_pressure_mpa", "cycle_power_kw",
+    "masses_reciprocating_kg", "masses_piston_group_kg", "masses_rod_kg",
+}  # fmt: skip
+_ORDER = {"engine": 0, "report": 3}
+
+
+def arranged(inputs: Sequence[Field]) -> list[Field]:
+    """Input fields in the order of their sheet, each with the title of its group there."""
+
+    def grouped(item: Field) -> Field:
+        main = item.path[0] == _MAIN_SECTION or item.name in _MAIN_NAMES
+        return replace(item, section=_MAIN_DATA) if main else item
+
+    def order(item: Field) -> int:
+        return 1 if item.section == _MAIN_DATA else _ORDER.get(str(item.path[0]), 2)
+
+    return sorted(map(grouped, inputs), key=order)
+
 
 _ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
 _NEXT = "\x02"
@@ -127,11 +149,11 @@ class Layout:
     # --- assignment -------------------------------------------------------------------
 
     def _inputs(self) -> None:
-        row, section, entry = FIRST_ROW, "", None
-        for item in self.model.inputs:
+        row, section, entry = NUMBER_ROW, "", None
+        for item in arranged(self.model.inputs):
             listed = item.listed
             if item.section != section:
-                row += 2 if section else 0
+                row += 1 if section else 0
                 section, entry = item.section, None
                 row += 2 if listed else 1
             if listed:

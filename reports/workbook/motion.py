@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ ANGLE, CYLINDER = "view_phi_deg", "view_cylinder"
 # Values whose size goes with the engine's: they have the decimals of their columns.
 _ON_PIN = quantity("Krod_MPa")
 _AS_IN_TABLES = {"gas_V": "volume_dm3", "torque": "Msum_Nm"}
+_SERVING = {"view_knot", "view_share", "r", "L", "D", "scale", "xa", "ya", "xb", "yb"}
 _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"}
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
 _BOX = "crankpin_box.box"  # limits of the pin's diagram
@@ -134,7 +136,7 @@ def _choices(
     for row, key, title, value, unit, choices in listed:
         sheet.cell(row, 1, title).style = styles.TEXT
         sheet.cell(row, 2, value).style = styles.INPUT
-        sheet.cell(row, 3, unit or None).style = styles.TEXT
+        sheet.cell(row, 3, unit or None).style = styles.UNIT
         rule = DataValidation(type="list", formula1=choices.removeprefix("="), allow_blank=False)
         rule.showErrorMessage, rule.error = True, "Выберите значение из списка."
         sheet.add_data_validation(rule)
@@ -155,10 +157,12 @@ def _by_cylinder(
     sheet.cell(row - 1, 1, "Цилиндры при этом угле").style = styles.SUBTITLE
     for column, title in enumerate(head, 1):
         sheet.cell(row, column, title).style = styles.HEADER
-    _put(sheet, writer, view, (6, 2), "view_row", f"round({ANGLE}/calculation_step_deg) + 1")
-    sheet.cell(6, 1, "Строка таблиц").style = styles.TEXT
-    sheet.cell(6, 2).number_format = "0"
     numbers = range(1, shape.cylinders + 1)
+    serving = row + len(numbers) + 3
+    sheet.cell(serving - 1, 1, "Для чертежа").style = styles.SUBTITLE
+    _put(sheet, writer, view, (serving, 2), "view_row", f"round({ANGLE}/calculation_step_deg) + 1")
+    sheet.cell(serving, 1, "Строка таблиц").style = styles.TEXT
+    sheet.cell(serving, 2).number_format = "0"
     for i in numbers:
         sheet.cell(row + i, 1, f"цилиндр {i}").style = styles.HEADER
         texts = {"psi": f"mod({ANGLE} - firing_offset_{i}_deg, {shape.period})"}
@@ -202,13 +206,15 @@ def _chosen(sheet: Worksheet, writer: BlockWriter, view: _View, shape: Shape, sm
         ("scale", "Масштаб сил", "мм/МПа",
          "1.1*r/max(col_max(P4_1.S_MPa), 0 - col_min(P4_1.S_MPa), 0.001)"),
         ("xa", "Шатунная шейка: x", "мм", "r*sin(rad(psi))"),
-        ("ya", "y", "мм", "r*cos(rad(psi))"),
+        ("ya", "Шатунная шейка: y", "мм", "r*cos(rad(psi))"),
         ("xb", "Поршневой палец: x", "мм", "xa - L*sin(beta)"),
-        ("yb", "y", "мм", "ya + L*cos(beta)"),
+        ("yb", "Поршневой палец: y", "мм", "ya + L*cos(beta)"),
     )  # fmt: skip
-    for row, (key, title, unit, text) in enumerate(lines, 7):
+    read, serving = count(6), count(_POINTS + 12 + shape.cylinders + 4)
+    for key, title, unit, text in lines:
+        row = next(serving if key in _SERVING else read)
         sheet.cell(row, 1, title).style = styles.TEXT
-        sheet.cell(row, 3, unit or None).style = styles.TEXT
+        sheet.cell(row, 3, unit or None).style = styles.UNIT
         _put(sheet, writer, view, (row, 2), key, text)
         if key in _AS_IN_TABLES:
             look = styles.excel_format(quantity(_AS_IN_TABLES[key], small))

@@ -20,6 +20,7 @@ from reports.workbook.layout import (
     FIRST_ROW,
     HEADER_ROW,
     INPUT_SHEET,
+    KEY_COLUMN,
     NUMBER_ROW,
     SOURCE_COLUMN,
     VALUE_COLUMN,
@@ -41,7 +42,8 @@ from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WI
 from reports.workbook.styles import HEADER, SUBTITLE
 
 _LIST = {
-    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11, SOURCE_COLUMN: SOURCE_WIDTH, 6: 30,
+    1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11,
+    SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
 }  # fmt: skip
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
@@ -80,6 +82,7 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         _widen(sheet, blocks, layout, values)
         _raise_labels(sheet, blocks, layout)
         if sheet.title == INPUT_SHEET:
+            sheet.freeze_panes = Cell(sheet.title, NUMBER_ROW, 1).coordinate
             _fit_inputs(sheet, model, layout)
         return
     sheet.freeze_panes = Cell(sheet.title, FIRST_ROW, 2).coordinate
@@ -281,7 +284,13 @@ def print_beginning(sheet: Worksheet) -> None:
     page = sheet.page_setup
     page.fitToWidth = page.fitToHeight = 1
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
-    sheet.print_area = area(Cell("", 1, 1), Cell("", _SHOWN_ROWS, sheet.max_column))
+    written = [cell.row for cell in sheet["A"] if cell.value is not None and cell.row > HEADER_ROW]
+    # Of a work-book that has lists only the rows begin far below the title.
+    first = written[0] - 1 if written and written[0] > _SHOWN_ROWS else 1
+    if first > 1:
+        sheet.print_title_rows = "1:1"
+    last = first + _SHOWN_ROWS - 1
+    sheet.print_area = area(Cell("", first, 1), Cell("", last, sheet.max_column))
 
 
 def set_margins(sheet: Worksheet) -> None:

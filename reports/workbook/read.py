@@ -1,16 +1,20 @@
 """Reading the input cells of a workbook that ``build`` made and a person edited.
 
 The workbook is found out by its defined names: every input field has one.  Only
-values are read; formulas in input cells are refused, since their cached values
-are a claim that nobody has checked.
+values are read, and arithmetic of numbers; other formulas in input cells are refused, since their
+cached values are a claim that nobody has checked.
 """
 
 from __future__ import annotations
 
+import ast
 import io
+import operator
 import re
 import warnings
+from collections.abc import Callable
 from functools import lru_cache
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +38,11 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
     from openpyxl.workbook import Workbook
 
 _ALWAYS = "engine_cylinders"  # every book has this input
+_SUM = re.compile(r"=[0-9.()+\-*/\s]{1,200}")
+_SIGNS: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}  # fmt: skip
 _ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
 
 
@@ -121,6 +130,10 @@ def _input_cells(
         what = "книга повреждена и не читается"
         problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
         raise InputError(problem) from error
+    if _ALWAYS in book.defined_names and title not in book.sheetnames:
+        what = "в книге нет листа исходных данных, на который указывают имена её ячеек"
+        problem = Problem(source, what, "верните лист или возьмите книгу, какой её сделала kshm")
+        raise InputError(problem)
     cells: dict[str, Any] = {}
     places: dict[str, str] = {}
     units: dict[str, str] = {}
@@ -131,18 +144,19 @@ def _input_cells(
         if sheet_text not in (title, quoted(title)):
             continue
         match = _ADDRESS.fullmatch(address)
-        if match is None or title not in book.sheetnames:
+        if match is None:
             what = f"имя {name} не указывает на ячейку"
             problems.append(Problem(source, what, "восстановите лист исходных данных"))
             continue
         reference = f"{title}!{match.group(1)}{match.group(2)}"
         row, column = coordinate_to_tuple(match.group(1) + match.group(2))
         cell = sheet.get((row, column))
-        if cell is not None and cell.data_type == "f":
-            what = "в ячейке исходных данных стоит формула"
-            problems.append(Problem(f"{source}, {reference}", what, "впишите число"))
+        value = _typed(cell)
+        if value is None and cell is not None:
+            what = "в ячейке исходных данных стоит формула, а не число"
+            hint = "впишите число или действия над числами, например =80+10"
+            problems.append(Problem(f"{source}, {reference}", what, hint))
             continue
-        value = None if cell is None else cell.value
         cells[name], places[name] = value, reference
         beside = sheet.get((row, UNIT_COLUMN))
         if column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
@@ -153,6 +167,13 @@ def _input_cells(
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
     return cells, places, units, books
+
+
+def _typed(cell: ReadOnlyCell | None) -> Any:  # noqa: ANN401
+    """What a person typed into a cell that holds something; None of a formula with more in it."""
+    if cell is None or cell.data_type != "f":
+        return None if cell is None else cell.value
+    return arithmetic(str(getattr(cell.value, "text", cell.value)))
 
 
 def _books_of(cells: dict[tuple[int, int], ReadOnlyCell]) -> dict[str, str]:
@@ -174,6 +195,32 @@ def _books_of(cells: dict[tuple[int, int], ReadOnlyCell]) -> dict[str, str]:
     books[name] = "\n".join(lines) + "\n"
     del books[""]
     return books
+
+
+def arithmetic(text: str) -> float | None:
+    """Value of a formula of numbers, brackets and + - * / alone; None of any other.
+
+    >>> arithmetic("=2*(40+4)")
+    88.0
+    """
+    if not _SUM.fullmatch(text):
+        return None
+    try:
+        value = _value_of(ast.parse(text[1:].strip(), mode="eval").body)
+    except (SyntaxError, ZeroDivisionError, OverflowError, RecursionError, ValueError):
+        return None
+    return value if isfinite(value) else None
+
+
+def _value_of(node: ast.expr) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as number):
+            return float(number)
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
+            return _value_of(operand) * (-1 if isinstance(sign, ast.USub) else 1)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _SIGNS:
+            return float(_SIGNS[type(op)](_value_of(left), _value_of(right)))
+    raise ValueError(ast.dump(node))
 
 
 def _cells_of(book: Workbook, title: str) -> dict[tuple[int, int], ReadOnlyCell]:

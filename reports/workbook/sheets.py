@@ -35,11 +35,13 @@ from reports.workbook.layout import (
 from reports.workbook.places import raise_row
 
 
-def link(sheet: Worksheet, cell_of_link: Cell, text: str, target: str) -> None:
+def link(
+    sheet: Worksheet, cell_of_link: Cell, text: str, target: str, target_cell: str = "A1"
+) -> None:
     """A link within the book, as a place: an address such as ``#'Лист'!A1`` is a foreign file."""
     cell = sheet.cell(cell_of_link.row, cell_of_link.column, text)
     at = cell_of_link.coordinate
-    cell.hyperlink = Hyperlink(ref=at, location=f"{quoted(target)}!A1", display=text)
+    cell.hyperlink = Hyperlink(ref=at, location=f"{quoted(target)}!{target_cell}", display=text)
     cell.style = styles.LINK
 
 
@@ -195,7 +197,8 @@ class BlockWriter:
                     SOURCE_COLUMN: scalar.source,
                 }
                 for column, text in texts.items():
-                    sheet.cell(row, shift + column, text or None).style = styles.TEXT
+                    look = styles.UNIT if column == UNIT_COLUMN else styles.TEXT
+                    sheet.cell(row, shift + column, text or None).style = look
                 if first_cell.column == 1:  # beside a table the rows keep their height
                     raise_row(sheet, row, {
                         texts[TITLE_COLUMN]: TITLE_WIDTH, texts[SYMBOL_COLUMN]: SYMBOL_WIDTH,

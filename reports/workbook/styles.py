@@ -7,10 +7,11 @@ from typing import Any
 from openpyxl.cell.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, NamedStyle, PatternFill, Protection, Side
 from openpyxl.workbook import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
 
-FONT = "Times New Roman"
+FONT, SIZE = "Arial", 10  # Liberation Sans and others have its widths
 # As the gallery of cell styles shows them.
 INPUT, STRUCTURE, FORMULA, HELPER = (
     "КШМ исходное", "КШМ строение", "КШМ формула", "КШМ вспомогательное",
@@ -18,8 +19,8 @@ INPUT, STRUCTURE, FORMULA, HELPER = (
 HEADER, NUMBER, TITLE, NOTE, TEXT, LINK = (
     "КШМ шапка", "КШМ номер столбца", "КШМ заголовок", "КШМ пояснение", "КШМ текст", "КШМ ссылка",
 )  # fmt: skip
-SUBTITLE, CHECK, ANSWER, LINE = (
-    "КШМ подзаголовок", "КШМ проверка", "КШМ ответ", "КШМ строка",
+SUBTITLE, CHECK, ANSWER, LINE, UNIT = (
+    "КШМ подзаголовок", "КШМ проверка", "КШМ ответ", "КШМ строка", "КШМ единица",
 )  # fmt: skip
 
 LEGEND = (
@@ -31,11 +32,13 @@ LEGEND = (
     (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )  # fmt: skip
 
+_TITLES_ROW = 3  # of tables side by side
+_SIZES = {TITLE: 14, SUBTITLE: 11}
 _COLOURS = {
     INPUT: "FFF2CC",
     STRUCTURE: "F8CBAD",
-    HELPER: "EDEDED",
-    HEADER: "D9E2F3",
+    HELPER: "F2F2F2",
+    HEADER: "F2F2F2",
     ANSWER: "E2EFDA",
 }
 
@@ -68,15 +71,15 @@ def as_text(cell: Cell) -> Cell:
 
 def add_styles(book: Workbook) -> None:
     """Register all named styles in a workbook."""
-    thin = Side(style="thin", color="BFBFBF")
-    frame = Border(left=thin, right=thin, top=thin, bottom=thin)
+    rule = Border(bottom=Side(style="thin", color="E4E4E4"))
+    under = Border(bottom=Side(style="medium", color="7F7F7F"))
     centre = Alignment(horizontal="center", vertical="center", wrap_text=True)
 
     def style(name: str, **parts: object) -> None:
         named = NamedStyle(name=name)
         colour = _COLOURS.get(name)
         # On a light fill the letters stay dark where a program turns its own to white.
-        named.font = Font(name=FONT, size=11, color="000000" if colour else None)
+        named.font = Font(name=FONT, size=SIZE, color="000000" if colour else None)
         if colour:
             named.fill = PatternFill("solid", fgColor=colour)
         for key, value in parts.items():
@@ -86,16 +89,41 @@ def add_styles(book: Workbook) -> None:
     unlocked = Protection(locked=False)
     middle = Alignment(vertical="center")  # of a row that its title makes higher
     for name in (INPUT, STRUCTURE, ANSWER):
-        style(name, border=frame, alignment=middle, protection=unlocked)
-    style(FORMULA, border=frame, alignment=middle)
-    style(HELPER, border=frame, alignment=middle, font=Font(name=FONT, size=11, color="595959"))
-    dark_bold = Font(name=FONT, size=11, bold=True, color="000000")
-    style(HEADER, border=frame, alignment=centre, font=dark_bold)
-    style(NUMBER, border=frame, alignment=centre, font=Font(name=FONT, size=9, italic=True))
+        style(name, border=rule, alignment=middle, protection=unlocked)
+    style(FORMULA, border=rule, alignment=middle)
+    style(HELPER, border=rule, alignment=middle, font=Font(name=FONT, size=SIZE, color="595959"))
+    bold = Font(name=FONT, size=SIZE, bold=True, color="000000")
+    style(HEADER, border=under, alignment=centre, font=bold)
+    grey = Font(name=FONT, size=SIZE - 2, color="7F7F7F")
+    style(NUMBER, border=rule, alignment=centre, font=grey)
     style(TITLE, font=Font(name=FONT, size=14, bold=True))
-    style(SUBTITLE, font=Font(name=FONT, size=12, bold=True))
-    style(NOTE, font=Font(name=FONT, size=10, italic=True, color="595959"))
-    style(TEXT, border=frame, alignment=Alignment(vertical="center", wrap_text=True))
+    style(SUBTITLE, font=Font(name=FONT, size=11, bold=True))
+    style(NOTE, font=Font(name=FONT, size=SIZE - 1, color="595959"))
+    style(TEXT, border=rule, alignment=Alignment(vertical="center", wrap_text=True))
+    style(
+        UNIT,
+        border=rule,
+        alignment=Alignment(horizontal="left", vertical="center", indent=1),
+        font=Font(name=FONT, size=SIZE, color="7F7F7F"),
+    )
     style(LINE)
-    style(LINK, font=Font(name=FONT, size=11, color="0563C1", underline="single"))
-    style(CHECK, border=frame, alignment=centre, font=Font(name=FONT, size=11, bold=True))
+    style(LINK, font=Font(name=FONT, size=SIZE, color="0563C1", underline="single"))
+    style(CHECK, border=rule, alignment=centre, font=Font(name=FONT, size=SIZE, bold=True))
+
+
+def look(sheet: Worksheet, colour: str) -> None:
+    """No grid, rows of one height, and the colour of the chapter over and under the titles."""
+    sheet.sheet_view.showGridLines = False
+    sheet.sheet_format.customHeight = True
+    sheet.sheet_properties.tabColor = colour
+    under = Border(bottom=Side(style="medium", color=colour))
+    rows = range(1, sheet.max_row + 1)
+    first = [cell for cell in (sheet.cell(row, 1) for row in rows) if isinstance(cell.value, str)]
+    for cell in (*first, *sheet[_TITLES_ROW]):
+        named = cell.style if cell.value is not None else ""  # takes long to find
+        if named in _SIZES:
+            cell.font = Font(name=FONT, size=_SIZES[named], bold=True, color=colour)
+        elif named == HEADER and sheet.cell(cell.row, 2).style == HEADER:
+            for head in sheet[cell.row]:
+                if head.value is not None and head.style == HEADER:
+                    head.border = under

@@ -23,7 +23,7 @@ from reports.model.blocks import NO, YES, Model, scalars_of
 from reports.workbook import styles
 from reports.workbook.inputs import options
 from reports.workbook.layout import (
-    FIRST_ROW,
+    HEADER_ROW,
     INPUT_SHEET,
     KEY_COLUMN,
     TITLE_COLUMN,
@@ -155,6 +155,7 @@ BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не �
 ODD, _UNKNOWN = "необычно", "—"
 _BEYOND = "Строки: 1 — вне пределов, 2 — необычно"
 _WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
+_FAILED, _BROKEN = "Сколько проверок не выполнено", "На скольких листах ошибки в формулах"
 _WRONG_ROW, _ODD_ROW = 1, 2
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
@@ -201,31 +202,42 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[st
     held = list(conditions(model, layout, values))
     sheet = book[first.sheet]
     row = sheet.max_row + 2
-    in_order = _in_order(sheet, row + 2, held, writer)
+    in_order = _in_order(sheet, row + 4, held, writer)
     beyond = _limits(book[INPUT_SHEET], model, writer, in_order)
     sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
-    within = _within(sheet, row + 1, beyond, writer)
+    within = _counted(
+        sheet, row + 1, _WITHIN, INPUT_SHEET, f"=COUNTIF({beyond},{_WRONG_ROW})", writer
+    )
     titles = [title for title in book.sheetnames if title in areas]
     own = {title: areas[title] for title in titles}
-    sheets = _without_errors(sheet, row + 2 + len(held), own, writer)
-    colour_verdicts(sheet, row + 1, row + 1 + len(held) + len(titles), YES, NO)
-    good = all(values[key] == YES for key in keys)
+    sheets = _without_errors(sheet, row + 4 + len(held), own, writer)
+    colour_verdicts(sheet, row + 1, row + 3 + len(held) + len(titles), YES, NO)
+    failed = sum(values[key] != YES for key in keys)
+    count = f"{len(keys)}-({passed})"
+    held_all = _counted(sheet, row + 2, _FAILED, first.sheet, f"={count}", writer, failed)
+    no_errors = _counted(sheet, row + 3, _BROKEN, first.sheet, f'=COUNTIF({sheets},"{NO}")', writer)
     return (
-        f'=IF(COUNTIF({sheets},"{NO}")>0,"{UNKNOWN}",'
-        f'IF({within}<>"{YES}","{BEYOND}",'
-        f'IF({passed}={len(keys)},"{GOOD}","{BAD}")))',
-        GOOD if good else BAD,
+        f'=IF({no_errors}<>"{YES}","{UNKNOWN}",IF({within}<>"{YES}","{BEYOND}",'
+        f'IF({held_all}="{YES}","{GOOD}","{BAD}")))',
+        BAD if failed else GOOD,
     )
 
 
-def _within(sheet: Worksheet, row: int, beyond: str, writer: BlockWriter) -> str:
-    """The check of the input data; the address of its verdict."""
-    link(sheet, Cell(sheet.title, row, TITLE_COLUMN), _WITHIN, INPUT_SHEET)
-    count = Cell(sheet.title, row, VALUE_COLUMN)
-    writer.formula(sheet, row, count.column, f"=COUNTIF({beyond},{_WRONG_ROW})", 0.0)
-    sheet.cell(row, count.column).style = styles.FORMULA
-    cell = Cell(sheet.title, row, UNIT_COLUMN)
-    _say(sheet, cell, f'=IF({count.coordinate}=0,"{YES}","{NO}")', writer)
+def _counted(
+    sheet: Worksheet,
+    row: int,
+    title: str,
+    target: str,
+    formula: str,
+    writer: BlockWriter,
+    count: float = 0.0,
+) -> str:
+    """A count that must be zero, and whether it is; the address of the verdict."""
+    link(sheet, Cell(sheet.title, row, TITLE_COLUMN), title, target)
+    at, cell = (Cell(sheet.title, row, column) for column in (VALUE_COLUMN, UNIT_COLUMN))
+    writer.formula(sheet, row, at.column, formula, float(count))
+    sheet.cell(row, at.column).style = styles.FORMULA
+    _say(sheet, cell, f'=IF({at.coordinate}=0,"{YES}","{NO}")', writer, NO if count else YES)
     return cell.absolute
 
 
@@ -287,7 +299,7 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
         if options(item) or item.minimum is not None:
             rows[layout.cells[item.name].row].append(item)
     column = 1 + max(KEY_COLUMN, *(layout.cells[item.name].column for item in model.inputs))
-    sheet.cell(FIRST_ROW - 1, column, _BEYOND).style = styles.HEADER
+    sheet.cell(HEADER_ROW, column, _BEYOND).style = styles.HEADER
     for row, items in rows.items():
         tests, usual = list(_tests(items, layout)), list[str]()
         state = 0.0

@@ -190,6 +190,7 @@ def assemble(
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
+    boxes[INPUT_SHEET] = cockpit.charts_beside(inputs, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):
             _heading(
@@ -203,7 +204,7 @@ def assemble(
     )
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
-        sheet.sheet_properties.tabColor = chapter_of(sheet.title, contents).colour
+        styles.look(sheet, chapter_of(sheet.title, contents).colour)
         # Of the points under the charts of the mechanism nobody needs a print.
         alone = sheet.title == motion.SHEET
         set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)

@@ -25,13 +25,13 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 ALLOWED = {
     "ABS", "ACOS", "AND", "ASIN", "ATAN2", "AVERAGE", "CHOOSE", "COS", "COUNT", "COUNTIF",
     "DEGREES", "EXP", "IF", "INDEX", "INT", "ISERROR", "LN", "MATCH", "MAX", "MIN", "MOD", "NOT",
-    "OR", "PI", "RADIANS", "ROUND", "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
+    "OR", "PI", "RADIANS", "ROUND", "ROUNDUP", "SIN", "SQRT", "SUM", "SUMPRODUCT", "TAN",
 }  # fmt: skip
 VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", "TODAY"}
 OF_RANGES = {
     "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT",
 }  # fmt: skip
-LONGEST = 250  # characters of a formula that a person reads
+LONGEST = 200  # characters of a formula that a person reads
 _GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
 

@@ -17,7 +17,7 @@ from reports.model.charts import ChartSpec
 from reports.model.evaluation import Values, evaluate_model
 from reports.tables.registry import build_model
 from reports.workbook.charts import is_blank
-from reports.workbook.cockpit import CHARTS
+from reports.workbook.cockpit import BESIDE, CHARTS
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
@@ -64,8 +64,8 @@ def coarse_opened(name: str = "gots-diesel") -> Workbook:
 
 
 def drawn(model: Model) -> list[ChartSpec]:
-    """All charts of a workbook: the first sheet's, then those of the tables that are not zero."""
-    first = [model.charts_by_id[name] for name in CHARTS if name in model.charts_by_id]
+    """All charts of a workbook: the first two sheets', then those of tables that are not zero."""
+    first = [model.charts_by_id[n] for n in (*CHARTS, *BESIDE) if n in model.charts_by_id]
     layout, values = Layout.of(model), evaluate_model(model)
     return first + [s for s in model.charts if s.sheet and not is_blank(s, layout, values)]
 

@@ -61,13 +61,9 @@ def opened(name: str) -> formualizer.Workbook:
 
 
 def rows(engine: formualizer.Workbook) -> dict[str, int]:
-    """Row of each value beside the charts; the second of two alike is the ordinate."""
-    found: dict[str, int] = {}
-    for row in range(4, 32):
-        title = engine.get_value(SHEET, row, TITLES)
-        if title:
-            found[f"{title}{row}" if title in found else title] = row
-    return found
+    """Row of each value beside the charts and below them."""
+    titles = {row: engine.get_value(SHEET, row, TITLES) for row in (*range(4, 32), *range(54, 110))}
+    return {title: row for row, title in reversed(titles.items()) if title}
 
 
 @pytest.mark.parametrize(("name", "cylinder"), [("gots-diesel", 1), ("gots-diesel", 3),
@@ -91,8 +87,8 @@ def test_points_and_forces_at_72_angles(name: str, cylinder: int) -> None:
         def shown(title: str) -> float:
             return float(engine.get_value(SHEET, at[title], 2))
 
-        crank = shown("Шатунная шейка: x"), shown("y")
-        pin = shown("Поршневой палец: x"), shown(f"y{at['Поршневой палец: x'] + 1}")
+        crank = shown("Шатунная шейка: x"), shown("Шатунная шейка: y")
+        pin = shown("Поршневой палец: x"), shown("Поршневой палец: y")
         assert crank == pytest.approx((1e3 * r * np.sin(psi), 1e3 * r * np.cos(psi)), abs=1e-9)
         down = displacement_exact(psi, np.array(r), np.array(r / rod), np.array(offset / r))
         assert pin == pytest.approx((1e3 * offset, 1e3 * (top - float(down))), abs=1e-9 * 1e3 * rod)

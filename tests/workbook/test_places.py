@@ -22,7 +22,7 @@ from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import diagrams_of, heading, ordered, place_of
 from reports.workbook.inputs import write_inputs
-from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, KEY_COLUMN, Layout
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, SOURCE_COLUMN, Layout, arranged
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from reports.workbook.print_setup import set_widths
@@ -218,7 +218,7 @@ def test_a_header_too_long_for_its_column_is_seen() -> None:
 def test_every_group_of_input_data_has_its_title(name: str) -> None:
     made, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
     layout = Layout.of(made)
-    for section, run in itertools.groupby(made.inputs, lambda item: item.section):
+    for section, run in itertools.groupby(arranged(made.inputs), lambda item: item.section):
         first = next(run)
         row = layout.cells[first.name].row - (2 if first.listed else 1)
         assert sheet.cell(row, 1).value == section
@@ -240,7 +240,7 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     title = layout.cells["report_title"]
     (across,) = sheet.merged_cells.ranges
     room = sum(column_px(sheet, i) for i in range(across.min_col, across.max_col + 1))
-    assert (across.min_row, across.max_col + 1) == (title.row, KEY_COLUMN)
+    assert (across.min_row, across.max_col) == (title.row, SOURCE_COLUMN)
     assert _REGULAR.getlength(long) * _PX < room * (row_px(sheet, title.row) // _LINE)
     masses = [item for item in made.inputs if item.value == name]
     first = layout.cells[masses[0].name]

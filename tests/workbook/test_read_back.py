@@ -14,7 +14,8 @@ from openpyxl import Workbook, load_workbook
 from reports.exports.build import load_input
 from reports.inputs.fields import to_mapping
 from reports.shared.errors import InputError
-from reports.workbook.layout import Layout
+from reports.workbook.intake import check_data
+from reports.workbook.layout import INPUT_SHEET, Layout
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample
 from tests.workbook.made import book, coarse, coarse_book, coarse_model
@@ -85,12 +86,6 @@ def test_what_check_refuses_is_refused_with_sheet_and_cell(
     cell = Layout.of(coarse_model()).cells[field]
     assert f"{cell.sheet}!{cell.coordinate}" in "\n".join(caught.value.lines())
     assert all("\n" not in line for line in caught.value.lines())
-
-
-def test_a_formula_in_an_input_cell_is_refused(tmp_path: Path) -> None:
-    path = edited(tmp_path, {"geometry_bore_mm": "=80+8"})
-    with pytest.raises(InputError, match="формула"):
-        load_workbook_input(path)
 
 
 def test_a_foreign_workbook_is_refused(tmp_path: Path) -> None:
@@ -187,3 +182,54 @@ def test_a_book_of_libreoffice_says_what_to_do(tmp_path: Path) -> None:
         archive.writestr("content.xml", "<x/>")
     with pytest.raises(InputError, match=r"\.ods.*Сохранить как"):
         load_input(path)
+
+
+@pytest.mark.parametrize(
+    ("typed", "value"),
+    [("=80+10", 90.0), ("=2*44", 88.0), ("=(80 + 8)/1", 88.0), ("=-2*-44", 88.0)],
+)
+def test_a_yellow_cell_takes_arithmetic(tmp_path: Path, typed: str, value: float) -> None:
+    path = edited(tmp_path, {"geometry_bore_mm": typed})
+    assert load_workbook_input(path).model.geometry.bore_mm == value
+
+
+@pytest.mark.parametrize("typed", ["=A1+2", "=SUM(80,8)", "=80+", "=88/0", "=8^2", '="88"'])
+def test_any_other_formula_is_refused_in_words(tmp_path: Path, typed: str) -> None:
+    with pytest.raises(InputError, match="стоит формула, а не число") as refused:
+        load_workbook_input(edited(tmp_path, {"geometry_bore_mm": typed}))
+    assert len(refused.value.problems) == 1
+
+
+def test_a_lost_sheet_of_inputs_is_one_message(tmp_path: Path) -> None:
+    opened = load_workbook(io.BytesIO(coarse_book()))
+    del opened[INPUT_SHEET]
+    path = tmp_path / "lost.xlsx"
+    opened.save(path)
+    with pytest.raises(InputError, match="нет листа исходных данных") as refused:
+        load_workbook_input(path)
+    assert len(refused.value.problems) == 1
+
+
+_CONTENT = b"application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"
+
+
+@pytest.mark.parametrize(
+    ("parts", "said"),
+    [
+        ({"xl/workbook.xml": b'<workbook xmlns="http://purl.oclc.org/ooxml/spreadsheetml/main"/>'},
+         "строгом формате Open XML; сохраните её как обычную"),
+        ({"xl/workbook.bin": b"x"}, r"двоичная книга \.xlsb; .*сохраните как \.xlsx"),
+        ({"Index/Document.iwa": b"x"}, "документ Numbers; выгрузите"),
+        ({"[Content_Types].xml": b"<Types><Override ContentType='" + _CONTENT + b"'/></Types>",
+          "book/main.xml": b"<x/>"}, "названы не так, как пишет Excel"),
+        ({"content.xml": b"<x/>"}, r"книга \.ods"),
+        ({"word/document.xml": b"<x/>"}, "архив или документ"),
+    ],
+)  # fmt: skip
+def test_other_kinds_of_books_are_named_with_what_to_do(parts: dict[str, bytes], said: str) -> None:
+    package = io.BytesIO()
+    with zipfile.ZipFile(package, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    with pytest.raises(InputError, match=said):
+        check_data(package.getvalue(), "книга.xlsx")

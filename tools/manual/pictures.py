@@ -14,6 +14,7 @@ from reports.shared.resources import samples_dir
 
 SAMPLE = "gots-diesel"
 _COLOURS = 64
+_BEGINNING = 30  # words of a page: its header, the title of the sheet and of the table
 _MARGIN = 12  # white pixels kept around what is printed
 
 
@@ -29,11 +30,11 @@ class Picture:
 
 
 PICTURES = (
-    Picture("inputs", "xlsx", "Исходные данные", dots_per_inch=150, share=0.5),
+    Picture("inputs", "xlsx", "Исходные данные ← Содержание", dots_per_inch=150, share=0.5),
     Picture("forces", "xlsx", "Удельные силы и крутящий момент"),
     Picture("forces-chart", "xlsx", "Удельные силы p′г"),
     Picture("report-title", "pdf", "курсовому проекту"),
-    Picture("report-torque", "pdf", "4 Крутящий момент двигателя"),
+    Picture("report-torque", "pdf", "Крутящий момент двигателя"),
 )
 
 
@@ -68,9 +69,9 @@ def _write(picture: Picture, documents: dict[str, Path], folder: Path) -> Path:
     from PIL import Image, ImageChops
 
     document = documents[picture.document]
-    page = next(
-        n for n, text in _pages(document) if picture.text in text.lstrip().partition("\n")[0]
-    )
+    pages = [(n, " ".join(text.split())) for n, text in _pages(document)]
+    beginnings = [(n, " ".join(text.split(" ")[:_BEGINNING])) for n, text in pages]
+    page = next(n for n, text in (*beginnings, *pages) if picture.text in text)
     stem = document.with_suffix("")
     command = ["pdftoppm", "-r", str(picture.dots_per_inch), "-png", "-singlefile"]
     subprocess.run([*command, "-f", str(page), "-l", str(page), document, stem], check=True)

@@ -22,10 +22,14 @@ from tests.grading.real.desk import Desk, desk
 
 # What the first sheet repeats of the input data.
 _CONTENTS = {
-    Cell(CONTENTS_SHEET, 4, 2): "report_student",
-    Cell(CONTENTS_SHEET, 6, 2): "report_variant",
-    Cell(CONTENTS_SHEET, 11, 3): "geometry_bore_mm",
-    Cell(CONTENTS_SHEET, 14, 3): "regime_speed_rpm",
+    Cell(CONTENTS_SHEET, 3, 2): "report_student",
+    Cell(CONTENTS_SHEET, 5, 2): "report_variant",
+    Cell(CONTENTS_SHEET, 9, 3): "regime_speed_rpm",
+    Cell(CONTENTS_SHEET, 10, 3): "gas_max_pressure_mpa",
+    Cell(CONTENTS_SHEET, 11, 3): "masses_reciprocating_kg",
+    Cell(CONTENTS_SHEET, 12, 3): "geometry_rod_length_mm",
+    Cell(CONTENTS_SHEET, 13, 3): "geometry_bore_mm",
+    Cell(CONTENTS_SHEET, 14, 3): "geometry_crank_radius_mm",
 }
 _PROPERTIES = "docProps/custom.xml"
 

@@ -176,7 +176,8 @@ DEFECTS = (
     Defect("changed input", edit=_changed_input, note="изменены исходные"),
     Defect("renamed", edit=_rename, note="теперь «Моя кинематика»"),
     Defect("inserted", edit=_insert, note="строки сдвинуты"),
-    Defect("names lost", edit=_without_names, note="найдены по заголовкам"),
+    # Filled with the program's own formulas: without the issued names that is a solved book.
+    Defect("names lost", edit=_without_names, note="найдены по заголовкам", manual=True),
     Defect("own helper", edit=_helper),
     Defect("inlined", one(V1, _inlined)),
     Defect("lookup", one("r_crank", lambda f: "=VLOOKUP(geometry_crank_radius_mm,"

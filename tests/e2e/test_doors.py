@@ -151,7 +151,7 @@ NAMES = set(
         r"\w+",
         "kshm html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host variants "
         "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
-        "inline v opposed petrol docx sheet",
+        "inline v opposed petrol docx sheet book",
     )
 )
 
@@ -181,7 +181,7 @@ def test_no_english_in_the_help(
         ("check --json=1 x", "ключ --json пишется без значения"),
         ("grade --explain a", "ключу --explain нужно значений: 2"),
         ("--foo", "нет ключа --foo"),
-        ("issue x -o y", "не указан ключ --roster"),
+        ("issue x -o y", "нужны список группы (--roster) и папка для выдачи (-o)"),
         ("serve --port 99999", "неверное значение --port: 99999 вне пределов от 1 до 65535"),
         ("build samples/gots-diesel.toml --only html --style no.toml", "no.toml: файл не найден; "),
     ],

@@ -10,6 +10,7 @@ from typing import Any
 from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
+from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from kshm.mechanics.journals import PLANES
 from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
 from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
@@ -17,7 +18,7 @@ from reports.inputs.sections.input_file import METHODS
 from reports.inputs.solve_input import MOST_POWER_ERROR
 from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
-from reports.inputs.units import MM
+from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
 from reports.model.book_text import BookLine, shelf_of
 from reports.model.books import read_book
@@ -26,11 +27,19 @@ from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, ra
 from reports.tables.cycle_names import section_of, sizes_are_found
 from reports.tables.cycle_ranges import ranges_of
 from reports.tables.oil_members import oil_names, safety_names
-from reports.tables.rod_share import USUAL_SHARE, is_usual_share
 from reports.tables.strength_members import strength_names
 from reports.tables.torsion_members import torsion_names
 
 Bounds = tuple[float, float]
+USUAL_SHARE = (
+    f"доля массы шатуна на поршневом пальце {'…'.join(map(number_text, USUAL_SMALL_END_SHARE))}"
+)
+
+
+def is_usual_share(name: str) -> str:
+    """Expression that tells whether the share of that name is usual, its ends included."""
+    low, high = USUAL_SMALL_END_SHARE
+    return f"round({name}, 6) >= {low:g} and round({name}, 6) <= {high:g}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,9 @@ import tests.bench as bench
 from tests.bench._figure import keep
 
 
+BY_NAME = {"copying"}  # takes long: only where it is asked for
+
+
 def names() -> list[str]:
     """The modules of this folder that measure something."""
     return sorted(item.name for item in pkgutil.iter_modules(bench.__path__) if item.name[0] != "_")
@@ -29,7 +32,7 @@ def main(arguments: list[str]) -> int:
     if unknown:
         print(f"нет замера {unknown[0]}; есть: {', '.join(known)}", file=sys.stderr)
         return 2
-    for name in asked.names or known:
+    for name in asked.names or [name for name in known if name not in BY_NAME]:
         print(f"== {name}", flush=True)
         found = []
         for figure in importlib.import_module(f"tests.bench.{name}").figures():

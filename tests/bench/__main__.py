@@ -12,7 +12,6 @@ from pathlib import Path
 import tests.bench as bench
 from tests.bench._figure import keep
 
-
 BY_NAME = {"copying"}  # takes long: only where it is asked for
 
 

@@ -157,10 +157,12 @@ class Report:
             return render_pdf(
                 self.page("print"), attachments=_files(self.model, source, workbook, self.style)
             )
-        except RenderError as error:
+        except (RenderError, RecursionError) as error:
             if self.templates is None:
                 raise
-            raise overrides.style_error(self.templates, str(error)) from error
+            is_deep = isinstance(error, RecursionError)
+            words = "элементы вложены слишком глубоко" if is_deep else str(error)
+            raise overrides.style_error(self.templates, words) from error
 
     def page(self, media: Literal["print", "screen"], *, tagged: bool | None = None) -> str:
         """The whole page as HTML with style sheet, formulas and figures inside.

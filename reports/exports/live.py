@@ -61,8 +61,12 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
         except KeyError:
             return np.asarray(formulas.value(key), dtype=float)
 
+    # A screen has room for both paths of a vector, before and after balancing.
+    vectors = [each for each in chart.series
+               if chart.kind == "polar" and each.only == "workbook"
+               and not each.invisible]  # fmt: skip
     curves = [(each.name or _name(each.y), numbers(each.x), numbers(each.y))
-              for each in chart.drawn_by("report")]  # fmt: skip
+              for each in (*chart.drawn_by("report"), *vectors)]  # fmt: skip
     x = y = np.empty(0)
     if chart.kind == "polar":
         _, x, y = curves[0]
@@ -106,32 +110,40 @@ def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
 
 
 def moving(solution: Solution, cylinder: int = 0) -> Data:
-    """What the moving mechanism of a cylinder and the star of cranks are drawn from.
+    """What the moving mechanisms of all cylinders and the star of cranks are drawn from.
 
     ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
-    the cylinder, its axis upwards, over its own angle ``turn``; forces stand over the engine's.
-    ``throws`` are the directions of cranks [deg], each with the numbers of those that share it.
+    a cylinder, its axis upwards, over its own angle ``turn``; one set for each kind of rod.
+    ``each`` has the axis of a cylinder [deg], its shift [deg] from the engine's angle, its kind
+    of rod; ``gas`` is the share of the greatest pressure over the own angle of a cycle.
+    Forces of the chosen cylinder stand over the engine's angle.  ``throws`` are the directions
+    of cranks [deg], each with the numbers of those that share it.
     """
     engine = solution.engine
     number = cylinder if cylinder in range(engine.cylinders) else 0
-    arranged, geometry = engine.arrangement[number], engine.geometry
-    table = f"cylinder_{number + 1}" if number else "P4_1"
-    phi = solution.column(table, "phi_deg")
-    phase = solution.column(table, "phase_deg") if number else phi
+    geometry, phi = engine.geometry, solution.column("P4_1", "phi_deg")
+    tables = ["P4_1", *(f"cylinder_{each + 1}" for each in range(1, engine.cylinders))]
+    shifts = [0.0, *(float(phi[0] - solution.column(each, "phase_deg")[0]) for each in tables[1:])]
+    hung = [each.master is not None for each in engine.arrangement]
     forces = [key for key in solution.chain_tables["P4_1"] if key.endswith("_MPa")]
+    gas = solution.column("P4_1", "Pg_MPa")
     return {
         **_lists(phi=phi, turn=solution.column("P3_1", "phi_deg")),
-        "shift": float(phi[0] - phase[0]),
-        "joints": [[plain_numbers(x * 1000) for x in joint]
-                   for joint in solution.joints(number)],
+        "joints": [[[plain_numbers(x * 1000) for x in joint]
+                    for joint in solution.joints(hung.index(kind))]
+                   for kind in (False, True) if kind in hung],
+        "each": [{"axis": float(np.degrees(arranged.axis)), "shift": shift,
+                  "rod": sorted({*hung}).index(kind)}
+                 for arranged, shift, kind in zip(engine.arrangement, shifts, hung, strict=True)],
+        "gas": plain_numbers(np.round(np.clip(gas / max(gas.max(), 1e-9), 0, 1), 3)),
         "forces": {
             key: {"symbol": _symbol(quantity(key)), "unit": quantity(key).unit_label,
-                  **_lists(values=solution.column(table, key))}
+                  **_lists(values=solution.column(tables[number], key))}
             for key in forces
         },
         "radius": MM.from_si(geometry.crank_radius), "bore": MM.from_si(geometry.bore),
-        "wall": MM.from_si(geometry.crank_offset or 0.0), "axis": float(np.degrees(arranged.axis)),
-        "cylinder": number, "cylinders": engine.cylinders,
+        "wall": MM.from_si(geometry.crank_offset or 0.0), "cylinder": number,
+        "speed": engine.speed_rpm,
         "throws": list(by_direction(
             np.degrees([each.angle for each in engine.crankshaft.throws]).tolist()
         )),

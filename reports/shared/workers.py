@@ -38,6 +38,7 @@ def processes(needs: str) -> ForkServerContext | SpawnContext:
     return context
 
 
+GROWN = 2**28  # bytes that a process may keep beyond what it had when it was ready
 MEMORY = 2 * 2**30  # bytes of address space beyond what the ready process has
 _START_S = 120.0  # a cold start on a loaded machine
 _STARTS = 4
@@ -117,6 +118,7 @@ class Workers:
         try:
             good, said = worker.ask(question, seconds)
         finally:
+            worker.renew()
             self._idle.put(worker)
         if not good:
             raise said
@@ -136,13 +138,19 @@ class _Worker:
         with held(signal.SIGINT):  # Ctrl-C is for the process that the person has started
             self.process.start()
         theirs.close()
-        self.ready, self.answers = False, 0
+        self.ready, self.is_grown, self.answers = False, False, 0
         if self.over:  # while it was started
             self.end()
 
     def end(self) -> None:
         self.process.kill()
         self.process.join()
+
+    def renew(self) -> None:
+        """Begin anew where a question has left much memory behind."""
+        if self.is_grown and not self.over:
+            self.end()
+            self.launch()
 
     def ask(self, question: tuple[Any, ...], seconds: float | None) -> tuple[bool, Any]:
         for _ in range(_STARTS):
@@ -156,9 +164,9 @@ class _Worker:
         try:
             self.connection.send(question)
             if self.connection.poll(seconds):
-                said: tuple[bool, Any] = self.connection.recv()
+                good, said, self.is_grown = self.connection.recv()
                 self.answers += 1
-                return said
+                return good, said
         except (EOFError, OSError):
             lost = Died()
         self.end()
@@ -182,6 +190,8 @@ def _serve(
     if memory is not None:
         limit_memory(memory)
         forbid_the_world()
+    end_with_parent()
+    before = _resident()
     with contextlib.suppress(EOFError, OSError):  # who asks is gone
         connection.send(True)
         while True:
@@ -194,7 +204,23 @@ def _serve(
                 said = False, error
             except Exception as error:
                 said = False, RuntimeError(one_line(f"{type(error).__name__}: {error}"))
-            connection.send(said)
+            connection.send((*said, _resident() - before > GROWN))
+
+
+def _resident() -> int:
+    """Bytes that this process holds, where the system tells them."""
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+        return pages * int(os.sysconf("SC_PAGESIZE"))
+    return 0
+
+
+def end_with_parent() -> None:
+    """Let the kernel end this process when the one that has started it ends, however it does."""
+    if sys.platform == "linux":
+        import ctypes
+
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)
 
 
 def limit_memory(extra: int) -> None:

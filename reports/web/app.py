@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import secrets
+import shutil
 from collections.abc import AsyncIterator
 from pathlib import Path
 from string import Template
@@ -25,7 +26,7 @@ from reports.inputs.form_fields import Data
 from reports.inputs.own_books import OWNER
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
-from reports.inputs.template import list_samples
+from reports.model.contents import contents_of
 from reports.shared.background import processors
 from reports.shared.errors import KshmError
 from reports.shared.files import private_dir
@@ -33,8 +34,10 @@ from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import Guard, Settings, asked, book, failed, get, post
+from reports.web.doors import Desk, Guard, Settings, asked, book, failed, get, post, read
 from reports.web.jobs import OFFERED, Jobs
+from reports.web.shares import Turns, Unfinished
+from reports.workbook.charts import COLOURS
 
 STATIC = Path(__file__).parent / "static"
 SESSION_S = 12 * 3600
@@ -49,14 +52,17 @@ async def page(request: Request, name: str, root: str = ".") -> Response:
 
 async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
-    return {"samples": list_samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "fields": engine.FORM,
+    chapters = [chapter.colour for chapter in contents_of().chapters]
+    return {"samples": engine.samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
+            "fields": engine.FORM, "shapes": engine.SHAPES, "palette": [*COLOURS, chapters[2], chapters[7]],
             "files": {kind: title for kind, (title, _) in OFFERED.items()}}  # fmt: skip
 
 
 def create_app(settings: Settings) -> Guard:
     """The whole application, the guard before it."""
     private_dir(settings.data, SECRET)
+    for path in (*settings.data.glob("book-*"), *settings.data.rglob(".kshm-*")):  # half written
+        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
     # What makes links unguessable, kept beside the files.
     secret, count = kept_secret(settings.data / SECRET), settings.workers or processors()
     books = settings.own_books
@@ -67,9 +73,12 @@ def create_app(settings: Settings) -> Guard:
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         async with jobs.working(), classes.working():
-            with Workers(
-                count, engine.ready, settings.own_books, most=5_000
-            ) as app.state.workers:  # answers of one
+            # Numbers and books apart: a book may take seconds, a number takes hundredths.
+            numbers = Workers(count, engine.ready, books, most=5_000)
+            readers = Workers(1, engine.ready_for_books, books)
+            with numbers, readers:
+                app.state.answers = Desk(numbers, Turns(count, 200, 4, 0.05))
+                app.state.readers = Desk(readers, Turns(1, 60, 2, 2.0))
                 yield
 
     routes = [
@@ -80,7 +89,7 @@ def create_app(settings: Settings) -> Guard:
         Mount("/images", StaticFiles(directory=resource_dir("docs/images"))),
         get("/api/choices", choices),
         post("/api/new", asked, engine.fresh),
-        post("/api/read", asked, engine.read_toml, "text"),
+        post("/api/read", read),
         post("/api/start", asked, engine.start, "raw"),
         post("/api/solve", asked, engine.answer, "raw", "sheet", "cylinder"),
         post("/api/toml", asked, engine.as_toml, "raw"),
@@ -91,13 +100,14 @@ def create_app(settings: Settings) -> Guard:
     public = urlsplit(settings.public)
     session = Middleware(
         SessionMiddleware, secret.hex(), "kshm", SESSION_S, same_site="lax",
-        https_only=public.scheme == "https",
+        path=f"{public.path.rstrip('/')}/", https_only=public.scheme == "https",
     )  # fmt: skip
-    errors: Any = dict.fromkeys((KshmError, HTTPException, 500), failed)
+    errors: Any = dict.fromkeys((KshmError, HTTPException, OSError, 500), failed)
     app = Starlette(
         routes=[Mount(at, routes=routes) for at in dict.fromkeys((public.path.rstrip("/"), ""))],
         lifespan=lifespan, exception_handlers=errors,
-        middleware=[Middleware(GZipMiddleware, minimum_size=1000), session],
+        middleware=[Middleware(GZipMiddleware, 1000, 4), session],
     )  # fmt: skip
     app.state.settings, app.state.jobs = settings, jobs
+    app.state.unfinished, app.state.uploading = Unfinished(2**30), Turns(32, 200, 2, 1.0)
     return Guard(app, settings)

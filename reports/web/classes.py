@@ -5,17 +5,25 @@ A class is a folder with an unguessable name, and a job of its own queue.
 
 from __future__ import annotations
 
+import asyncio
+import csv
 import hmac
+import io
 import secrets
+import shutil
+import tempfile
 from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from itsdangerous import BadData, URLSafeSerializer
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
+from starlette.responses import Response
 from starlette.routing import Route
 
+from reports.exports.numbers import neutralised
 from reports.grading.batch.grade import PAGES
 from reports.grading.issuing.register import FILE, SECRET, kept_secret, load_register
 from reports.inputs.form_fields import Data
@@ -25,7 +33,7 @@ from reports.web import engine
 from reports.web.doors import Rate, Shown, ask, body, caller, earlier, get, post, shown
 from reports.web.jobs import Queue
 
-_TEXTS, _ROSTER = ("base.toml", "rubric.toml"), "Список"
+_FILES = {"base.toml": "base.toml", "rubric.toml": "rubric.toml", "roster": "Список"}
 _SECRET = ("--secret", SECRET)
 
 
@@ -50,21 +58,29 @@ class Classes(Queue):
         """Routes of the instructor, behind the key but for the first, and of students."""
         return [
             post("/api/login", self._login),
+            post("/api/logout", self._logout),
             get("/api/teacher", self._listed),
             post("/api/teacher", self._issue),
             post("/api/teacher/{name}/grade", self._grade),
-            post("/api/teacher/{name}/open", self._open),
+            post("/api/teacher/{name}/rules", self._rules),
+            post("/api/teacher/{name}/delete", self._delete),
+            get("/api/teacher/{name}/links.csv", self._links),
+            get("/api/teacher/{name}/qr/{number:int}.svg", self._code),
             *shown("/api/teacher/{name}", self._whole, "/file/{file:path}"),
             *shown("/api/student/{link}", self._own),
         ]
 
     async def _login(self, request: Request) -> None:
         given = str((await body(request)).get("token", "")).strip().encode("utf-8", "replace")
-        if not self.tries.allows(caller(request)):
-            raise HTTPException(429, "слишком много попыток; подождите минуту")
+        # The right key is never kept out, whoever tries wrong ones beside it.
         if not hmac.compare_digest(token_of(self.secret).encode(), given):
+            if not self.tries.allows(caller(request)):
+                raise HTTPException(429, "слишком много попыток; подождите минуту")
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
         request.session["teacher"] = True
+
+    async def _logout(self, request: Request) -> None:
+        request.session.pop("teacher", None)
 
     def _find(self, name: str) -> Path:
         if name.isalnum() and (self.folder / name / "about.json").exists():  # never a path
@@ -85,8 +101,11 @@ class Classes(Queue):
 
     async def _issue(self, request: Request) -> Data:
         folder, data = self._inside(request), await body(request)
-        files = {name: str(data.get(name) or "") for name in _TEXTS}
-        base = await ask(request, engine.read_toml, files["base.toml"])
+        files = {file: _bytes(data.get(key)) for key, file in _FILES.items()}
+        with tempfile.TemporaryDirectory(prefix="book-", dir=folder.parent) as place:
+            path = Path(place, "base.toml")
+            path.write_bytes(files["base.toml"])
+            base = await ask(request, engine.read_toml, str(path))
         await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too
         lost = (p.parent for p in folder.glob("*/done.json") if not p.with_name("issued").exists())
         folder = next(lost, folder / secrets.token_hex(8))  # in the place of what has failed
@@ -96,9 +115,10 @@ class Classes(Queue):
         date = datetime.now().isoformat(timespec="seconds")
         write_json(folder / "about.json", {"title": title, "open": False, "date": date})
         more = ["--rubric", "rubric.toml"] if files["rubric.toml"].strip() else []
-        write_bytes(folder / _ROSTER, str(data.get("roster") or "").encode("latin-1", "replace"))
-        command = ["issue", "base.toml", "--roster", _ROSTER, "-o", "issued", *_SECRET]
-        self.put(folder.name, files, [*command, f"--seed={data.get('seed')}", *more])
+        for file, content in files.items():
+            write_bytes(folder / file, content)
+        command = ["issue", "base.toml", "--roster", _FILES["roster"], "-o", "issued", *_SECRET]
+        self.put(folder.name, {}, [*command, f"--seed={data.get('seed')}", *more])
         return {"name": folder.name}
 
     async def _grade(self, request: Request) -> None:
@@ -121,27 +141,84 @@ class Classes(Queue):
             command += ["--moodle", "worksheet.csv"]
         self.put(folder.name, {}, [*command, *self.far])
 
-    async def _open(self, request: Request) -> None:
+    async def _rules(self, request: Request) -> None:
+        """Whether pages are shown, until when and whether later works count."""
         path, data = self._inside(request) / "about.json", await body(request)
-        write_json(path, {**read_json(path), "open": bool(data.get("open"))})
+        until = str(data.get("deadline") or "")
+        if until:
+            try:
+                datetime.fromisoformat(until)
+            except ValueError:
+                raise InputError(Problem("", "срок не разобран", "выберите день и час")) from None
+        rules = {"open": bool(data.get("open")), "late": bool(data.get("late")), "deadline": until}
+        write_json(path, {**read_json(path), **rules})
+
+    async def _delete(self, request: Request) -> None:
+        folder = self._inside(request)
+        if self.about(folder.name).get("state") in ("waiting", "running"):
+            raise InputError(Problem("", "группа занята", "дождитесь окончания"))
+        (folder / "about.json").unlink()  # from now on there is no such class
+        await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
+
+    def _books(self, folder: Path) -> list[Data]:
+        """Students of a class with their links and works."""
+        issued = folder / "issued"
+        books = load_register(issued).books if (issued / FILE).exists() else ()
+        until = read_json(folder / "about.json").get("deadline") or ""
+        return [
+            {"number": book.number, "name": book.student.full, "group": book.student.group,
+             "link": self.signer.dumps([folder.name, book.number]),
+             **_handed(folder / "works" / book.file, until)}
+            for book in books
+        ]  # fmt: skip
+
+    def _address(self, request: Request) -> str:
+        """The address of this server as a telephone in the same network knows it."""
+        settings, own = request.app.state.settings, f"{request.url.scheme}://{request.url.netloc}"
+        is_local = urlsplit(own).hostname in ("127.0.0.1", "localhost", "::1")
+        printed = next(iter(settings.addresses), "") if is_local else ""
+        return str(settings.public or printed or own).rstrip("/")
+
+    async def _links(self, request: Request) -> Response:
+        folder, stream = self._inside(request), io.StringIO(newline="")
+        writer, address = csv.writer(stream, delimiter=";"), self._address(request)
+        writer.writerow(["№", "Студент", "Группа", "Ссылка", "Сдано", "Попыток"])
+        for each in self._books(folder):
+            when = f"{datetime.fromtimestamp(each['when']):%d.%m.%Y %H:%M}" if each["when"] else ""
+            writer.writerow([each["number"], neutralised(each["name"]), neutralised(each["group"]),
+                             f"{address}/s/{each['link']}/", when,
+                             len(each["earlier"]) + each["handed"]])  # fmt: skip
+        heads = {"content-disposition": 'attachment; filename="links.csv"'}
+        return Response(stream.getvalue().encode("utf-8-sig"), headers=heads, media_type="text/csv")
+
+    async def _code(self, request: Request) -> Response:
+        """The link of a student as a QR code, of number 0 the address itself."""
+        import segno
+
+        number, address = request.path_params["number"], f"{self._address(request)}/"
+        books = self._books(self._inside(request)) if number else [{"number": 0}]
+        each = next((book for book in books if book["number"] == number), None)
+        if each is None:
+            raise HTTPException(404, "нет такого студента")
+        stream = io.BytesIO()
+        path = f"s/{each['link']}/" if number else ""
+        segno.make(address + path, micro=False).save(stream, "svg", scale=4, border=3, light="#fff")
+        return Response(stream.getvalue(), media_type="image/svg+xml")
 
     def _whole(self, request: Request) -> Shown:
         folder = self._inside(request)
-        results, issued = folder / "results", folder / "issued"
+        results = folder / "results"
         files = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
         pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
-        students = [
-            {"name": book.student.full, "group": book.student.group,
-             "link": self.signer.dumps([folder.name, book.number]),
-             **_handed(folder / "works" / book.file)}
-            for book in (load_register(issued).books if (issued / FILE).exists() else ())
-        ]  # fmt: skip
+        students = self._books(folder)
+        works = {f"works/{path.relative_to(folder / 'works').as_posix()}": path
+                 for path in (folder / "works").rglob("*.xlsx")}  # fmt: skip
         summary = read_json(results / "summary.json")
         return Shown(
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
              "rows": summary.get("rows", []), "groups": summary.get("groups", []),
-             "files": [*files], "graded": len(pages)},
-            {**files, **pages, "issued.zip": folder / "issued.zip"},
+             "files": [*files], "graded": len(pages), "address": self._address(request)},
+            {**files, **pages, **works, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip
 
@@ -160,16 +237,29 @@ class Classes(Queue):
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
         entry = {
             "title": about["title"], "student": book.student.full, "file": book.file,
-            **_handed(work), "open": bool(row.get("page")),
+            **_handed(work, about.get("deadline") or ""), "open": bool(row.get("page")),
+            "deadline": about.get("deadline") or "",
             "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
         entry["handed"] = entry["handed"] or bool(row.get("file"))
-        return Shown(entry, files, {"work": work})
+        closed = "" if not about["open"] or about.get("late") else (
+            "страницы проверки уже открыты: новая книга не засчитывается, пока преподаватель "
+            "не разрешит"
+        )  # fmt: skip
+        return Shown({**entry, "closed": closed}, files, {"work": work}, closed=closed)
 
 
-def _handed(work: Path) -> Data:
-    """Whether a work was handed in here, when, and when others were before it."""
+def _handed(work: Path, until: str) -> Data:
+    """Whether a work was handed in here, when, whether too late, and when others were before it."""
     if not work.exists():
-        return {"handed": False, "when": None, "earlier": []}
-    times = [path.stat().st_mtime for path in (*earlier(work), work)]
-    return {"handed": True, "when": times[-1], "earlier": times[:-1]}
+        return {"handed": False, "when": None, "late": False, "file": work.name, "earlier": []}
+    before = [{"when": path.stat().st_mtime, "file": f"earlier/{work.stem}/{path.name}"}
+              for path in earlier(work)]  # fmt: skip
+    when = work.stat().st_mtime
+    late = bool(until) and when > datetime.fromisoformat(until).timestamp()
+    return {"handed": True, "when": when, "late": late, "file": work.name, "earlier": before}
+
+
+def _bytes(text: object) -> bytes:
+    """A file that has come as one character a byte."""
+    return str(text or "").encode("latin-1", "replace")

@@ -6,7 +6,9 @@ import asyncio
 import contextlib
 import io
 import json
+import re
 import shutil
+import sys
 import tempfile
 import time
 from collections import Counter
@@ -29,10 +31,11 @@ from starlette.types import ASGIApp
 from reports.grading.pages.moodle import check_upload
 from reports.grading.reading.selfcheck import refuse_foreign, remarks
 from reports.inputs.form_fields import Data
-from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.errors import InputError, KshmError, OutputError, Problem
 from reports.shared.files import make_dir
-from reports.shared.workers import Died, NeverStarted
+from reports.shared.workers import Died, NeverStarted, Workers
 from reports.web import engine
+from reports.web.shares import Turns
 
 _FOLDER = "earlier"
 _MOST = 20  # of one student: thirty megabytes each
@@ -61,10 +64,12 @@ def _folder(work: Path) -> Path:
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
-BOOK_S = 60.0  # to read an edited workbook
+BOOK_S = 15.0  # to read an edited workbook: two seconds are usual
 ANSWER_S = 20.0
 WAIT_S = 30.0  # before a process is free
+GRACE_S, LEAST_BYTES_S = 10.0, 20_000  # a body that comes more slowly after that is given up
 MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
+_SLOWED, SLOWED_S = (429, 503), 2.0
 _KINDS = ("application/json", "application/octet-stream")
 _HEADERS = {
     "content-security-policy": (
@@ -94,6 +99,7 @@ class Settings:
     per_s: float = 200.0  # requests a second of one address: a class may stand behind one
     workers: int | None = None  # processes that solve; None takes the processors
     body_s: float = 30.0  # seconds that the body of a form may take
+    addresses: tuple[str, ...] = ()  # what the command has printed: a phone may know the first
     books: Path | None = None  # folder of own books that the owner allows; None allows none
 
     @property
@@ -131,6 +137,8 @@ class Guard(BaseHTTPMiddleware):
     async def dispatch(self, request: Request, call_next: RequestResponseEndpoint) -> Response:
         """Refuse or hand on."""
         why = self._refused(request)
+        if why and why[0] in _SLOWED:
+            await asyncio.sleep(SLOWED_S)
         answer = refusal(*why) if why else await call_next(request)
         cache = "no-cache" if "/static/" in request.scope["path"] else "no-store"
         for key, value in (*_HEADERS.items(), ("cache-control", cache)):
@@ -168,20 +176,47 @@ def caller(request: Request) -> str:
     return request.client.host if request.client else ""
 
 
-def refusal(code: int, why: KshmError | str) -> JSONResponse:
+def visitor(request: Request) -> str:
+    """Who asks: address and cookie together, the latter only if this server has given it."""
+    return f"{caller(request)}/{request.session.get('visitor', '')}"
+
+
+def public_words(text: str) -> str:
+    """A message without the folders of the server."""
+    return _FOLDERS.sub("", text)
+
+
+_FOLDERS = re.compile(
+    "(?:" + "|".join(sorted({re.escape(str(path.resolve()).rstrip("/\\")) for path in (
+        Path(tempfile.gettempdir()), Path(__file__).parents[2], Path(sys.prefix), Path.home(),
+        Path.cwd(),
+    ) if path != Path(path.anchor)}, key=len, reverse=True)) + r")[^\s:;,«»]*[/\\]"
+)  # fmt: skip
+
+
+def refusal(
+    code: int, why: KshmError | str, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
     """Error response with one line a problem."""
     error = KshmError(why) if isinstance(why, str) else why
-    return JSONResponse({"errors": [asdict(problem) for problem in error.problems]}, code)
+    lines = [{key: public_words(words) for key, words in asdict(problem).items()}
+             for problem in error.problems]  # fmt: skip
+    return JSONResponse({"errors": lines}, code, headers)
 
 
 async def failed(_: Request, error: Exception) -> Response:
     """What becomes of an error."""
+    if isinstance(error, OSError | OutputError):
+        return refusal(507, "на сервере не удаётся записать файл; сообщите тому, кто его держит")
     if isinstance(error, KshmError):
         return refusal(422, error)
     if isinstance(error, HTTPException):
+        if error.status_code in _SLOWED:  # who asks again at once costs the others nothing
+            await asyncio.sleep(SLOWED_S)
         ours = not error.detail.isascii()
-        return refusal(error.status_code, error.detail if ours else "нет такой страницы")
-    return refusal(500, f"внутренняя ошибка {type(error).__name__}")
+        why = error.detail if ours else "нет такой страницы"
+        return refusal(error.status_code, why, error.headers)
+    return refusal(500, "внутренняя ошибка: повторите; если останется, сообщите, что вы делали")
 
 
 def route(method: str, path: str, door: Door, *given: Any) -> Route:  # noqa: ANN401
@@ -197,26 +232,50 @@ def route(method: str, path: str, door: Door, *given: Any) -> Route:  # noqa: AN
 get, post = partial(route, "GET"), partial(route, "POST")
 
 
+@dataclass(frozen=True, slots=True)
+class Desk:
+    """Processes that answer, and the line before them."""
+
+    workers: Workers
+    line: Turns
+
+
 async def ask(
     request: Request, function: Callable[..., Data], *values: object, seconds: float = ANSWER_S
 ) -> Data:
-    """Answer of a worker process; HTTPException after the time limit."""
-    future = request.app.state.workers.ask(function, *values, seconds=seconds)
-    try:
-        reply: Data = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_S + seconds)
-    except (TimeoutError, Died, NeverStarted):
-        what = "сервер занят или данные не считаются за отведённое время; повторите"
-        raise HTTPException(503, what) from None
+    """Answer of a worker process; HTTPException after the time limit.
+
+    Books have processes of their own, so that they do not stand in the way of numbers.
+    """
+    desks = request.app.state
+    desk: Desk = desks.answers if seconds == ANSWER_S else desks.readers
+    async with desk.line.turn(visitor(request), WAIT_S):
+        future = desk.workers.ask(function, *values, seconds=seconds)
+        try:
+            reply: Data = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_S + seconds)
+        except TimeoutError:
+            what = f"считается дольше {seconds:.0f} с: отклонено"
+            raise InputError(Problem("", what, "уменьшите расчёт или книгу")) from None
+        except (Died, NeverStarted):
+            what = "не считается: не хватило памяти"
+            raise InputError(Problem("", what, "уменьшите расчёт или книгу")) from None
     return reply
 
 
 async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -> None:
+    """A body within its size and time; more than a share of all unfinished ones is refused."""
+    loop, state = asyncio.get_running_loop(), request.app.state
+    began = loop.time()
     try:
-        async with asyncio.timeout(seconds):
-            async for chunk in request.stream():
-                if target.tell() + len(chunk) > most:
-                    raise HTTPException(413, f"данных больше {most // 10**6} МБ")
-                target.write(chunk)
+        with state.unfinished.body() as came:
+            async with asyncio.timeout_at(began + min(seconds, GRACE_S)) as limit:
+                async for chunk in request.stream():
+                    if target.tell() + len(chunk) > most:
+                        raise HTTPException(413, f"данных больше {most // 10**6} МБ")
+                    came(len(chunk))
+                    target.write(chunk)
+                    late = began + GRACE_S + target.tell() / LEAST_BYTES_S
+                    limit.reschedule(min(began + seconds, late))
     except TimeoutError:
         raise HTTPException(408, "данные не приходят; повторите") from None
 
@@ -236,10 +295,12 @@ async def body(request: Request) -> Data:
 @contextlib.asynccontextmanager
 async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -> AsyncIterator[Path]:
     """The body of a request as a file that goes with the block, unless it is moved."""
-    with tempfile.TemporaryDirectory(prefix="book-", dir=request.app.state.settings.data) as folder:
+    state = request.app.state
+    with tempfile.TemporaryDirectory(prefix="book-", dir=state.settings.data) as folder:
         path = Path(folder, name)
-        with path.open("wb") as stream:
-            await _read(request, stream, most, FILE_S)
+        async with state.uploading.turn(visitor(request), WAIT_S):
+            with path.open("wb") as stream:
+                await _read(request, stream, most, FILE_S)
         yield path
 
 
@@ -252,6 +313,12 @@ async def asked(request: Request, function: Callable[..., Data], *keys: str) -> 
         return refusal(200, error)
 
 
+async def read(request: Request) -> Data:
+    """Read an input file in a worker, as ``check`` does."""
+    async with uploaded(request, MOST_JSON, "файл.toml") as path:
+        return await ask(request, engine.read_toml, str(path))
+
+
 async def book(request: Request) -> Data:
     """Read the input of an edited workbook in a worker."""
     async with uploaded(request, MOST_BOOK) as path:
@@ -260,11 +327,17 @@ async def book(request: Request) -> Data:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """What a thing at a path tells; which files it gives and takes, by words of its own."""
+    """What a thing at a path tells; which files it gives and takes, by words of its own.
+
+    ``names`` are what files are called where that is not their name; ``closed`` says why none
+    is taken.
+    """
 
     told: Data
     gives: Mapping[str, Path]
     takes: Mapping[str, Path] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
+    closed: str = ""
 
 
 def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -> list[Route]:
@@ -274,24 +347,28 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         return find(request).told
 
     async def given(request: Request) -> Response:
-        file = find(request).gives.get(request.path_params["file"])
+        thing, word = find(request), request.path_params["file"]
+        file = thing.gives.get(word)
         if file is None or not file.is_file():
             raise HTTPException(404, "нет такого файла; закажите заново")
         how = "inline" if file.suffix == ".html" else "attachment"  # a page can do nothing
         heads = {"content-security-policy": _SANDBOX}
-        return FileResponse(file, headers=heads, filename=file.name, content_disposition_type=how)
+        name = thing.names.get(word, file.name)
+        return FileResponse(file, headers=heads, filename=name, content_disposition_type=how)
 
     async def taken(request: Request) -> Data:
         job = find(request)
         if (place := job.takes.get(request.path_params["file"])) is None:
             raise HTTPException(404, "такого файла здесь не ждут")
+        if job.closed:
+            raise HTTPException(409, job.closed)
         is_book, data = place.suffix == ".xlsx", Data()
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
                     own = str(job.gives["book"])
-                    await ask(request, refuse_foreign, str(file), own)
-                    data = await ask(request, remarks, str(file), own)
+                    await ask(request, refuse_foreign, str(file), own, seconds=BOOK_S)
+                    data = await ask(request, remarks, str(file), own, seconds=BOOK_S)
                 keep_earlier(place, file)
             else:
                 check_upload(file, place.suffix)

@@ -6,6 +6,7 @@ import operator
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, astuple
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +19,14 @@ from reports.exports import live
 from reports.inputs.fields import to_mapping
 from reports.inputs.form_fields import Data, absent, groups, without_foreign
 from reports.inputs.load import load_remote, parsed
-from reports.inputs.normalise import normalise
+from reports.inputs.normalise import normalise, read_text
 from reports.inputs.own_books import OWNER
 from reports.inputs.ranges import split_ranges
+from reports.inputs.registry import SECTIONS
+from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.solve_input import solved
+from reports.inputs.template import list_samples, new_file
+from reports.model.contents import contents_of
 from reports.new.generate import NewEngine, file_text
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
@@ -31,6 +36,8 @@ HEAD = ("Исходные данные двигателя для kshm.",)
 FORM = {
     "sample": "Образец", "layout": "Расположение", "strokes": "Тактность", "kind": "Вид",
     "power": "Мощность, кВт", "speed": "Частота, мин⁻¹", "cylinders": "Цилиндров",
+    "bore": "Диаметр, мм", "stroke": "Ход, мм", "rod": "Шатун, мм", "lambda": "Отношение r/L",
+    "compression": "Степень сжатия", "efficiency": "Механический КПД",
 }  # fmt: skip  # keys of kshm new as the page asks for them
 _WORDS = {
     "--layout inline": "расположение «рядный»", "команда знает": "возможно",
@@ -38,9 +45,36 @@ _WORDS = {
 }  # fmt: skip  # what the command calls it: what the page does
 
 
-def read_toml(text: object) -> Data:
-    """The mapping of a file's text, as the page keeps it; InputError if it is none."""
-    return {"raw": split_ranges(parsed(str(text), source="файл"))[0]}
+SHAPES = (
+    *((f"Р{count}", "inline", count) for count in (1, 2, 3, 4, 5, 6, 8)),
+    *((f"V{count}", "v", count) for count in (2, 4, 6, 8, 10, 12)),
+    *((f"О{count}", "opposed", count) for count in (2, 4, 6)),
+)  # what one tap makes of an engine: name, layout, cylinders
+
+
+@lru_cache(maxsize=1)
+def samples() -> list[Data]:
+    """Samples as a person chooses them: name, layout, what is in them besides the mechanism."""
+    return [_sample(name) for name in list_samples()]
+
+
+def _sample(name: str) -> Data:
+    raw = parsed(new_file(name), source=name)
+    engine = raw["engine"]
+    layout = engine.get("layout", "inline")
+    words = [LAYOUTS[layout], "двухтактный" if engine.get("strokes") == 2 else "четырёхтактный"]
+    words += [section.title.lower() for key, section in SECTIONS.items()
+              if section.absent and key in raw and key != "checks"]  # fmt: skip
+    if "regimes" in raw:
+        words.append(f"режимов {len(raw['regimes']) + 1}")
+    return {"name": name, "title": engine["name"], "layout": layout, "more": ", ".join(words),
+            "cylinders": engine["cylinders"]}  # fmt: skip
+
+
+def read_toml(path: str) -> Data:
+    """The mapping of a file, as the page keeps it; InputError in the words of ``check``."""
+    file = Path(path)
+    return {"raw": split_ranges(parsed(read_text(file), source=file.name))[0]}
 
 
 def read_book(path: str) -> Data:
@@ -57,13 +91,24 @@ def start(raw: Mapping[str, Any]) -> Data:
     state: Data = {"errors": []}
     try:
         model = load_remote(plain).model
-        plain, sheets = to_mapping(model), dict[str, str]()
-        for chart in kept_model(model).charts:
-            sheets.setdefault(chart.sheet, chart.title)
-        state["sheets"] = list(sheets.items())
+        plain = to_mapping(model)
+        drawn = dict.fromkeys(chart.sheet for chart in kept_model(model).charts)
+        state["sheets"] = sorted(map(_sheet, drawn), key=lambda sheet: not sheet[0])
     except InputError as error:
         state["errors"] = [asdict(problem) for problem in error.problems]
     return {**state, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
+
+
+def _sheet(title: str) -> tuple[str, str, str]:
+    """A sheet, what stands on it in words, its chapter; a journal's number goes with the words."""
+    plain, _, number = title.partition(" (")
+    for chapter in contents_of().chapters:
+        for name, heading in chapter.sheets:
+            rest = title.removeprefix(name)
+            if name in (plain, title) or (rest != title and rest.strip().isdigit()):
+                more = number.rstrip(")") if name == plain else rest.strip()
+                return title, f"{heading} {more}".strip(), chapter.title
+    return title, "Прочее", "Прочее"
 
 
 def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data:
@@ -102,7 +147,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
         raise KshmError(
             [Problem(*map(_of_page, astuple(problem))) for problem in error.problems]
         ) from None
-    return read_toml(text)
+    return {"raw": split_ranges(parsed(text, source="файл"))[0]}
 
 
 def _of_page(words: str) -> str:
@@ -110,6 +155,12 @@ def _of_page(words: str) -> str:
     for option, field in _WORDS.items():
         words = words.replace(option, field)
     return words
+
+
+def ready_for_books(books: str = "") -> Callable[..., Data]:
+    """Prepare a worker that reads books: who waits for a number comes before."""
+    getattr(os, "nice", abs)(10)
+    return ready(books)
 
 
 def ready(books: str = "") -> Callable[..., Data]:

@@ -11,11 +11,11 @@ import contextlib
 import hmac
 import json
 import os
+import re
 import shutil
 import signal
 import sys
 import time
-from collections import Counter
 from collections.abc import AsyncIterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
@@ -30,22 +30,23 @@ from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
 from reports.shared.resources import source_digest
 from reports.web import engine
-from reports.web.doors import Shown, ask, body, caller, post, shown
+from reports.web.doors import Shown, ask, body, post, public_words, shown, visitor
+from reports.web.shares import address_of, fair
 
 _LINES = 40  # of what a command said
-# The command with little memory, which ends with a server that is killed; who waits for a number
-# comes before who waits for a file.
+# The command with little memory. When its stdin ends, the server is gone, however it ended: the
+# command goes with all that it has started. Who waits for a number comes before a file.
 _KSHM = """
-import ctypes, os, sys
-server = int(sys.argv.pop(1))
-if sys.platform == "linux":
-    ctypes.CDLL(None).prctl(1, 9)
-    if os.getppid() != server:  # it had gone before; in Windows a launcher stands between the two
-        sys.exit("server is gone")
+import os, sys, threading
+def end():
+    while os.read(0, 1):
+        pass
+    os.killpg(0, 9) if hasattr(os, "killpg") else os._exit(1)
+threading.Thread(target=end, daemon=True).start()
 from reports.shared.workers import limit_memory
 from reports.__main__ import start
 limit_memory(3 * 2**30)
-getattr(os, "nice", abs)(5)
+getattr(os, "nice", abs)(15)
 start()
 """
 _SYSTEM = (
@@ -59,6 +60,14 @@ _SYSTEM = (
 def failed(why: str) -> dict[str, Any]:
     """How a command ended that could not be done."""
     return {"state": "failed", "lines": [why]}
+
+
+async def _said(process: asyncio.subprocess.Process) -> bytes:
+    """What a command has said at its end; its stdin stays open as long as this server lives."""
+    assert process.stderr is not None
+    said = await process.stderr.read()
+    await process.wait()
+    return said
 
 
 async def run(
@@ -77,12 +86,12 @@ async def run(
     kept |= more or {}
     kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", _KSHM, str(os.getpid()), *arguments, cwd=folder, env=kept,
-        start_new_session=True, stdin=asyncio.subprocess.DEVNULL,
+        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept,
+        start_new_session=True, stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
     try:
-        _, said = await asyncio.wait_for(process.communicate(), timeout_s)
+        said = await asyncio.wait_for(_said(process), timeout_s)
     except TimeoutError:
         return failed(f"не сделано за {timeout_s:.0f} с: уменьшите расчёт")
     finally:
@@ -93,7 +102,8 @@ async def run(
     code = process.returncode or 0
     if code < 0:
         return failed("процесс прерван: повторите")
-    lines = said.decode("utf-8", "replace").replace(f"{folder}{os.sep}", "").splitlines()
+    text = said.decode("utf-8", "replace").replace(f"{folder}{os.sep}", "")
+    lines = public_words(text).splitlines()
     return {
         "state": "done" if code in (0, 1) else "failed",
         "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],
@@ -101,7 +111,7 @@ async def run(
 
 
 Texts = Mapping[str, str]  # of files by name
-MOST_WAITING, MOST_OWN = 500, 6
+MOST_WAITING, MOST_NEAR, MOST_OWN = 500, 200, 6  # of all, of an address, of a visitor
 MOST_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
 _BUILD = ("build", "engine.toml", "-o", "out", "--only")
@@ -132,12 +142,17 @@ class Queue:
         self.more = more or {}
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
+        self.tasks: dict[str, asyncio.Task[dict[str, Any]]] = {}
+        self.took = 10.0  # seconds of a job, a moving mean
         self._ready = asyncio.Semaphore(0)  # as many as wait
 
     @contextlib.asynccontextmanager
     async def working(self) -> AsyncIterator[None]:
         """Resume queued jobs of an earlier server; leave running ones to the next server."""
         make_dir(self.folder)
+        for folder in self.folder.iterdir():
+            if folder.is_dir() and not (folder / "order.json").exists():  # half made
+                shutil.rmtree(folder, ignore_errors=True)
         left = [path for path in self.folder.glob("*/order.json")
                 if not path.with_name("done.json").exists()]  # fmt: skip
         for path in sorted(left, key=lambda path: path.stat().st_mtime):
@@ -162,34 +177,49 @@ class Queue:
 
     def line(self) -> list[str]:
         """The waiting jobs in their order: everybody's first before anybody's second."""
-        turns = Counter(visitor for visitor, _ in self.running.values())
-        turn = {}
-        for name, visitor in self.waiting.items():
-            turn[name] = turns[visitor]
-            turns[visitor] += 1
-        return sorted(turn, key=lambda name: turn[name])
+        return fair(self.waiting, (visitor for visitor, _ in self.running.values()))
 
     def about(self, name: str) -> dict[str, Any]:
         """How far a job is; nothing if there is no such job."""
         if name in self.waiting:
-            return {"state": "waiting", "place": self.line().index(name) + len(self.running)}
+            place = self.line().index(name) + len(self.running)
+            return {"state": "waiting", "place": place,
+                    "wait": round(self.took * place / self.at_once)}  # fmt: skip
         if name in self.running:
             return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
         return read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path
 
     async def _work(self) -> None:
         while await self._ready.acquire():
+            if not self.waiting:  # what had come was cancelled
+                continue
             name = self.line()[0]
-            self.running[name] = self.waiting.pop(name), time.monotonic()
+            began = time.monotonic()
+            self.running[name] = self.waiting.pop(name), began
+            task = self.tasks[name] = asyncio.ensure_future(self._make(self.folder / name))
             try:
-                done = await self._make(self.folder / name)
+                done = await task
+                self.took += 0.2 * (time.monotonic() - began - self.took)
+            except asyncio.CancelledError:
+                if (own := asyncio.current_task()) and own.cancelling():  # the server ends
+                    raise
+                shutil.rmtree(self.folder / name, ignore_errors=True)
+                del self.running[name], self.tasks[name]
+                continue
             except OSError:
                 done = failed("на сервере не удаётся записать файл; сообщите кафедре")
-            except Exception as error:  # a bug must cost one job, never the queue
-                done = failed(f"внутренняя ошибка {type(error).__name__}")
+            except Exception:  # a bug must cost one job, never the queue
+                done = failed("внутренняя ошибка: повторите")
             with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
                 write_json(self.folder / name / "done.json", done)
-            del self.running[name]
+            del self.running[name], self.tasks[name]
+
+    def cancel(self, name: str) -> None:
+        """Give up a job that waits or is running."""
+        if self.waiting.pop(name, None) is not None:
+            shutil.rmtree(self.folder / name, ignore_errors=True)
+        elif name in self.tasks:
+            self.tasks[name].cancel()
 
     async def _make(self, folder: Path) -> dict[str, Any]:
         command = read_json(folder / "order.json").get("command", ())
@@ -211,22 +241,30 @@ class Jobs(Queue):
     timeout_s = 300.0
     pack = ("out/tables.zip", "csv", "*.csv")
 
-    def add(self, files: Texts, command: Sequence[str], visitor: str) -> str:
-        """The name of a job: a command beside files; InputError where enough jobs wait already."""
-        text = json.dumps([files, command, source_digest()], ensure_ascii=False, sort_keys=True)
+    def add(self, files: Texts, command: Sequence[str], visitor: str, title: str = "engine") -> str:
+        """The name of a job: a command beside files; InputError where enough jobs wait already.
+
+        ``title`` is what its files are called.
+        """
+        text = json.dumps(
+            [files, command, title, source_digest()], ensure_ascii=False, sort_keys=True
+        )
         name = hmac.digest(self.secret, text.encode(), "sha256").hex()[:40]
         folder, state = self.folder / name, self.about(name).get("state")
         if state == "done":
             os.utime(folder / "done.json")
         if state in ("waiting", "running", "done"):
             return name
-        own = [*self.waiting.values(), *(who for who, _ in self.running.values())].count(visitor)
-        if len(self.waiting) >= MOST_WAITING or own >= MOST_OWN:
+        everybody = [*self.waiting.values(), *(who for who, _ in self.running.values())]
+        own = everybody.count(visitor)
+        near = sum(address_of(who) == address_of(visitor) for who in everybody)
+        if len(self.waiting) >= MOST_WAITING or near >= MOST_NEAR or own >= MOST_OWN:
             what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
             raise InputError(Problem("", what, "дождитесь их"))
         shutil.rmtree(folder, ignore_errors=True)
         self.clean()
         self.put(name, files, command, visitor)
+        write_json(folder / "title.json", {"title": title})
         return name
 
     def clean(self) -> None:
@@ -240,7 +278,15 @@ class Jobs(Queue):
 
     def routes(self) -> list[Route]:
         """Routes to order, poll and download files."""
-        return [post("/api/files", self._ordered), *shown("/api/files/{name}", self._made)]
+        return [post("/api/files", self._ordered), post("/api/files/{name}/cancel", self._cancel),
+                *shown("/api/files/{name}", self._made)]  # fmt: skip
+
+    async def _cancel(self, request: Request) -> None:
+        name = request.path_params["name"]
+        owner = self.waiting.get(name) or self.running.get(name, ("", 0.0))[0]
+        if owner != visitor(request):
+            raise HTTPException(409, "этот файл уже сделан или заказан другим")
+        self.cancel(name)
 
     async def _ordered(self, request: Request) -> Data:
         data = await body(request)
@@ -252,13 +298,23 @@ class Jobs(Queue):
             raise InputError(Problem("", "нет второго двигателя", "нажмите «Сравнить с этим»"))
         texts = {name: (await ask(request, engine.as_toml, raw))["text"]
                  for name, raw in inputs.items() if name in command}  # fmt: skip
-        who = request.session.get("visitor") or caller(request)
-        return {"id": self.add(texts, [*command, *(self.far if "build" in command else ())], who)}
+        whole = [*command, *(self.far if "build" in command else ())]
+        return {"id": self.add(texts, whole, visitor(request), _file_name(data["raw"]))}
 
     def _made(self, request: Request) -> Shown:
         name = request.path_params["name"]
         if not (about := self.about(name)):
             raise HTTPException(404, "нет такого файла; закажите заново")
         files = sorted((self.folder / name / "out").glob("[!.]*"))
-        sizes = [{"name": path.name, "size": path.stat().st_size} for path in files]
-        return Shown({**about, "files": sizes}, {path.name: path for path in files})
+        title = read_json(self.folder / name / "title.json").get("title", "engine")
+        names = {path.name: path.name.replace("engine", title) if "engine" in path.name
+                 else f"{title}, {path.name}" for path in files}  # fmt: skip
+        sizes = [{"file": path.name, "name": names[path.name], "size": path.stat().st_size}
+                 for path in files]  # fmt: skip
+        return Shown({**about, "files": sizes}, {path.name: path for path in files}, names=names)
+
+
+def _file_name(raw: Mapping[str, Any]) -> str:
+    """What files of an engine are called, whatever a file system allows."""
+    name = str((raw.get("engine") or {}).get("name") or "engine")
+    return re.sub(r'[\\/:*?"<>|\s\x00-\x1f]+', " ", name).strip(" .")[:80] or "engine"

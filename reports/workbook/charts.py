@@ -42,7 +42,7 @@ _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _PARTS = 5  # of a half axis of a polar diagram, at most
-_COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
+COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
 
 
 def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:
@@ -91,7 +91,7 @@ def _ray(number: int, line: CurveRanges) -> XYSeries:
 def _mark(number: int, point: CurveRanges) -> XYSeries:
     """A small point with its name beside it."""
     series = _curve(number, point, _hidden())
-    series.marker = _dot(4, _COLOURS[0])
+    series.marker = _dot(4, COLOURS[0])
     series.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
     series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
     return series
@@ -291,7 +291,7 @@ def _series(
     series_of_curve = _curve(number, CurveRanges(name, *ranges), _hidden() if stems else line)
     series_of_curve.smooth = smooth
     if stems:
-        series_of_curve.marker = _dot(5, _COLOURS[number % len(_COLOURS)])
+        series_of_curve.marker = _dot(5, COLOURS[number % len(COLOURS)])
         series_of_curve.errBars = ErrorBars(
             errDir="y", errBarType="minus", errValType="percentage", val=100, noEndCap=True,
             spPr=GraphicalProperties(ln=line),
@@ -336,9 +336,9 @@ def _hidden() -> LineProperties:
 
 
 def _look(number: int) -> LineProperties:
-    line = LineProperties(w=_LINE, solidFill=_COLOURS[number % len(_COLOURS)])
+    line = LineProperties(w=_LINE, solidFill=COLOURS[number % len(COLOURS)])
     # Shifted after all colours are used: twelve curves differ.
-    line.prstDash = _DASHES[(number + number // len(_COLOURS)) % len(_DASHES)]
+    line.prstDash = _DASHES[(number + number // len(COLOURS)) % len(_DASHES)]
     return line
 
 

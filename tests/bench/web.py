@@ -1,14 +1,17 @@
-"""Sixty people at one page: they change values all the time and order a file now and then.
+"""Sixty people at one page while ten documents are built; then the same with a hostile visitor.
 
-The people are simulated in this process, on the same processors as the server.  A person waits
-one to four seconds between changes; one change in twenty is followed by an order of a workbook.
-``KSHM_BENCH_S`` sets the seconds.
+The people are simulated in this process, on the same processors as the server, each behind an
+address of his own.  A person waits one to four seconds between changes.  Ten documents are always
+being built or waiting.  The hostile visitor floods numbers without a cookie, sends books that cost
+much, orders files and holds connections whose heads do not end.  All is on loopback and ends.
+``KSHM_BENCH_S`` sets the seconds of each half.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import io
 import os
 import random
 import socket
@@ -16,38 +19,48 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import chain
 from pathlib import Path
 from statistics import median, quantiles
+from typing import Any
 
 import httpx2
 import psutil
 
 from tests.bench._figure import Figure
 
-PEOPLE = 60
-SECONDS = float(os.environ.get("KSHM_BENCH_S", "300"))
-HEADS = {"X-Kshm": "1"}
+PEOPLE, DOCUMENTS, FLOOD = 60, 10, 40
+SECONDS = float(os.environ.get("KSHM_BENCH_S", "150"))
+MARK = {"X-Kshm": "1"}
 
 
 @dataclass
 class Seen:
-    """What all people have seen: seconds of answers, of files by person, faults, memory [MB]."""
+    """What people have seen: seconds of answers, faults, documents, memory [MB] and refusals."""
 
     took: list[float] = field(default_factory=list)
-    files: dict[int, list[float]] = field(default_factory=dict)
     bad: list[str] = field(default_factory=list)
+    documents: int = 0
     memory: list[float] = field(default_factory=list)
+    refused: int = 0
+    served: int = 0
+
+
+def browser(base: str, address: str) -> httpx2.AsyncClient:
+    """A browser behind an address of its own."""
+    heads = {**MARK, "X-Forwarded-For": address}
+    limits = httpx2.Limits(max_connections=FLOOD)
+    return httpx2.AsyncClient(
+        base_url=base, headers=heads, timeout=120, trust_env=False, limits=limits
+    )
 
 
 async def person(base: str, number: int, until: float, seen: Seen) -> None:
-    """One browser."""
-    chance, files = random.Random(number), seen.files.setdefault(number, [])
-    async with httpx2.AsyncClient(
-        base_url=base, headers=HEADS, timeout=120, trust_env=False
-    ) as web:
+    """One who changes a value now and then."""
+    chance = random.Random(number)
+    async with browser(base, f"10.0.0.{number}") as web:
         await web.get("/")
         raw = (await web.post("/api/new", json={"sample": "gots-diesel"})).json()["raw"]
         await asyncio.sleep(chance.uniform(0, 3))
@@ -58,17 +71,71 @@ async def person(base: str, number: int, until: float, seen: Seen) -> None:
             seen.took.append(time.perf_counter() - began)
             if answer.status_code != 200 or "charts" not in answer.json():
                 seen.bad.append(answer.text[:200])
-            if chance.random() < 0.05:
-                ordered = time.perf_counter()
-                job = (await web.post("/api/files", json={"raw": raw, "kind": "xlsx"})).json()["id"]
-                while (state := (await web.get(f"/api/files/{job}")).json()["state"]) not in (
-                    "done", "failed",
-                ):  # fmt: skip
-                    await asyncio.sleep(1)
-                files.append(time.perf_counter() - ordered)
-                if state == "failed":
-                    seen.bad.append("failed file")
             await asyncio.sleep(chance.uniform(1, 4))
+
+
+async def documents(base: str, number: int, until: float, seen: Seen) -> None:
+    """One whose report is always being built."""
+    async with browser(base, f"10.0.1.{number}") as web:
+        await web.get("/")
+        raw = (await web.post("/api/new", json={"sample": "gots-diesel"})).json()["raw"]
+        for turn in range(1000):
+            raw["geometry"]["bore_mm"] = 80 + number + turn / 1000
+            job = (await web.post("/api/files", json={"raw": raw, "kind": "pdf"})).json()["id"]
+            while time.monotonic() < until:
+                if (await web.get(f"/api/files/{job}")).json()["state"] == "done":
+                    seen.documents += 1
+                    break
+                await asyncio.sleep(1)
+            if time.monotonic() >= until:
+                return
+
+
+def costly_book() -> bytes:
+    """A small book that unpacks to much."""
+    rows = "".join(
+        f'<row r="{i}"><c r="A{i}"><f>SUM(A1:A9)*{i}</f></c></row>' for i in range(1, 90_000)
+    )
+    parts = {
+        "[Content_Types].xml": '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"/>',
+        "xl/worksheets/sheet1.xml": f"<worksheet><sheetData>{rows}</sheetData></worksheet>",
+    }  # fmt: skip
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in parts.items():
+            archive.writestr(name, text)
+    return stream.getvalue()
+
+
+async def hostile(base: str, until: float, seen: Seen) -> None:
+    """One who asks for all there is at once, always with the same address and no cookie."""
+    port, book = int(base.rpartition(":")[2]), costly_book()
+    async with browser(base, "10.9.9.9") as web:
+        raw = (await web.post("/api/new", json={"sample": "yamz-238"})).json()["raw"]
+
+        async def flood(path: str, **body: Any) -> None:
+            while time.monotonic() < until:
+                with contextlib.suppress(httpx2.HTTPError):
+                    code = (await web.post(path, **body)).status_code
+                    seen.refused += code in (429, 503)
+                    seen.served += code == 200
+                    web.cookies.clear()
+
+        async def dangle() -> None:
+            while time.monotonic() < until:
+                with contextlib.suppress(OSError):
+                    _, writer = await asyncio.open_connection("127.0.0.1", port)
+                    writer.write(b"GET / HTTP/1.1\r\nhost: localhost\r\n")
+                    await asyncio.sleep(2)
+                    writer.close()
+
+        heads = {"content-type": "application/octet-stream"}
+        await asyncio.gather(
+            *(flood("/api/solve", json={"raw": raw, "sheet": "П4.1"}) for _ in range(FLOOD)),
+            *(flood("/api/book", content=book, headers=heads) for _ in range(4)),
+            *(flood("/api/files", json={"raw": raw, "kind": "pdf"}) for _ in range(2)),
+            *(dangle() for _ in range(50)),
+        )
 
 
 async def watch(server: int, seen: Seen) -> None:
@@ -82,17 +149,22 @@ async def watch(server: int, seen: Seen) -> None:
         await asyncio.sleep(5)
 
 
-async def everybody(base: str, server: int) -> Seen:
+async def everybody(base: str, server: int, is_attacked: bool) -> Seen:
     """All people at once."""
     seen, until = Seen(), time.monotonic() + SECONDS
     watching = asyncio.create_task(watch(server, seen))
-    await asyncio.gather(*(person(base, i, until, seen) for i in range(PEOPLE)))
+    more = [hostile(base, until, seen)] if is_attacked else []
+    await asyncio.gather(
+        *(person(base, i, until, seen) for i in range(PEOPLE)),
+        *(documents(base, i, until, seen) for i in range(DOCUMENTS)),
+        *more,
+    )
     watching.cancel()
     return seen
 
 
 def figures() -> Iterator[Figure]:
-    """Answers to changes, faults, files and memory under sixty people."""
+    """Answers to changes, faults, documents and memory under sixty people."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -107,21 +179,23 @@ def figures() -> Iterator[Figure]:
             time.sleep(0.05)
         yield Figure("начало работы", time.perf_counter() - began, "с")
         try:
-            seen = asyncio.run(everybody(f"http://127.0.0.1:{port}", server.pid))
+            for words, is_attacked in (("", False), (", с враждебным посетителем", True)):
+                seen = asyncio.run(everybody(f"http://127.0.0.1:{port}", server.pid, is_attacked))
+                yield from _told(words, seen)
         finally:
             server.terminate()
             server.wait()
-    cuts, files = quantiles(seen.took, n=100), sorted(chain.from_iterable(seen.files.values()))
-    early, late = seen.memory[: len(seen.memory) // 2], seen.memory[len(seen.memory) // 2 :]
-    yield Figure("загрузка машины за минуту", os.getloadavg()[0], "")
-    yield Figure("ответов на правку", float(len(seen.took)), "")
-    yield Figure("ответ на правку, медиана", 1000 * median(seen.took), "мс")
-    yield Figure("ответ на правку, 99 %", 1000 * cuts[98], "мс")
-    yield Figure("ошибок", float(len(seen.bad)), "")
-    yield Figure("книг", float(len(files)), "")
-    yield Figure("ждали книгу, медиана", median(files), "с")
-    yield Figure("ждали книгу, дольше всех", files[-1], "с")
-    each = sorted(median(found) for found in seen.files.values() if found)
-    yield Figure("ждали книгу, медиана самого терпеливого", each[-1], "с")
-    yield Figure("память в первой половине, наибольшая", max(early), "МБ")
-    yield Figure("память во второй половине, наибольшая", max(late), "МБ")
+
+
+def _told(words: str, seen: Seen) -> Iterator[Figure]:
+    cuts = quantiles(seen.took, n=100)
+    yield Figure(f"загрузка машины за минуту{words}", os.getloadavg()[0], "")
+    yield Figure(f"ответов на правку{words}", float(len(seen.took)), "")
+    yield Figure(f"ответ на правку, медиана{words}", 1000 * median(seen.took), "мс")
+    yield Figure(f"ответ на правку, 95 %{words}", 1000 * cuts[94], "мс")
+    yield Figure(f"ответ на правку, 99 %{words}", 1000 * cuts[98], "мс")
+    yield Figure(f"ошибок{words}", float(len(seen.bad)), "", "; ".join(seen.bad[:1]))
+    yield Figure(f"отчётов PDF построено{words}", float(seen.documents), "")
+    yield Figure(f"отказов враждебному{words}", float(seen.refused), "")
+    yield Figure(f"ответов враждебному{words}", float(seen.served), "")
+    yield Figure(f"память, наибольшая{words}", max(seen.memory), "МБ")

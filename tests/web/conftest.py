@@ -75,13 +75,23 @@ class Served:
 
 
 @contextmanager
-def serving(place: Path, folder: str = ".") -> Iterator[Served]:
+def serving(place: Path, folder: str = ".", *more: str) -> Iterator[Served]:
     """The command ``serve`` until the block ends, or is ended within; ``folder`` is within."""
     data = place / folder
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    command = [sys.executable, "-m", "reports", "serve", "--port", str(port), "--data", str(data)]
+    command = [
+        sys.executable,
+        "-m",
+        "reports",
+        "serve",
+        "--port",
+        str(port),
+        "--data",
+        str(data),
+        *more,
+    ]
     home = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
     process = subprocess.Popen(
         command, cwd=place, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
@@ -121,7 +131,10 @@ def browser() -> Iterator[Any]:
 
 def opened(browser: Any, address: str, width: int = 1280, scheme: str = "light") -> Any:
     """A page of a person of his own; what goes wrong in it is kept in ``faults``."""
-    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    context = browser.new_context(
+        viewport={"width": width, "height": 900}, color_scheme=scheme, reduced_motion="reduce",
+        has_touch=width < 500,
+    )  # fmt: skip
     page = context.new_page()
     page.faults = []
     page.on("pageerror", lambda error: page.faults.append(str(error)))

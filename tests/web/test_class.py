@@ -47,7 +47,7 @@ def taken(page: Any, selector: str) -> bytes:
 
 def points(page: Any) -> dict[str, str]:
     """Surname → what the gradebook on the page shows."""
-    rows = page.locator("#class [aria-label='Ведомость'] tbody tr").all()
+    rows = page.locator("#class [aria-label=Ведомость] tbody tr").all()
     cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in rows]
     return {row[0].split()[1]: row[2] for row in cells}  # after the number
 
@@ -63,10 +63,15 @@ def roster_book(count: int) -> bytes:
     return stream.getvalue()
 
 
+def base_bytes() -> str:
+    """The engine of the class as the page sends a file: one character a byte."""
+    return classroom.base_text().encode().decode("latin-1")
+
+
 def not_issued(page: Any, served: Served, roster: bytes, seed: str) -> str:
     """The name of a class that could not be issued."""
     door, ask = f"{served.page}api/teacher", page.context.request
-    data = {"title": "?", "base.toml": classroom.base_text(), "seed": seed,
+    data = {"title": "?", "base.toml": base_bytes(), "seed": seed,
             "roster": roster.decode("latin-1")}  # fmt: skip
     name: str = ask.post(door, data=data, headers=MARK).json()["name"]
     for _ in range(WAIT // 100):
@@ -80,7 +85,7 @@ def heights(page: Any) -> dict[str, int]:
     """What is pressed on the page, as high as it is on a phone."""
     page.set_viewport_size({"width": 390, "height": 900})
     found: dict[str, int] = page.evaluate("""Object.fromEntries([...document.querySelectorAll(
-        "main :is(button, select, summary, .\\\\<button\\\\>, .tool-bar > label)")]
+        "main :is(button, select, summary, .button, .bar > label)")]
         .filter(e => e.offsetHeight).map(e => [e.innerText.slice(0, 30), e.offsetHeight]))""")
     page.set_viewport_size({"width": 1280, "height": 900})
     return found
@@ -88,9 +93,9 @@ def heights(page: Any) -> dict[str, int]:
 
 def decide(page: Any, who: str, what: str, worth: str, remark: str = "") -> None:
     """Decide as the instructor does, and wait until the gradebook says so."""
-    form = page.locator(f"tr:has-text('{who}') form")
+    form = page.locator(f"[aria-label=Ведомость] tr:has-text('{who}') form")
     if not form.is_visible():
-        page.locator(f"tr:has-text('{who}') summary").click()
+        page.locator(f"[aria-label=Ведомость] tr:has-text('{who}') summary").click()
     form.locator("select").select_option(what)
     form.locator("input").nth(0).fill(worth)
     form.locator("input").nth(1).fill(remark)
@@ -127,11 +132,11 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     for name, data in files.items():
         teacher.set_input_files(f"#{name}", {"name": f"{name}.txt", "mimeType": "", "buffer": data})
     teacher.click("#issue button")
-    teacher.wait_for_selector("#links a >> nth=4", timeout=WAIT)
+    teacher.wait_for_selector("#links a.own >> nth=4", timeout=WAIT)
     assert "секрет" not in teacher.inner_text("body").lower()  # the server keeps it
     every = zipfile.ZipFile(io.BytesIO(taken(teacher, "a[download='issued.zip']")))
     assert len(every.namelist()) == 5
-    links = [a.get_attribute("href") for a in teacher.query_selector_all("#links a")]
+    links = [a.get_attribute("href") for a in teacher.query_selector_all("#links a.own")]
 
     # A student takes the own book by the own link and hands it in; nothing else is open.
     register = load_register(stored(served) / "issued")
@@ -190,6 +195,25 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert ask.get(f"{served.page}api/student/{forged}").status == 404
     assert ask.get(f"{served.page}{links[2].replace('s/', 'api/student/', 1)}page").status == 404
 
+    # The list of links for telephones, codes, counts; what was handed in is there for the teacher.
+    assert teacher.inner_text("#links summary").startswith("1 из 5 сдали")
+    text = taken(teacher, "#list").decode("utf-8-sig")
+    rows = list(csv.DictReader(io.StringIO(text), delimiter=";"))
+    assert [row["Ссылка"] for row in rows] == [f"{served.page}{link}" for link in links]
+    assert [row["Попыток"] for row in rows] == ["0", "0", "2", "0", "0"] and rows[2]["Сдано"]
+    teacher.click(".qr summary >> nth=2")
+    until(teacher, "document.querySelectorAll('.qr img')[2].naturalWidth > 100")
+    assert taken(teacher, "#links tr:nth-child(3) small a") == half
+    # A deadline, and what comes after it.
+    teacher.fill("#deadline", "2020-01-02T03:04")
+    until(teacher, "document.querySelector('#links').textContent.includes('после срока')")
+    student.reload()
+    student.wait_for_selector("#earlier")
+    assert "срок 2 января 2020" in student.inner_text("#state")
+    assert "после срока" in student.inner_text("#state")
+    teacher.fill("#deadline", "")
+    until(teacher, "!document.querySelector('#links').textContent.includes('после срока')")
+
     # The others' works come as Moodle's archive, with Moodle's worksheet.
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
@@ -224,7 +248,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
         f"{served.page}api/teacher/{name}/grade", data={}, headers=MARK
     )
     assert again.status == 422  # one at a time
-    teacher.wait_for_selector("#class table", timeout=WAIT)
+    teacher.wait_for_selector("#class [aria-label=Ведомость] table", timeout=WAIT)
     found = points(teacher)
     assert found["Иванов"] == found["Сидорова"] == "100" and found["Попова"] == ""
     assert 0 < float(found["Петров"].replace(",", ".")) < 100
@@ -238,10 +262,10 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
 
     # The page of a work, the decision about what the program could not judge, Moodle's file.
     with teacher.expect_popup() as popup:
-        teacher.click("#class table a:has-text('Кузнецов')")
+        teacher.click("[aria-label=Ведомость] a:has-text('Кузнецов')")
     popup.value.wait_for_selector("text=Кузнецов")
     popup.value.close()
-    unknown = teacher.locator("tr:has-text('Кузнецов') option").nth(1)
+    unknown = teacher.locator("[aria-label=Ведомость] tr:has-text('Кузнецов') option").nth(1)
     assert unknown.evaluate("option => option.value") == "geometry.V_c"
     decide(teacher, "Кузнецов", "geometry.V_c", "0,21")
     decide(teacher, "Петров", "всё", "77", remark="=1+1")
@@ -271,5 +295,28 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/', 1)}page")
     assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")
+
+    # With pages open a later book does not count, unless the teacher allows it.
+    door = f"{served.page}{links[2].replace('s/', 'api/student/', 1)}work"
+    heads = {**MARK, "content-type": "application/octet-stream"}
+    later = solved(3, own)
+    assert student.is_visible("#closed") and not student.locator("#work").count()
+    assert ask.post(door, data=later, headers=heads).status == 409
+    teacher.check("#late")
+    until(teacher, "document.getElementById('late').checked && !document.querySelector('.bad li')")
+    assert ask.post(door, data=later, headers=heads).status == 200
     assert not teacher.faults
     student.context.close()
+
+    # Nobody is inside after leaving; a class that is deleted is gone, with its works.
+    teacher.click("#leave")
+    teacher.wait_for_selector("#login")
+    assert teacher.context.request.get(f"{served.page}api/teacher").status == 403
+    teacher.goto(served.teacher)
+    teacher.reload()  # only its hash was another one
+    teacher.wait_for_selector("#forget")
+    folder = stored(served)
+    teacher.on("dialog", lambda dialog: dialog.accept())
+    teacher.click("#forget")
+    until(teacher, "!document.querySelector('#class')")
+    assert not folder.exists()

@@ -35,7 +35,7 @@ def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:
     raw = page.sample()
     raw["regime"]["speed_rpm"] = 3210.0
     job, found = made(page, raw=raw, kind="xlsx")
-    assert [each["name"] for each in found["files"]] == ["engine.xlsx"]
+    assert [each["file"] for each in found["files"]] == ["engine.xlsx"]
     answer = client.get(f"/api/files/{job}/engine.xlsx")
     assert answer.headers["content-disposition"].startswith("attachment")
     heads = {**MARK, "content-type": "application/octet-stream"}
@@ -62,7 +62,7 @@ def test_a_comparison_needs_two(page: Page) -> None:
     raw = page.sample()
     page.post("/api/files", {"raw": raw, "kind": "compare-xlsx"}, 422)
     _, found = made(page, raw=raw, other=page.sample("yamz-236"), kind="compare-xlsx")
-    assert [each["name"] for each in found["files"]] == ["compare.xlsx"]
+    assert [each["file"] for each in found["files"]] == ["compare.xlsx"]
 
 
 def test_bad_values_make_no_job(page: Page) -> None:

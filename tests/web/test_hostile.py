@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.middleware.sessions import SessionMiddleware
 from starlette.testclient import TestClient
 
 from reports.grading.issuing.register import SECRET, kept_secret
@@ -18,6 +20,7 @@ from reports.web import doors
 from reports.web.app import STATIC, Settings, create_app
 from reports.web.classes import token_of
 from reports.web.doors import MOST_JSON, Rate
+from reports.web.shares import Turns, Unfinished
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
 from tests.web.conftest import MARK, Page, finished
@@ -141,7 +144,7 @@ TOML = [
 
 @pytest.mark.parametrize("text", TOML, ids=range(len(TOML)))
 def test_hostile_toml(page: Page, text: Any) -> None:
-    found = page.client.post("/api/read", json={"text": text}, headers=MARK)
+    found = page.client.post("/api/read", content=str(text).encode(), headers=FILE)
     if found.status_code == 200 and "errors" not in found.json():
         found = page.client.post(SOLVE, json={**found.json(), "sheet": ""}, headers=MARK)
     is_refused(found, 200, 422)
@@ -186,7 +189,7 @@ def test_forged_passes(client: TestClient, cookie: str) -> None:
     is_refused(fresh.get("/api/teacher", headers=headers), 403)
 
 
-DOORS = ["", "/file/moodle.zip", "/file/worksheet.csv", "/grade", "/open"]
+DOORS = ["", "/file/moodle.zip", "/file/worksheet.csv", "/grade", "/rules", "/delete"]
 
 
 @pytest.mark.parametrize("door", DOORS)
@@ -228,11 +231,22 @@ def test_hostile_books(client: TestClient) -> None:
     assert not list(data.glob("book-*"))
 
 
+def test_a_book_that_costs_too_much_is_refused_in_a_sentence(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doors, "BOOK_S", 0.01)
+    book = filled_book(classroom.handout(), classroom.assignment())
+    answer = client.post("/api/book", content=book, headers=FILE)
+    is_refused(answer, 422)
+    assert "считается дольше" in answer.text
+
+
 def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
     data = client.app.app.state.settings.data  # type: ignore[attr-defined]
     page.post("/api/login", {"token": token_of(kept_secret(data / SECRET))})
-    wanted = {"title": "x", "base.toml": classroom.base_text(), "seed": "1 --rubric /etc/passwd",
-              "roster": classroom.roster_text(1)}  # fmt: skip
+    base, roster = (text.encode().decode("latin-1")
+                    for text in (classroom.base_text(), classroom.roster_text(1)))  # fmt: skip
+    wanted = {"title": "x", "base.toml": base, "roster": roster, "seed": "1 --rubric /etc/passwd"}
     name = page.post("/api/teacher", wanted)["name"]
     told: dict[str, Any] = {}
     for _ in range(300):
@@ -335,8 +349,10 @@ def test_a_busy_server_turns_no_work_away(
         "/x", lambda _: doors.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": place})
     )
     handlers: Any = {InputError: doors.failed}
-    app = Starlette(routes=routes, exception_handlers=handlers)
-    app.state.settings = Settings(tmp_path)
+    session = Middleware(SessionMiddleware, "x")
+    app = Starlette(routes=routes, exception_handlers=handlers, middleware=[session])
+    app.state.settings, app.state.unfinished = Settings(tmp_path), Unfinished(100)
+    app.state.uploading = Turns(1, 1, 1, 1.0)
     assert TestClient(app).post("/x/work", content=b"PK").status_code == code
     assert place.exists() == (code == 200)
 

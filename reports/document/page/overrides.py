@@ -89,6 +89,12 @@ def _quoted(text: str) -> str:
 
 
 KEY = "report.templates"
+MOST_NESTED = 100  # blocks of Jinja or elements of the page: the report's own have nine
+_OPENING = re.compile(
+    r"(?P<kind>\{%-?\s*|<)(?P<end>end|/)?"
+    r"(?:if|for|block|macro|call|filter|with|div|span|section|table|ul|ol|b|i|em|strong|figure"
+    r"|article|main|a|sub|sup)\b"
+)
 SUFFIX = ".j2"
 
 
@@ -113,7 +119,29 @@ def find(given: str, beside: Path) -> Path | None:
         what = f"{folder}: {unknown[0]} ничего не заменяет" if unknown else f"{folder}: пусто"
         hint = "имена шаблонов: " + ", ".join(sorted(known))
         raise InputError(Problem(KEY, what, hint))
+    _refuse_links(folder)
+    for name in given_names:
+        _refuse_nesting(folder / name)
     return folder
+
+
+def _refuse_links(folder: Path) -> None:
+    """Refuse links out of the folder: a template is what lies in it."""
+    for path in folder.rglob("*"):
+        if path.is_symlink() and not path.resolve().is_relative_to(folder):
+            what = f"{path.name} — ссылка из папки шаблонов наружу"
+            raise InputError(Problem(KEY, what, "положите в папку сам файл"))
+
+
+def _refuse_nesting(path: Path) -> None:
+    """Refuse blocks and elements so deep that parser and layout would give up."""
+    depth = {"{%": 0, "<": 0}
+    for word in _OPENING.finditer(path.read_text(encoding="utf-8", errors="replace")):
+        kind = word["kind"][:2].strip()
+        depth[kind] = max(0, depth[kind] + (-1 if word["end"] else 1))
+        if depth[kind] > MOST_NESTED:
+            what = f"{path}: блоки вложены глубже {MOST_NESTED}"
+            raise InputError(Problem(KEY, what, "исправьте шаблон или уберите его из папки"))
 
 
 @contextmanager

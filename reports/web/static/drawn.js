@@ -1,121 +1,154 @@
-// What follows φ: charts of the numbers that the server sends (ChartSpec), by Chart.js, with a cursor;
-// the mechanism of a cylinder, drawn through the solver's joints; the star of cranks.
-import {html, printed, symbol} from "./common.js";
+// Charts of the numbers that the server sends (ChartSpec), by Chart.js; a cursor over each follows φ.
+import {html, memo, printed, state, symbol} from "./common.js";
+import {render} from "./vendor/preact.mjs";
 
 const DASHES = [[], [8, 3], [3, 3], [10, 3, 3, 3], [1, 3], [14, 4]];
-// Seen on white and on black alike.
-const COLOURS = ["#2f7ed8", "#d94a3d", "#2b9348", "#a05fd0", "#b0771b", "#16899a"];
+export const dark = matchMedia("(prefers-color-scheme: dark)");
+
+// The colours of the workbook's charts; on black they are nearer to white.
+export const inks = () => state.choices.palette.map(colour => dark.matches ? `color-mix(in oklab, #${colour} 75%, white)` : `#${colour}`);
 
 export function between(xs, ys, x) { // nothing where there is no curve
-  const i = Math.max(1, xs.findIndex(v => v >= x)), share = (x - xs[i - 1]) / (xs[i] - xs[i - 1] || 1);
-  return share < 0 || share > 1 || ys[i] === null ? null : ys[i - 1] + share * (ys[i] - ys[i - 1]);
+  let low = 0, high = xs.length - 1;
+  if (!(x >= xs[low] && x <= xs[high])) return null;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (xs[middle] < x) low = middle; else high = middle;
+  }
+  return ys[high] === null ? null : ys[low] + (x - xs[low]) / (xs[high] - xs[low] || 1) * (ys[high] - ys[low]);
 }
 
-// Curves of a chart, then those of the other engine; each with its value at φ.
-const curvesOf = ({own, other, phi}) => [own, other].filter(Boolean).flatMap((chart, second) =>
+// Curves of a chart, then those of the other engine.
+const curvesOf = (own, other, colours) => [own, other].filter(Boolean).flatMap((chart, second) =>
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
-    label: second ? `${curve.name} (второй)` : curve.name, borderColor: COLOURS[i % 6],
+    label: second ? `${curve.name} (второй)` : curve.name, borderColor: colours[i % colours.length],
     borderDash: second ? [2, 4] : DASHES[i % 6], line: second ? "dotted" : i ? "dashed" : "solid",
-    at: chart.x_is_angle ? between(curve.x, curve.y, phi) : null,
   })));
 
-function cursor({canvas, ctx, scales: {x, y}}) { // a line at φ and a point of each curve, or of the path
-  const {own: {path}, phi, curves} = canvas.props;
-  const dots = curves.filter(c => c.at !== null).map(c => [phi, c.at, c.borderColor]);
-  ctx.fillStyle = "#888";
-  if (dots.length) ctx.fillRect(x.getPixelForValue(phi), y.top, 1, y.height);
-  const place = key => between(path.phi, path[key], phi % path.phi.at(-1) || phi);
-  if (path) dots.push([place("x"), place("y"), COLOURS[0]]);
-  for (const [px, py, colour] of dots) {
-    ctx.fillStyle = colour;
-    Chart.helpers.drawPoint(ctx, {radius: 4}, x.getPixelForValue(px), y.getPixelForValue(py));
-  }
+const hidden = new Set(); // curves that a person has switched off, by chart and name
+const key = (own, curve) => `${own.id} ${curve.label}`;
+
+function tip(box, {tooltip: {opacity, caretX, dataPoints = []}}) { // as elements: canvas knows no subscripts
+  box.hidden = !opacity;
+  box.style.transform = `translateX(${caretX}px)`;
+  box.classList.toggle("left", caretX > box.parentElement.clientWidth / 2);
+  render(dataPoints.slice(0, 6).map(({dataset, parsed}) => html`
+    <div><b>${symbol(dataset.label)}</b> ${printed(parsed.x, 5)}; ${printed(parsed.y, 5)}</div>`), box);
 }
 
-function draw(canvas, props) {
-  const before = canvas.props, chart = Chart.getChart(canvas), {own, curves: datasets, color} = props;
-  canvas.props = props;
-  if (before && ["own", "other", "color"].every(key => before[key] === props[key])) return chart.draw();
-  const isLine = own.kind === "line"; // else both axes have one scale
-  const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key])));
+function roundAngles(axis) { // round angles, however near one looks
+  const span = axis.max - axis.min, step = [5, 10, 15, 30, 60, 90, 120, 180].find(each => span / each <= 7) ?? 360;
+  axis.ticks = Array.from({length: Math.floor(span / step) + 2}, (_, i) => ({value: (Math.ceil(axis.min / step) + i) * step}))
+    .filter(({value}) => value <= axis.max);
+}
+
+function draw(canvas, own, datasets, color) {
+  const chart = Chart.getChart(canvas), isLine = own.kind === "line"; // else both axes have one scale
+  if (canvas.datasets === datasets) return;
+  canvas.datasets = datasets;
+  const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key]).filter(v => v !== null)));
   const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
   const axis = (key, bounds, stepSize, [low, high] = ends(key)) => ({
-    type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8884"},
+    type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8883"}, border: {color: "#8886"},
     reverse: own[`${key}_reversed`],
     ...isLine || {min: (low + high) / 2 - half, max: (low + high) / 2 + half},
     title: {display: own[`${key}_title`] !== "", text: own[`${key}_title`], color},
     ticks: {color, stepSize, maxTicksLimit: 8, includeBounds: false, callback: v => printed(v)},
   });
+  const onZoomComplete = () => { canvas.closest("figure").classList.add("zoomed"); state.follow(); };
   const options = {
-    animation: false, locale: "ru", maintainAspectRatio: false,
+    animation: false, locale: "ru", maintainAspectRatio: false, onResize: () => requestAnimationFrame(() => state.follow()),
+    events: ["mousemove", "mouseout"],
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},
-    datasets: {scatter: {showLine: true}}, plugins: {legend: {display: false}},
-    scales: {x: own.x_is_angle ? axis("x", "data", 60) : axis("x"), y: axis("y")},
+    datasets: {scatter: {showLine: true}},
+    plugins: {
+      legend: {display: false}, tooltip: {enabled: false, external: context => tip(canvas.parentElement.querySelector(".tip"), context)},
+      zoom: {limits: {x: {min: "original", max: "original"}, y: {min: "original", max: "original"}},
+        zoom: {mode: isLine ? "x" : "xy", wheel: {enabled: true, modifierKey: "ctrl"}, pinch: {enabled: true}, onZoomComplete}},
+    },
+    scales: {x: own.x_is_angle ? {...axis("x", "data", 60), afterBuildTicks: roundAngles} : axis("x"), y: axis("y")},
   };
-  if (!chart) new Chart(canvas, {type: "scatter", data: {datasets}, options, plugins: [{id: "cursor", afterDraw: cursor}]});
+  Chart.defaults.font.family = "Inter Variable, sans-serif";
+  if (!chart) new Chart(canvas, {type: "scatter", data: {datasets}, options});
   else Object.assign(chart, {data: {datasets}, options}).update("none");
+  show(canvas, own);
   for (const old of Object.values(Chart.instances)) if (!old.canvas.isConnected) old.destroy();
 }
 
-// A chart with its legend, which says the values at φ.
-export function figure(given) {
-  const {own} = given, curves = curvesOf(given), {color} = getComputedStyle(document.body);
+function show(canvas, own) {
+  const chart = Chart.getChart(canvas);
+  chart.data.datasets.forEach((curve, i) => chart.setDatasetVisibility(i, !hidden.has(key(own, curve))));
+  chart.update("none");
+}
+
+function whole(figure) {
+  Chart.getChart(figure.querySelector("canvas")).resetZoom("none");
+  figure.classList.remove("zoomed");
+  state.follow();
+}
+
+// A finger or a pointer that is drawn over a chart turns the engine.
+function drag(event, own) {
+  if (event.type === "pointerdown") event.currentTarget.setPointerCapture(event.pointerId);
+  else if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
+  if (!event.isPrimary || event.button > 0) return;
+  const canvas = event.currentTarget.querySelector("canvas"), {scales} = Chart.getChart(canvas), box = canvas.getBoundingClientRect();
+  const [x, y] = [scales.x.getValueForPixel(event.clientX - box.left), scales.y.getValueForPixel(event.clientY - box.top)];
+  if (own.x_is_angle) return state.turn(Math.min(Math.max(x, 0), state.last.moves.phi.at(-1)));
+  if (!own.path) return;
+  const far = own.path.x.map((px, i) => Math.hypot(px - x, own.path.y[i] - y));
+  state.turn(own.path.phi[far.indexOf(Math.min(...far))]);
+}
+
+// A chart with its legend, which says the values at φ and switches curves.
+export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, other, dark.matches, isPrinted, state.switched], () => {
+  const colours = inks(), curves = curvesOf(own, other, colours), {color} = getComputedStyle(document.body);
+  const shown = curve => !hidden.has(key(own, curve)), onPointer = event => drag(event, own);
+  const toggle = curve => event => {
+    hidden[shown(curve) ? "add" : "delete"](key(own, curve));
+    show(event.currentTarget.closest("figure").querySelector("canvas"), own);
+    state.redraw();
+  };
   return html`
     <figure key=${own.id} id=${`chart-${own.id}`}>
-      <figcaption>${own.title}</figcaption>
-      <div style=${`position: relative; min-height: 0; aspect-ratio: ${own.kind === "line" ? 1.6 : 1}`}>
-        <canvas ref=${canvas => canvas && draw(canvas, {...given, curves, color})} role="img" aria-label=${own.title} /></div>
-      <ul class="legend">${curves.map(({label, borderColor, line, at}) => html`
-        <li style=${`--ink: ${line} ${borderColor}`}>${symbol(label)} <output>${printed(at, 5)}</output></li>`)}</ul>
+      <figcaption>${own.title}
+        <span class="tools"><button class="whole" onClick=${e => whole(e.currentTarget.closest("figure"))}>Весь график</button>
+        <button aria-label=${`${own.title}: на весь экран`} title="на весь экран"
+          onClick=${e => document.fullscreenElement ? document.exitFullscreen() : e.currentTarget.closest("figure").requestFullscreen()}>
+          <svg viewBox="0 0 16 16" aria-hidden="true"><path d="M1 6V1h5M10 1h5v5M15 10v5h-5M6 15H1v-5" /></svg></button></span></figcaption>
+      <div class="plot" style=${`aspect-ratio: ${own.kind === "line" ? 1.6 : 1}`} title="потяните: угол φ; Ctrl и колесо, два пальца: масштаб"
+        onPointerDown=${onPointer} onPointerMove=${onPointer}>
+        <canvas ref=${canvas => canvas && draw(canvas, own, curves, color)} role="img" aria-label=${own.title} />
+        <i class="cursor" /><span>${curves.map(({borderColor}) => html`<i class="dot" style=${`--ink: ${borderColor}`} />`)}</span>
+        <div class="tip" hidden /></div>
+      <ul class="legend">${curves.map(curve => html`
+        <li><button aria-pressed=${String(shown(curve))} style=${`--line: ${curve.line}; --ink: ${curve.borderColor}`}
+          onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output /></button></li>`)}</ul>
     </figure>`;
-}
+});
 
-const upright = ([x, y], turned, size, text) => html`
-  <text transform=${`translate(${x} ${y}) rotate(${-turned})`} font-size=${size}>${text}</text>`;
+const put = (node, x, y) => { node.style.transform = `translate(${x}px, ${y}px)`; };
 
-export function mechanism(moves, phi) {
-  const {radius, bore, wall, axis, joints, turn, shift} = moves, half = bore / 2, left = wall - half;
-  const inside = ((phi - shift) % 360 + 360) % 360;
-  const points = [[0, 0], ...joints.map(([x, y]) => [between(turn, x, inside), -between(turn, y, inside)])];
-  // All that moves, with the names of forces above the piston and below the crank.
-  const top = Math.max(...joints.at(-1)[1]) + 1.3 * bore;
-  const down = Math.max(...moves.forces.K_MPa.values.map(k => -k)) / greatest(moves);
-  const size = top + Math.max(1.4 * radius, radius + bore * (down + .3));
-  return html`
-    <svg id="mechanism" role="img" aria-label="Механизм цилиндра и силы"
-      viewBox=${[-size / 2, -top, size, size].join(" ")}>
-      <g transform=${`rotate(${axis} 0 ${size / 2 - top})`}>
-        <circle class="axis" r=${radius} />
-        <path class="axis" d=${`M${left} ${-1.2 * radius}V${-top}m${bore} 0V${-1.2 * radius}`} />
-        <rect class="body" x=${left} y=${points.at(-1)[1] - half * .8} width=${bore} height=${half * 1.3} />
-        <polyline class="rod" points=${points.join(" ")} />
-        ${points.map(([x, y]) => html`<circle class="body" cx=${x} cy=${y} r=${radius / 9} />`)}
-        ${arrows(moves, phi, points[1], points.at(-1), inside)}
-      </g>
-    </svg>`;
-}
-
-const greatest = ({forces}) => Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
-
-function arrows(moves, phi, pin, piston, turn) {
-  const {forces, phi: over, axis, bore} = moves, most = greatest(moves);
-  const drawn = [["Ps_MPa", "PΣ", 0, piston, 90], ["N_MPa", "N", 4, piston, 180],
-    ["T_MPa", "T", 1, pin, turn], ["K_MPa", "K", 2, pin, turn + 90]];
-  return drawn.map(([key, name, colour, place, along]) => {
-    const far = bore * between(over, forces[key].values, phi) / most, ink = COLOURS[colour];
-    return Math.abs(far) > bore / 40 && html`<g transform=${`translate(${place}) rotate(${along})`}>
-      <path d=${`M0 0h${far}`} stroke=${ink} stroke-width="3" />
-      <circle cx=${far} r=${bore / 28} fill=${ink} />
-      ${upright([far + Math.sign(far) * bore / 6, 0], axis + along, bore / 5, name)}</g>`;
+// The cursor of a chart: a line at φ with a point on each curve, or a point of the path.
+export function follow(node, own, phi, isTold) {
+  const canvas = node.querySelector("canvas"), chart = canvas && Chart.getChart(canvas);
+  if (!chart) return;
+  const {chartArea: area, scales: {x, y}} = chart, line = node.querySelector(".cursor");
+  const dots = node.querySelectorAll(".dot"), values = node.querySelectorAll("output");
+  const left = x.getPixelForValue(phi), isIn = px => px >= area.left - 1 && px <= area.right + 1;
+  line.hidden = !own.x_is_angle || !isIn(left);
+  line.style.height = `${area.height}px`;
+  put(line, left, area.top);
+  chart.data.datasets.forEach((curve, i) => {
+    const value = own.x_is_angle ? between(curve.x, curve.y, phi) : null;
+    if (isTold) values[i].textContent = printed(value, 5);
+    dots[i].hidden = value === null || !isIn(left) || !chart.isDatasetVisible(i);
+    if (!dots[i].hidden) put(dots[i], left, y.getPixelForValue(value));
   });
+  if (!own.path || !dots.length) return;
+  const at = phi % own.path.phi.at(-1) || phi, place = key => between(own.path.phi, own.path[key], at);
+  dots[0].hidden = place("x") === null;
+  put(dots[0], x.getPixelForValue(place("x") ?? 0), y.getPixelForValue(place("y") ?? 0));
 }
-
-export const star = ({throws}, phi) => html`
-  <svg id="star" role="img" aria-label="Звезда кривошипов" viewBox="-130 -130 260 260">
-    <circle class="axis" r="85" />
-    ${throws.map(([angle, numbers]) => html`<g transform=${`rotate(${angle + phi})`}>
-      <path class="rod" d="M0 0V-85" /><circle class="body" cy="-85" r="6" />
-      ${upright([0, -108], angle + phi, 14, numbers.join(", "))}</g>`)}
-  </svg>`;

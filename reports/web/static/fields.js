@@ -1,7 +1,8 @@
 // The fields of an input in groups, each with its unit, range, slider and what is wrong with it.
-import {html, options, printed, state, symbol, words} from "./common.js";
+import {html, memo, options, printed, state, symbol, words} from "./common.js";
 
 const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
+const RESHAPED = {"engine.cylinders": "cylinders", "engine.layout": "layout"}; // make another shaft, as `new` does
 
 export function put(raw, path, value) { // nothing takes the place away
   const last = path.at(-1), isEntry = typeof last === "number";
@@ -11,21 +12,30 @@ export function put(raw, path, value) { // nothing takes the place away
 }
 
 const isWrong = key => state.wrong.some(p => p.where === key);
-const said = key => [[state.wrong, "error bad color"], [state.last?.warnings ?? [], "warn color"]].map(([all, name]) =>
+const said = key => [[state.wrong, "error bad"], [state.last?.warnings ?? [], "warn"]].map(([all, name]) =>
   all.filter(p => p.where === key).map(p => html`<div class=${name}>${words(p)}</div>`));
 
-// What is typed: a number in the Russian or the English way, or words.
+// What is typed: a number in the Russian or the English way, finished or not, or words.
 function meant({number}, text) {
   const plain = text.trim().replace(",", ".").replace("−", "-");
-  return number && /^-?\d+(\.\d+)?$/.test(plain) ? Number(plain) : text.trim();
+  return number && /^-?(\d+\.?\d*|\.\d+)$/.test(plain) ? Number(plain) : text.trim();
 }
 
-export function section({title, key, path, entries, more, drawing, whole}, change) {
+// A group is made again only where something of its own has changed.
+export function section(group, change, reshape) {
+  const {key, path, entries} = group, all = entries.flat(), keys = new Set([key, ...all.map(f => f.key)]);
+  const own = problems => JSON.stringify(problems.filter(p => keys.has(p.where)));
+  const parts = [group, own(state.wrong), own(state.last?.warnings ?? []), state.find, state.open.has(key),
+    JSON.stringify(all.map(f => state.typed[f.key])), path && path.reduce((part, each) => part?.[each], state.raw)?.length];
+  return memo(`section ${key}`, parts, () => drawn(group, change, reshape));
+}
+
+function drawn({title, key, path, entries, more, drawing, whole}, change, reshape) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
   const list = path?.reduce((part, each) => part?.[each], state.raw) ?? [];
   const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
-  const fields = entry => entry.filter(found).map(f => field(f, change));
+  const fields = entry => entry.filter(found).map(f => field(f, change, reshape));
   return html`
     <details key=${key} data-key=${key} open=${wanted || [key, ...all.map(f => f.key)].some(isWrong) || state.open.has(key)}
       hidden=${wanted && !all.some(found)}
@@ -36,16 +46,16 @@ export function section({title, key, path, entries, more, drawing, whole}, chang
         <legend>${`№ ${i + 1} `}${button(`Убрать ${i + 1}`, [...path, i])}</legend>
         ${fields(entry)}
       </fieldset>`)}
-      <p class="tool-bar">${path && button("Добавить", [...path, list.length], more)}
+      <p class="bar">${path && button("Добавить", [...path, list.length], more)}
         ${whole && button("Убрать раздел", whole)}</p>
     </details>`;
 }
 
-function field(f, change) {
-  const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`;
+function field(f, change, reshape) {
+  const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`, reshaped = RESHAPED[f.key];
   const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
-  const onInput = e => type(e.target.value);
-  const told = {id, onInput, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": isWrong(f.key)};
+  const taken = reshaped ? {onChange: e => reshape({[reshaped]: e.target.value})} : {onInput: e => type(e.target.value)};
+  const told = {id, ...taken, title: f.key, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": String(isWrong(f.key))};
   const range = f.number && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
@@ -53,8 +63,8 @@ function field(f, change) {
       <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
       ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
         : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
-      <span>${f.unit}</span>${slider(f, text, type)}
-      <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать", f.key].filter(Boolean).join(" · ")}</small>
+      <span>${f.unit}</span>${!reshaped && slider(f, text, type)}
+      <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать"].filter(Boolean).join(" · ")}</small>
       <div id=${`e-${f.key}`}>${said(f.key)}</div>
     </div>`;
 }

@@ -57,3 +57,13 @@ export function seen({id, stamp, link}) { // the place of this tab, also after i
 export function remove(id) {
   try { delete localStorage[KEY + id]; } catch { /* nothing was there */ }
 }
+
+const JOBS = "kshm-jobs", MOST = 20; // ordered files, there after the page is loaded again
+
+export function storedJobs() {
+  try { return JSON.parse(localStorage[JOBS]).map(({id, title, name}) => ({id, title, name})); } catch { return []; }
+}
+
+export function storeJobs(jobs) {
+  try { localStorage[JOBS] = JSON.stringify(jobs.slice(0, MOST).map(({id, title, name}) => ({id, title, name}))); } catch { /* a private window */ }
+}

@@ -7,25 +7,36 @@ const isBusy = () => ["waiting", "running"].includes(state.own.state);
 async function look(changes) { // at the chosen class, again and again while something is done
   clearTimeout(state.later);
   set({news: "", ...changes});
-  const {classes = [], errors} = await ask("api/teacher");
+  const {classes = [], errors, isLost} = await ask("api/teacher");
+  if (isLost) return;
   set({inside: !errors, classes, chosen: state.chosen || classes[0]?.name});
-  if (state.chosen) set({own: await send(`api/teacher/${state.chosen}`)});
+  if (state.chosen && state.inside) set({own: await send(`api/teacher/${state.chosen}`)});
   if (state.own && isBusy()) state.later = setTimeout(look, 1000);
 }
 
 const act = async (path, data, news) => await send(path, data) && look({news});
 
+// Files go as one character a byte: the server reads them as the command does.
+const bytes = async file => Array.from(new Uint8Array(await file.arrayBuffer()), code => String.fromCharCode(code)).join("");
+
 async function issue(event) {
   const data = given(event);
-  for (const key of ["base.toml", "rubric.toml"]) {
-    const bytes = await data[key].arrayBuffer(), text = new TextDecoder().decode(bytes);
-    data[key] = text.includes("\ufffd") ? new TextDecoder("windows-1251").decode(bytes) : text;
-  }
-  data.roster = Array.from(new Uint8Array(await data.roster.arrayBuffer()), code => String.fromCharCode(code)).join("");
+  for (const key of ["base.toml", "rubric.toml", "roster"]) data[key] = await bytes(data[key]);
   const made = await send("api/teacher", data);
   if (!made) return;
   event.target.reset();
   await look({chosen: made.name, own: null});
+}
+
+async function forget() {
+  const {title, students} = state.own, count = students.filter(each => each.handed).length;
+  if (!confirm(`Удалить группу «${title}» со всеми работами (сдали: ${count})? Вернуть её будет нельзя.`)) return;
+  if (await send(door("delete"), {})) await look({chosen: "", own: null});
+}
+
+async function leave() {
+  await send("api/logout", {});
+  await look({chosen: "", own: null});
 }
 
 const status = ({state: now, students, rows, graded}) => // how many wait for a person, its lines say
@@ -40,7 +51,7 @@ const gradebook = rows => table("Ведомость", rows.map(each => {
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   const who = number ? `${number}. ${student}` : student; // there are namesakes
   return row([[page ? link(page, who, {target: "_blank"}) : who], [each.status],
-    [shown, "n"], [each.remark], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn color" : ""});
+    [shown, "n"], [each.remark], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn" : ""});
 }), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
@@ -69,33 +80,50 @@ const many = groups => table("Решить сразу для многих", grou
 html`<thead><tr>${["Группа", "Что и почему", "Формула", "Студенты", "Решение"].map(title =>
   html`<th scope="col">${title}</th>`)}</tr></thead>`);
 
-const issued = ({open, students, rows, groups, files}) => html`
-  <p class="tool-bar">
-    ${link("issued.zip", "Рабочие книги .zip", {class: "<button>", download: "issued.zip"})}
+const rules = changes => act(door("rules"), Object.assign(state.own, changes) && {
+  open: state.own.open, late: state.own.late, deadline: state.own.deadline});
+
+const student = each => {
+  const work = (file, title) => link(`works/${file}`, title, {download: file.split("/").at(-1)});
+  const before = each.earlier.map(one => html` ${work(one.file, moment(one.when))}`);
+  return row([[each.number, "n"], [html`<a class="own" href=${`s/${each.link}/`}>${each.name}</a>${each.group && `, ${each.group}`}`],
+    [each.handed ? html`${work(each.file, `сдал здесь ${moment(each.when)}`)}${each.late && html` <b class="bad">после срока</b>`}
+      ${before.length > 0 && html`<br /><small>раньше ещё ${before.length}:${before}</small>`}` : "—"],
+    [html`<details class="qr"><summary aria-label=${`QR-код: ${each.name}`}>QR</summary>
+      <img loading="lazy" width="180" height="180" alt=${`QR-код ссылки: ${each.name}`} src=${door(`qr/${each.number}.svg`)} /></details>`]],
+    {key: each.number});
+};
+
+const issued = ({open, late, deadline, students, rows, groups, files, address}) => html`
+  <p class="bar">
+    ${link("issued.zip", "Рабочие книги .zip", {class: "button", download: "issued.zip"})}
     ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
     ${picker("Ведомость Moodle .csv", ".csv", loaded("worksheet.csv"))}
-    <button id="grade" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button>
-    <label><input id="open" type="checkbox" checked=${open}
-      onChange=${e => act(door("open"), {open: state.own.open = e.target.checked})} /> студенты видят свои страницы</label></p>
-  <p id="results" class="tool-bar">${files.map(name => link(name, name,
+    <button id="grade" class="first" disabled=${isBusy()} onClick=${() => act(door("grade"), {})}>Проверить</button></p>
+  <p class="bar"><label>Срок <input id="deadline" type="datetime-local" value=${deadline ?? ""} onChange=${e => rules({deadline: e.target.value})} /></label>
+    <label><input id="open" type="checkbox" checked=${open} onChange=${e => rules({open: e.target.checked})} /> студенты видят свои страницы</label>
+    <label><input id="late" type="checkbox" checked=${late} onChange=${e => rules({late: e.target.checked})} /> и после этого принимать книги</label></p>
+  <p id="results" class="bar">${files.map(name => link(name, name,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${groups.length > 0 && many(groups)}
   ${rows.length > 0 && gradebook(rows)}
-  <details id="links" open><summary>Ссылки студентов</summary>
-    <ol>${students.map(each => html`<li><a href=${`s/${each.link}/`}>${each.name}</a>
-      ${each.group && `, ${each.group}`}${each.handed && ` — сдал здесь ${moment(each.when)}${each.earlier.length ? `, раньше ещё ${each.earlier.length}` : ""}`}</li>`)}</ol></details>`;
+  <details id="links" open><summary>${students.filter(each => each.handed).length} из ${students.length} сдали</summary>
+    <p class="bar"><a class="button" id="list" href=${door("links.csv")} download="links.csv">Все ссылки .csv</a>
+      <small>Ссылки открываются по адресу ${address}</small></p>
+    ${table("Ссылки студентов", students.map(student))}</details>
+  <p><button id="forget" disabled=${isBusy()} onClick=${forget}>Удалить группу</button></p>`;
 
 const asked = (title, name, more) => html`<label>${title} <input id=${name.split(".")[0]} name=${name} ...${more} /></label>`;
 
 const page = () => html`
-  <header class="f-row flex-wrap:wrap align-items:baseline margin:0 padding-block:0"><h1>Группы</h1>
-    <nav aria-label="Страницы"><a href="./">Двигатель</a></nav></header>
+  <header><h1>Группы</h1>
+    <nav aria-label="Страницы"><a href="./">Двигатель</a></nav>${state.inside && html`<button id="leave" onClick=${leave}>Выйти</button>`}</header>
   <main>
     ${alerts(state.errors)}
     ${state.inside === false && html`<form id="login" onSubmit=${e => act("api/login", given(e))}>
       ${asked("Ключ преподавателя", "token", {type: "password", autocomplete: "current-password", required: true})}
-      <button>Войти</button></form>`}
-    ${state.inside && html`<div id="inside">
+      <button class="first">Войти</button></form>`}
+    ${state.inside && html`<div id="inside" class="panel">
       <details id="newClass" open=${!state.chosen}><summary>Выдать новой группе</summary>
         <form id="issue" onSubmit=${issue}>
           ${asked("Название", "title", {required: true, maxlength: 120})}
@@ -103,15 +131,15 @@ const page = () => html`
           ${asked("Список группы, .xlsx или .csv", "roster", {type: "file", accept: ".xlsx,.csv,.txt", required: true})}
           ${asked("Рубрика, .toml (можно без неё)", "rubric.toml", {type: "file", accept: ".toml"})}
           ${asked("Зерно", "seed", {type: "number", defaultValue: 1, required: true})}
-          <button>Выдать</button></form></details>
+          <button class="first">Выдать</button></form></details>
       <p hidden=${!state.chosen}>${choice("Группа", "classes", state.classes.map(c => [c.name, `${c.title}, ${c.date.slice(0, 10)}`]),
         state.chosen, chosen => look({chosen, own: null}))}</p>
-      ${state.own && html`<div id="class"><p role="status">${state.news} ${status(state.own)}</p>
+      ${state.own && html`<div id="class" class="panel"><p role="status">${state.news} ${status(state.own)}</p>
         ${list(state.own.lines || [], state.own.state === "failed" ? "bad" : "warn")}
         ${state.own.students.length > 0 && issued(state.own)}</div>`}</div>`}
   </main>`;
 
-set({chosen: "", own: null}, page);
+set({chosen: "", own: null, again: look}, page);
 const token = decodeURIComponent(location.hash.slice(1)); // the printed address: the key goes to no log
 history.replaceState(null, "", location.pathname);
 if (token) await send("api/login", {token});

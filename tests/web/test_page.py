@@ -1,0 +1,304 @@
+"""The page as friends see it, on a screen and on a phone: motion, charts, layout, forms, files."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reports.inputs.template import list_samples
+from tests.web import axe
+from tests.web.conftest import Served, opened, photo, until
+
+BORE = "[id='f-geometry.bore_mm']"
+CHART = "Chart.getChart(document.querySelector('#chart-fig46 canvas'))"
+CP1251 = "# Двигатель\n[engine]\nname = 'Д'\n".encode("cp1251")
+
+
+@pytest.fixture(scope="module", params=[1366, 390])
+def page(browser: Any, served: Served, request: pytest.FixtureRequest) -> Iterator[Any]:
+    found = opened(browser, served.page, request.param)
+    found.wait_for_selector("#checks table")
+    yield found
+    assert not found.faults
+    found.context.close()
+
+
+@pytest.fixture(autouse=True)
+def textbook(page: Any) -> Iterator[None]:
+    yield
+    if page.evaluate("kshm.isPlaying"):
+        page.click("#play")
+    page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
+    settle(page)
+    page.evaluate("scrollTo(0, 0)")
+
+
+def settle(page: Any) -> None:
+    page.wait_for_timeout(50)
+    until(page, "!kshm.running && kshm.last && !kshm.wrong.length")
+
+
+def is_phone(page: Any) -> bool:
+    return bool(page.viewport_size["width"] < 500)
+
+
+# --- motion ---
+
+
+def test_the_mechanism_is_the_first_thing_and_stays_above_or_beside_the_fields(page: Any) -> None:
+    box = page.locator("#mechanism").bounding_box()
+    assert box["y"] >= 0 and box["y"] + box["height"] < 400
+    page.locator("[data-key=geometry] summary").scroll_into_view_if_needed()
+    page.locator("[data-key=masses] summary").evaluate("e => e.scrollIntoView({block: 'center'})")
+    stage, field = (page.locator(each).bounding_box()
+                    for each in ("#stage", "[data-key=masses] summary"))  # fmt: skip
+    assert stage["y"] >= 0 and stage["y"] + stage["height"] < 450
+    beside = field["x"] + field["width"] <= stage["x"]
+    assert beside or field["y"] >= stage["y"] + stage["height"]
+    assert beside != is_phone(page)
+
+
+@pytest.mark.parametrize(("sample", "cylinders"), [("yamz-238", 8), ("vw-1600", 4)])
+def test_all_cylinders_are_seen_at_once(page: Any, sample: str, cylinders: int) -> None:
+    page.evaluate("name => fresh(ask('api/new', {sample: name}))", sample)
+    until(page, f"kshm.last.moves.each.length === {cylinders} && !kshm.running")
+    for where in ("#mechanism", "#strip"):
+        assert page.locator(f"{where} .piston").count() == cylinders
+    places = (
+        """() => [...document.querySelectorAll("#strip .rod")].map(e => e.getAttribute("points"))"""
+    )
+    page.evaluate("turn(30)")
+    before = page.evaluate(places)
+    page.evaluate("turn(50)")
+    assert all(a != b for a, b in zip(before, page.evaluate(places), strict=True))
+    if not is_phone(page):
+        photo(page, f"motion-{sample}")
+
+
+def test_time_moves_it_and_what_does_not_change_is_kept(page: Any) -> None:
+    page.evaluate("""() => {
+        window.touched = 0;
+        const watch = new MutationObserver(all => { touched += all.length; });
+        for (const id of ["data", "files", "summary", "checks"])
+            watch.observe(document.getElementById(id),
+                {subtree: true, childList: true, attributes: true, characterData: true});
+        document.getElementById("pace").value = -0.5;
+        document.getElementById("pace").dispatchEvent(new Event("input"));
+        window.touched = 0;
+    }""")
+    page.click("#play")
+    page.evaluate("touched = 0")
+    now = "[performance.now(), kshm.phi]"
+    (began, first), _ = page.evaluate(now), page.wait_for_timeout(1500)
+    ended, last = page.evaluate(now)
+    assert page.evaluate("touched") == 0
+    page.click("#play")
+    turned = (last - first) % 720
+    assert turned == pytest.approx(180 * 10**-0.5 * (ended - began) / 1000, rel=0.2)
+    page.evaluate("kshm.pace = 1")
+
+
+# --- charts ---
+
+
+def test_a_chart_is_drawn_over_to_set_the_angle(page: Any) -> None:
+    plot = page.locator("#chart-fig46 .plot")
+    plot.evaluate("e => e.scrollIntoView({block: 'center'})")
+    box = plot.bounding_box()
+    page.mouse.move(box["x"] + box["width"] * 0.4, box["y"] + 50)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] * 0.7, box["y"] + 60, steps=3)
+    page.mouse.up()
+    phi = page.evaluate("kshm.phi")
+    assert 360 < phi < 600
+    assert page.inner_text("#angle") == f"{round(phi)}°"
+    lines = page.evaluate("""() => [...document.querySelectorAll("#charts .cursor")].map(e => {
+        const {scales} = Chart.getChart(e.parentElement.querySelector("canvas"));
+        return scales.x.getValueForPixel(new DOMMatrix(getComputedStyle(e).transform).e);
+    })""")
+    assert len(lines) == 3 and lines == pytest.approx([phi] * 3, abs=1)
+
+
+def test_wheel_and_fingers_zoom_and_the_legend_switches_curves(page: Any) -> None:
+    plot = page.locator("#chart-fig46 .plot")
+    plot.evaluate("e => e.scrollIntoView({block: 'center'})")
+    box, span = plot.bounding_box(), f"{CHART}.scales.x.max - {CHART}.scales.x.min"
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.wait_for_selector("#chart-fig46 .tip sub")  # symbols with their subscripts
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -400)
+    page.keyboard.up("Control")
+    until(page, f"{span} < 700")
+    page.click("#chart-fig46 .whole")
+    until(page, f"{span} === 720")
+    if is_phone(page):
+        touch = page.context.new_cdp_session(page)
+        for kind, half in (
+            ("touchStart", 20),
+            ("touchMove", 30),
+            ("touchMove", 60),
+            ("touchEnd", 0),
+        ):
+            points = [{"x": x - half, "y": y}, {"x": x + half, "y": y}] if half else []
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        until(page, f"{span} < 600")
+        page.click("#chart-fig46 .whole")
+    page.click("#chart-fig46 .legend button >> nth=1")
+    assert not page.evaluate(f"{CHART}.isDatasetVisible(1)")
+    assert page.get_attribute("#chart-fig46 .legend button >> nth=1", "aria-pressed") == "false"
+    page.click("#chart-fig46 .legend button >> nth=1")
+    assert page.evaluate(f"{CHART}.isDatasetVisible(1)")
+    page.click("#chart-fig46 [title='на весь экран']")
+    until(page, "document.fullscreenElement?.id === 'chart-fig46'")
+    page.evaluate("document.exitFullscreen()")
+    until(page, "!document.fullscreenElement")
+
+
+def test_sheets_are_named_in_words_and_a_vector_stands_before_and_after(page: Any) -> None:
+    names = page.locator("#sheet option").all_inner_texts()
+    assert "Набегающие моменты на коренные шейки" in names and "П4.4" not in names
+    assert page.locator("#sheet optgroup").count() > 4
+    page.select_option("#sheet", "Уравновешивание")
+    page.wait_for_selector("#chart-balance_L_vector canvas")
+    legend = page.locator("#chart-balance_L_vector .legend span").all_inner_texts()
+    assert legend == ["до", "после"]
+    page.select_option("#sheet", "П4.1")
+    page.wait_for_selector("#chart-fig46 canvas")
+
+
+# --- layout, samples, task ---
+
+
+def test_another_layout_is_one_tap_without_a_fault(page: Any) -> None:
+    before = page.evaluate("JSON.stringify(kshm.raw)")
+    steps = page.evaluate("kshm.past.length")
+    for shape, layout, count in (("V8", "v", 8), ("О4", "opposed", 4), ("Р6", "inline", 6)):
+        page.click(f"[data-shape={shape}]")
+        until(page, f"kshm.raw.engine.cylinders === {count} && !kshm.running")
+        settle(page)
+        assert page.evaluate("[kshm.raw.engine.layout, kshm.errors, kshm.wrong]") == [
+            layout,
+            [],
+            [],
+        ]
+        assert page.locator("#strip button").count() == count
+    page.click("[data-shape=Р3]")  # nothing is lost on the way back
+    until(page, "kshm.raw.engine.cylinders === 3 && !kshm.running")
+    assert page.evaluate("JSON.stringify(kshm.raw)") == before
+    for count in (6, 4):
+        page.click("#undo")
+        until(page, f"kshm.raw.engine.cylinders === {count} && !kshm.running")
+    assert page.evaluate("kshm.past.length") == steps + 2
+
+
+def test_the_number_of_cylinders_in_its_field_makes_another_shaft_too(page: Any) -> None:
+    page.locator("[data-key=engine]").evaluate("group => { group.open = true; }")
+    page.select_option("[id='f-engine.cylinders']", "5")
+    until(page, "kshm.raw.engine.cylinders === 5 && !kshm.running")
+    settle(page)
+    assert page.evaluate("kshm.raw.crankshaft.throw_angles_deg.length") == 5
+
+
+def test_samples_have_pictures_and_russian_names(page: Any) -> None:
+    page.locator("#new").evaluate("details => { details.open = true; }")
+    samples = page.locator("#samples button")
+    assert samples.count() == len(list_samples())
+    assert all(any("а" <= c <= "я" for c in text.lower()) for text in samples.all_inner_texts())
+    assert page.locator("#samples svg").count() == samples.count()
+    page.click("[data-sample=yamz-236]")
+    until(page, "kshm.raw.geometry.bore_mm === 130 && !kshm.running")
+
+
+def test_an_engine_from_a_task_sheet(page: Any) -> None:
+    page.locator("#new").evaluate("details => { details.open = true; }")
+    task = {"power": "60,5", "speed": "2200", "bore": "110", "stroke": "125", "lambda": "0,28",
+            "compression": "16"}  # fmt: skip
+    for key, text in task.items():
+        page.fill(f"#task [name={key}]", text)
+    page.get_by_role("button", name="Составить").click()
+    until(page, "kshm.raw.geometry.bore_mm === 110 && !kshm.running")
+    assert page.evaluate("kshm.raw.regime.speed_rpm") == 2200
+    assert page.evaluate("kshm.errors.length + kshm.wrong.length") == 0
+    for key in task:
+        page.fill(f"#task [name={key}]", "")
+
+
+# --- forms ---
+
+
+def test_a_number_that_is_being_typed_is_no_error(page: Any) -> None:
+    page.locator("[data-key=geometry]").evaluate("group => { group.open = true; }")
+    for text, value in (("9", 9), ("90", 90), ("90,", 90), ("90,5", 90.5)):
+        page.fill(BORE, text)
+        until(page, f"kshm.raw.geometry.bore_mm === {value} && !kshm.running")
+        assert page.locator(".error").count() == (text == "9")
+
+
+def test_a_wrong_value_is_told_in_words_and_keeps_the_last_picture(page: Any) -> None:
+    page.locator("[data-key=geometry]").evaluate("group => { group.open = true; }")
+    page.evaluate("turn(100)")
+    before = page.inner_html("#mechanism")
+    page.fill(BORE, "9999")
+    page.wait_for_selector("#errors li")
+    assert page.inner_text("#errors").startswith("Диаметр цилиндра: ")
+    assert "geometry" not in page.inner_text("body")
+    assert page.inner_html("#mechanism") == before
+    assert page.is_visible("#stale")
+    assert axe.faults(page) == []
+    page.emulate_media(color_scheme="light")
+    photo(page, "wrong")
+
+
+def test_after_a_lost_connection_the_page_mends_itself(page: Any) -> None:
+    page.locator("[data-key=geometry]").evaluate("group => { group.open = true; }")
+    page.context.set_offline(True)
+    page.fill(BORE, "91")
+    until(page, "document.getElementById('errors').textContent.includes('нет связи')")
+    assert page.is_visible("#mechanism")
+    page.context.set_offline(False)
+    until(page, "!document.getElementById('errors').textContent && !kshm.running")
+    assert page.evaluate("kshm.last.moves.bore") == 91
+    page.faults[:] = [fault for fault in page.faults if "ERR_INTERNET" not in fault]
+
+
+# --- files ---
+
+
+def test_jobs_are_named_survive_a_reload_and_can_be_cancelled(page: Any) -> None:
+    page.click("[data-kind=json]")
+    page.wait_for_selector("#jobs a[download$='.json']", timeout=60_000)
+    with page.expect_download() as download:
+        page.click("#jobs a")
+    assert download.value.suggested_filename == "Дизель 3Ч 8,8 9,4 (Гоц, раздел 2.9).json"
+    page.reload()
+    page.wait_for_selector("#jobs a[download$='.json']", timeout=60_000)
+    page.click("[data-kind=pdf]")
+    page.get_by_role("button", name="Не делать").click()
+    until(page, "document.querySelectorAll('#jobs > li').length === 1")
+    page.evaluate("localStorage.removeItem('kshm-jobs')")
+    page.evaluate("kshm.jobs.length = 0")
+
+
+def test_a_file_in_another_encoding_is_refused_in_the_words_of_check(page: Any) -> None:
+    page.locator("#new").evaluate("details => { details.open = true; }")
+    page.set_input_files("#upload", {"name": "Д.toml", "mimeType": "", "buffer": CP1251})
+    page.wait_for_selector("#errors li")
+    assert "строка 1: не UTF-8 (возможно, Windows-1251)" in page.inner_text("#errors")
+    page.faults[:] = [fault for fault in page.faults if "422" not in fault]
+
+
+def test_a_picture_and_a_clip_of_the_mechanism(page: Any, tmp_path: Path) -> None:
+    with page.expect_download() as download:
+        page.click("#picture")
+    picture = Path(download.value.path()).read_bytes()
+    assert picture.startswith(b"\x89PNG")
+    assert max(struct.unpack(">II", picture[16:24])) == 1200
+    with page.expect_download(timeout=60_000) as download:
+        page.click("#clip")
+    assert download.value.suggested_filename.endswith((".webm", ".mp4"))
+    assert len(Path(download.value.path()).read_bytes()) > 20_000

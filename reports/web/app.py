@@ -54,7 +54,8 @@ async def choices(_: Request) -> Data:
     """What may be chosen before there is an engine."""
     chapters = [chapter.colour for chapter in contents_of().chapters]
     return {"samples": engine.samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
-            "fields": engine.FORM, "shapes": engine.SHAPES, "palette": [*COLOURS, chapters[2], chapters[7]],
+            "fields": engine.FORM, "shapes": engine.SHAPES,
+            "palette": [*COLOURS, chapters[2], chapters[7]],
             "files": {kind: title for kind, (title, _) in OFFERED.items()}}  # fmt: skip
 
 

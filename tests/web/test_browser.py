@@ -321,10 +321,12 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.keyboard.press("Enter")
     tab_to(page, "[data-key='report.chapters'] button")
     page.keyboard.press("Enter")
-    until(page, "kshm.raw.report.chapters?.[0] === 'cycle' && !kshm.running")
+    until(page, "kshm.raw.report.chapters?.length === 1 && !kshm.running")
     page.keyboard.press("Shift+Tab")
-    page.keyboard.press("ArrowDown")  # one chapter: the less to wait for
-    until(page, "kshm.raw.report.chapters[0] === 'kinematics' && !kshm.running")
+    chapter = "kshm.raw.report.chapters[0]"  # one: the less to wait for
+    while (first := page.evaluate(chapter)) != "kinematics":
+        page.keyboard.press("ArrowDown")
+        until(page, f"{chapter} !== '{first}' && !kshm.running")
     pdf, book = taken(page, "xlsx", "pdf")
     assert pdf.startswith(b"%PDF")
 

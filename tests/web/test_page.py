@@ -80,6 +80,7 @@ def test_all_cylinders_are_seen_at_once(page: Any, sample: str, cylinders: int) 
 
 
 def test_time_moves_it_and_what_does_not_change_is_kept(page: Any) -> None:
+    page.wait_for_timeout(1500)  # the checks come later
     page.evaluate("""() => {
         window.touched = 0;
         const watch = new MutationObserver(all => { touched += all.length; });

@@ -139,14 +139,11 @@ def test_wheel_and_fingers_zoom_and_the_legend_switches_curves(page: Any) -> Non
     until(page, f"{span} === 720")
     if is_phone(page):
         touch = page.context.new_cdp_session(page)
-        for kind, half in (
-            ("touchStart", 20),
-            ("touchMove", 30),
-            ("touchMove", 60),
-            ("touchEnd", 0),
-        ):
+        for half in (20, 25, 30, 40, 50, 60, 0):
             points = [{"x": x - half, "y": y}, {"x": x + half, "y": y}] if half else []
+            kind = {20: "touchStart", 0: "touchEnd"}.get(half, "touchMove")
             touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+            page.wait_for_timeout(60)
         until(page, f"{span} < 600")
         page.click("#chart-fig46 .whole")
     page.click("#chart-fig46 .legend button >> nth=1")

@@ -118,7 +118,7 @@ def _served(
     from reports.web.app import create_app
     from reports.web.classes import token_of
     from reports.web.doors import Settings
-    from reports.web.shares import Connection
+    from reports.web.shares import Connection, ProxyConnection
 
     wide = host in ("0.0.0.0", "::")
     hosts = (socket.gethostname(), "*") if wide else (host,)
@@ -141,9 +141,9 @@ def _served(
 
         segno.make(f"{shown[0]}/", micro=False).terminal(compact=True)
     click.echo("Остановить: Ctrl-C", err=True)
-    Connection.trusted = bool(public)
+    kind = ProxyConnection if public else Connection
     config = uvicorn.Config(
-        app, log_level="warning", access_log=False, server_header=False, http=Connection, ws="none",
+        app, log_level="warning", access_log=False, server_header=False, http=kind, ws="none",
         limit_concurrency=1000, timeout_keep_alive=30, timeout_graceful_shutdown=3,
         ssl_certfile=certificate, ssl_keyfile=None if key is None else str(key),
     )  # fmt: skip

@@ -149,7 +149,7 @@ class Connection(H11Protocol):
     """A connection whose heads come in time, of an address that has not too many."""
 
     count: ClassVar[Counter[str]] = Counter()
-    trusted: ClassVar[bool] = False  # behind a proxy all have its address
+    most: ClassVar[float] = MOST_CONNECTIONS
 
     def connection_made(self, transport: Any) -> None:  # noqa: ANN401
         """Begin, or refuse in one answer."""
@@ -157,7 +157,7 @@ class Connection(H11Protocol):
         self.address = self.client[0] if self.client else ""
         self.count[self.address] += 1
         self.timer: asyncio.TimerHandle | None = None
-        if self.count[self.address] > MOST_CONNECTIONS and not self.trusted:
+        if self.count[self.address] > self.most:
             problem = Problem("", "с вашего адреса слишком много соединений", "закройте лишние")
             body = json.dumps({"errors": [asdict(problem)]}).encode()
             transport.write(
@@ -188,3 +188,9 @@ class Connection(H11Protocol):
         elif not is_idle and self.timer is not None:
             self.timer.cancel()
             self.timer = None
+
+
+class ProxyConnection(Connection):
+    """A connection of a proxy, which has them all and counts them itself."""
+
+    most = math.inf

@@ -223,9 +223,10 @@ class _Making:
 
 
 def _workbook(model: Model, values: Values) -> bytes:
+    from reports.workbook.course import short_model
     from reports.workbook.write import workbook_bytes
 
-    return workbook_bytes(model, values)
+    return workbook_bytes(short_model(model), values)
 
 
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:

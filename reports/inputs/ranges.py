@@ -11,7 +11,7 @@ from reports.shared.errors import Problem, one_line
 
 SECTION = "variants"
 MAX_VALUES = 100_000
-_IDLE = ("report", "sheet", "checks")  # sections that nothing is calculated from
+_IDLE = ("report", "sheet", "workbook", "checks")  # sections that nothing is calculated from
 
 
 @dataclass(frozen=True, slots=True)

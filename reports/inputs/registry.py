@@ -31,6 +31,7 @@ from reports.inputs.sections.report import (
     ReferenceSection,
     ReportSection,
     SheetSection,
+    WorkbookSection,
 )
 from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import TorsionSection
@@ -215,6 +216,7 @@ _ALL = (
         lists={"diagrams": ListKey("Лист динамики", "sheet_diagram_{n}")},
         words=("Лист A1 или A2 с диаграммами: kshm build --only sheet (PDF и DXF):",),
     ),
+    InputSection("workbook", "Состав книги", WorkbookSection, optional=True),
     InputSection(
         "checks",
         "Принятые расхождения",

@@ -20,7 +20,7 @@ from kshm.nomenclature.quantity import Quantity, quantity
 from kshm.results.regimes import regime_key
 from kshm.results.solution import Solution, solve
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.sections.report import ReportSection
+from reports.inputs.sections.report import ReportSection, WorkbookSection
 from reports.inputs.to_si.engine import engine_and_cycle, smallness_of
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
@@ -40,7 +40,8 @@ def solved(model: InputFile, source: str = "") -> Solution:
         raise InputError(Problem(where, film_lost(error), _MEND_FILM)) from None
 
 
-_PRINTED = {"report": ReportSection(), "sheet": None}  # sections that change no number
+# Sections that change no number.
+_PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSection()}
 
 
 @lru_cache(maxsize=16)  # the doors, the sheets and the report ask for the same and for finer steps

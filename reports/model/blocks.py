@@ -163,7 +163,8 @@ class Model:
 
     ``remarks`` are the lines to stand beside the checks: what is odd about the input, what
     is odd and explained, what is not calculated and why.  ``chapters`` and ``own_nodes``
-    are those of own books.
+    are those of own books.  Of a short workbook ``left_out`` are the sheets that it has not,
+    ``folded`` those of which it has what other formulas need.
     """
 
     input: InputFile
@@ -173,6 +174,8 @@ class Model:
     remarks: tuple[str, ...] = ()
     chapters: tuple[OwnChapter, ...] = ()
     own_nodes: frozenset[str] = frozenset()  # of own books: what no solver knows
+    left_out: tuple[str, ...] = ()
+    folded: frozenset[str] = frozenset()
 
     @cached_property
     def tables(self) -> Mapping[str, TableSpec]:

@@ -10,7 +10,7 @@ from reports.model.book_text import BookError, Shelf, house_shelf
 
 _PLACE = re.compile(r"^place (before|chain|after) (\d+)$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)
-_SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+): (.+)$", re.MULTILINE)
+_SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+)( full)?: (.+)$", re.MULTILINE)
 MOST_TITLE = 28  # of a sheet: the number of a regime may follow
 _NUMBER = re.compile(r"\s*\(?\{\{.*\}\}\)?$")  # of a journal, filled in for each
 
@@ -30,10 +30,14 @@ class SheetChapter:
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """Books of each part of the model and chapters of the workbook, in order."""
+    """Books of each part of the model and chapters of the workbook, in order.
+
+    ``beyond_course`` are the sheets that only the full workbook has.
+    """
 
     parts: dict[str, tuple[str, ...]]
     chapters: tuple[SheetChapter, ...]
+    beyond_course: frozenset[str] = frozenset()
 
 
 @lru_cache(maxsize=8)
@@ -50,8 +54,11 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
         parts[part].append(name)
     whole = "\n".join(texts.values())
     sheets: dict[str, list[tuple[int, str, str]]] = {}
-    for title, chapter, order, heading in _SHEET.findall(whole):
-        sheets.setdefault(chapter, []).append((int(order), _NUMBER.sub("", title), heading))
+    beyond_course: set[str] = set()
+    for title, chapter, order, full, heading in _SHEET.findall(whole):
+        name = _NUMBER.sub("", title)
+        sheets.setdefault(chapter, []).append((int(order), name, heading))
+        beyond_course |= {name} if full else set()
     if shelf is not None and shelf.own:
         _check_chapters(shelf, {title for title, _, _ in _CHAPTER.findall(whole)})
     return Contents(
@@ -60,6 +67,7 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
             SheetChapter(title, colour, _ordered(sheets.get(title, [])), bool(smooth))
             for title, colour, smooth in _CHAPTER.findall(whole)
         ),
+        frozenset(beyond_course),
     )
 
 

@@ -39,7 +39,7 @@ def left_out_note(model: InputFile) -> str:
     sheets = list(dict.fromkeys(block.sheet for block in left_out(model)))
     if not sheets:
         return ""
-    # «Уравновешивание» stands for «Уравновешивание, итоги» too.
+    # «Уравновешивание» stands for «Уравновешивание, итоги» and «…, суммы» too.
     named = [f"«{s}»" for s in sheets if (base := s.partition(", ")[0]) == s or base not in sheets]
     return (
         f"Не рассчитано из-за {without_orders(model)} (ряды по порядкам описывают центральный "

@@ -50,6 +50,12 @@ def chapter_of(sheet: str, contents: Contents | None = None) -> SheetChapter:
     return (contents or contents_of()).chapters[place_of(sheet, contents)[0]]
 
 
+def in_course(sheet: str, contents: Contents) -> bool:
+    """Whether the workbook of a course project has a sheet."""
+    chapter, place, *_ = place_of(sheet, contents)
+    return contents.chapters[chapter].sheets[place][0] not in contents.beyond_course
+
+
 def is_smooth_sheet(sheet: str, contents: Contents | None = None) -> bool:
     """Whether the curves of a sheet have no corners; those of other kinds of books may."""
     try:

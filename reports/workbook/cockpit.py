@@ -19,10 +19,10 @@ from reports.model.shape import Shape, pin_figure, pin_name
 from reports.shared.russian import capital
 from reports.tables.left_out import left_out_note
 from reports.workbook import styles
-from reports.workbook.chapters import chapter_of, contents_for, heading
+from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import HEADER_ROW, NOTE_ROW, SOURCE_COLUMN, Cell
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, NOTE_ROW, SOURCE_COLUMN, Cell
 from reports.workbook.places import (
     GAP,
     Box,
@@ -66,6 +66,7 @@ _WIDTHS = {"A": 52, "B": 11, "C": 11, "D": 8, "E": 1.5}
 _TOP = 2
 _LINKS, _ACROSS, _EACH = 6, 4, 3  # first column, chapters in a row, columns that each takes
 _CHARTS_TOP = 5  # row
+_HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 
 
@@ -91,6 +92,7 @@ def write_cockpit(
     _chapters(sheet, titles, contents_for(model))
     boxes = _charts(sheet, model, writer)
     row = _sheets(sheet, titles, model, row + 1)
+    row = _left_out(sheet, writer, row)
     _legend(sheet, model, legend, row + 1)
     return boxes
 
@@ -278,6 +280,32 @@ def _sheets(sheet: Worksheet, titles: Sequence[str], model: Model, row: int) -> 
             row += 1
             link(sheet, Cell(sheet.title, row, 1), title, title)
             sheet.cell(row, 2, heading(title, contents)).style = styles.LINE
+    return row + 1
+
+
+def _left_out(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
+    """Sheets that only the full book has, by chapters, and the cell that asks for it."""
+    model, contents = writer.layout.model, contents_for(writer.layout.model)
+    if not (model.left_out or model.folded):
+        return row
+    row += 1
+    sheet.cell(row, 1, "Есть только в полной книге").style = styles.SUBTITLE
+    beyond = ordered((*model.left_out, *model.folded), contents)
+    for chapter, group in groupby(beyond, lambda title: chapter_of(title, contents)):
+        row += 1
+        sheet.cell(row, 1, chapter.title).style = styles.TEXT
+        sheet.cell(row, 2, "; ".join(group)).style = styles.LINE
+    about = model.fields["workbook_sheets"]
+    row += 1
+    link(sheet, Cell(sheet.title, row, 1), about.title, INPUT_SHEET,
+         writer.layout.cells[about.name].coordinate)  # fmt: skip
+    section, key = about.path
+    choices = about.choices or {}
+    text = f"для полной — «{choices['full']}», затем kshm build; в файле: [{section}] {key}"
+    sheet.cell(row, 2, f'{text} = "full"').style = styles.NOTE
+    if model.folded:
+        row += 1
+        sheet.cell(row, 2, _HIDDEN).style = styles.NOTE
     return row + 1
 
 

@@ -41,7 +41,7 @@ _MAIN_NAMES = {
     "regime_speed_rpm", "gas_max_pressure_mpa", "cycle_max_pressure_mpa", "cycle_power_kw",
     "masses_reciprocating_kg", "masses_piston_group_kg", "masses_rod_kg",
 }  # fmt: skip
-_ORDER = {"engine": 0, "report": 3}
+_ORDER = {"engine": 0, "report": 3, "workbook": 3}
 
 
 def arranged(inputs: Sequence[Field]) -> list[Field]:

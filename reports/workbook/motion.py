@@ -72,6 +72,13 @@ class _View(RowReferences):
         return self.values[key] if key in self.values else self.inputs[key]
 
 
+def nodes_read(model: Model) -> list[str]:
+    """Columns of the cylinders that the sheet shows."""
+    cylinders = range(1, Shape.of(model.input).cylinders + 1)
+    nodes = (f"{cylinder_table_id(i)}.{of}" for i in cylinders for of in _FORCES.values())
+    return [node for node in nodes if node in model.nodes]
+
+
 def can_move(writer: BlockWriter) -> bool:
     """Whether the book has the numbers of all tables that the sheet shows."""
     columns = writer.values.columns

@@ -259,7 +259,11 @@ def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: Blo
 def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: BlockWriter) -> str:
     """A verdict for each sheet; their range."""
     for at, (title, area_of) in enumerate(areas.items(), row):
-        link(sheet, Cell(sheet.title, at, TITLE_COLUMN), f"{title}: без ошибок в формулах", title)
+        text = f"{title}: без ошибок в формулах"
+        if sheet.parent[title].sheet_state == "visible":
+            link(sheet, Cell(sheet.title, at, TITLE_COLUMN), text, title)
+        else:
+            sheet.cell(at, TITLE_COLUMN, text).style = styles.TEXT
         formula = f'=IF(ISERROR(SUM({area_of})),"{NO}","{YES}")'
         _say(sheet, Cell(sheet.title, at, UNIT_COLUMN), formula, writer)
     return column_range(sheet.title, UNIT_COLUMN, row, row + len(areas) - 1)

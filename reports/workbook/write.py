@@ -198,17 +198,21 @@ def assemble(
             )
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
         cockpit.write_what_if(book, model, writer)
+    _fold(book, model)
     verdict = write_verdict(book, model, writer)
+    shown = [sheet.title for sheet in book.worksheets if sheet.sheet_state == "visible"]
     boxes[CONTENTS_SHEET] = write_cockpit(
-        book[CONTENTS_SHEET], book.sheetnames, model, writer, legend, verdict
+        book[CONTENTS_SHEET], shown, model, writer, legend, verdict
     )
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
         styles.look(sheet, chapter_of(sheet.title, contents).colour)
+        if sheet.sheet_state != "visible":
+            continue  # without an area no program prints it
         # Of the points under the charts of the mechanism nobody needs a print.
         alone = sheet.title == motion.SHEET
         set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)
-    if WAVES_SHEET in book.sheetnames:
+    if WAVES_SHEET in shown:
         print_beginning(book[WAVES_SHEET])
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:
@@ -217,6 +221,16 @@ def assemble(
     book.properties.title = f"{model.input.engine.name}: кинематика и динамика КШМ"
     book.calculation.fullCalcOnLoad = True
     return book
+
+
+def _fold(book: Workbook, model: Model) -> None:
+    """Hide the sheets of a short book that only serve formulas, behind all others."""
+    if not (model.left_out or model.folded):
+        return
+    for sheet in list(book.worksheets):
+        if sheet.title in {WAVES_SHEET, *model.folded}:
+            sheet.sheet_state = "hidden"
+            book.move_sheet(sheet, len(book.worksheets))
 
 
 def saved(book: Workbook, caches: CacheValues) -> bytes:

@@ -100,6 +100,7 @@ def test_choices_and_structure(raw):
         "calculation_step_deg",
         "calculation_wear_rays",
         "gas_source",
+        "workbook_sheets",
     }
     for field in found.values():
         if field.choices is not None:

@@ -25,6 +25,7 @@ from reports.shared.russian import capital
 from reports.studies.validation_book import validate
 from reports.studies.validation_page import markdown
 from reports.tables.registry import build_model
+from reports.workbook.chapters import contents_for, in_course
 from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
 from tools.manual.drawings import write_drawings
 from tools.manual.words import (
@@ -32,6 +33,7 @@ from tools.manual.words import (
     INPUT_HEAD,
     SAME_BLOCK,
     SECTION_NOTES,
+    SHEET_BEYOND,
     SHEET_CHARTS,
     SHEET_FROM,
     SHEET_HEADS,
@@ -178,6 +180,8 @@ def _sheets(model: Model, sample: str, seen: _Seen) -> Iterator[str]:
             continue
         seen.sheets.add(shape)
         yield f"## {sheet}"
+        if not in_course(sheet, contents_for(model)):
+            yield SHEET_BEYOND
         if shape != sheet:
             yield SHEET_LIKE
         if sample != FIRST_SAMPLE:

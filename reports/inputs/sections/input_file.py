@@ -25,6 +25,7 @@ from reports.inputs.sections.report import (
     ReferenceSection,
     ReportSection,
     SheetSection,
+    WorkbookSection,
 )
 from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import TorsionSection
@@ -152,6 +153,7 @@ class InputFile(Strictly):
     strength: StrengthSection | None = None
     reference: ReferenceSection | None = None
     sheet: SheetSection | None = None
+    workbook: WorkbookSection = Field(default_factory=WorkbookSection)
     checks: ChecksSection | None = None
     regimes: tuple[RegimeSection, ...] = ()
     books: tuple[tuple[str, str], ...] = ()  # names and texts of own books

@@ -1,4 +1,4 @@
-"""Sections that change no number of the engine: [report], [sheet], [reference], [checks]."""
+"""Sections that change no number: [report], [sheet], [workbook], [reference], [checks]."""
 
 from __future__ import annotations
 
@@ -128,6 +128,17 @@ class SheetSection(Strictly):
     size: Literal["A1", "A2"] = choice("Формат листа", SHEETS, "A1")
     orientation: Literal["landscape", "portrait"] = choice("Ориентация листа", WAYS, "landscape")
     diagrams: tuple[Diagram, ...] | None = choice("Лист: место {n}", DIAGRAMS, None)
+
+
+SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}
+
+
+class WorkbookSection(Strictly):
+    """[workbook]: which sheets the Excel workbook has."""
+
+    sheets: Literal["course", "full"] = choice(
+        "Листы книги Excel", SHEET_SETS, "course", structural=True
+    )
 
 
 MOST_LAMBDAS = 12

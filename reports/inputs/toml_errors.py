@@ -179,6 +179,8 @@ def _number(line: str) -> Iterator[Words]:
         yield f"число записано как {value}", f"напишите {float(mended):g}"
     elif re.match(r"[-+]?\d[\d.]*[;,\s]\s*[A-Za-z_]\w*\s*=", value):
         yield "две записи на одной строке", "пишите каждый ключ на своей строке"
+    elif letter := re.match(r"[-+]?\d[\d.,]*([^\W\d_a-zA-Z])[\d.,]", value):
+        yield f"в числе {value} буква «{letter[1]}»", "пишите число цифрами"
     elif value.startswith("="):
         yield "формула вместо числа", "в файле пишут готовое число, формулы — в книге Excel"
 

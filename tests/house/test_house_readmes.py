@@ -6,7 +6,7 @@ import re
 from collections import Counter
 
 from reports.studies.validation_book import validate
-from tests.manual.pages import READMES, ROOT, commands
+from tests.manual.pages import READMES, ROOT, blocks, commands
 
 
 def numbers(page):
@@ -66,3 +66,13 @@ def test_the_first_page_is_short_and_leads_to_every_page_of_the_manual():
         assert 'reports.load("samples/gots-diesel.toml")' in text
     listed = links(ROOT / "docs" / "index.md", r"\]\(([\w-]+\.md)\)")
     assert set(listed) == {page.name for page in (ROOT / "docs").glob("*.md")} - {"index.md"}
+
+
+def test_the_first_lines_of_python_say_what_stands_beside_them():
+    for page in READMES:
+        (block,) = blocks(page, "python")
+        names: dict = {}
+        exec(compile(block, str(page), "exec"), names)
+        peak = names["solution"].loads.crankpin_max
+        said = re.search(r"# ([\d.,]+) (?:kN|кН)", block)[1]
+        assert float(said.replace(",", ".")) == round(float(peak), 1)

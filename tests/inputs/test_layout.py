@@ -83,102 +83,34 @@ def test_opposed_engine_alternates_its_throws(raw):
 
 
 REFUSED = {
-    "unreadable order": (
-        "four", "crankshaft.firing_order", "один, три",
-        "crankshaft.firing_order: порядок работы записан непонятно; пример записи: \"1-3-4-2\"",
-    ),
-    "order without a cylinder": (
-        "four", "crankshaft.firing_order", "1-3-4-4",
-        "crankshaft.firing_order: в порядке работы 1-3-4-4 не все цилиндры по одному разу; "
-        "назовите каждый цилиндр от 1 до 4 один раз",
-    ),
-    "order against offsets": (
-        "basic", "crankshaft.firing_order", "1-3-2",
-        "crankshaft.firing_order: порядок работы 1-3-2 противоречит firing_offsets_deg, "
-        "по которым порядок 1-2-3; оставьте один из двух ключей",
-    ),
-    "odd v": (
-        "v_six", "engine.cylinders", 5,
-        "engine.cylinders: число цилиндров 5 нечётное, а рядов два; "
-        "задайте чётное число или layout = \"inline\"",
-    ),
-    "bank angle against offsets": (
-        "v_six", "crankshaft.bank_angle_deg", 60.0,
-        "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
-        "90° (firing_offsets_deg[4]); по γ = 60° − θ (mod 360) нужно 330°",
-    ),
-    "split pin against offsets": (
-        "v_six", "crankshaft.split_pin_deg", 30.0,
-        "crankshaft.throw_angles_deg[1]: угол колена 0° не соответствует началу рабочего хода "
-        "90° (firing_offsets_deg[4]); по γ = 90° − θ − δ, δ = 30°, (mod 360) нужно 330°",
-    ),
-    "bank angle in line": (
-        "basic", "crankshaft.bank_angle_deg", 90.0,
-        "crankshaft.bank_angle_deg: у рядного двигателя один ряд цилиндров; "
-        "удалите ключ или задайте layout = \"v\"",
-    ),
-    "no bank angle": (
-        "v_six", "crankshaft.bank_angle_deg", None,
-        "crankshaft.bank_angle_deg: угол развала не задан; V-образному двигателю он нужен",
-    ),
-    "too few webs": (
-        "v_six", "crankshaft.webs", [],
-        "crankshaft.webs: записей 0, а нужно 6; по две щеки на колено, цилиндров 6, колен 3",
-    ),
-    "offset that locks": (
-        "basic", "geometry.crank_offset_mm", 101.0,
-        "geometry.crank_offset_mm: смещение 101 мм не меньше L − r = 101 мм: "
-        "механизм не провернётся; уменьшите смещение или удлините шатун",
-    ),
-    "pin offset that locks": (
-        "basic", "geometry.pin_offset_mm", -150.0,
-        "geometry.pin_offset_mm: смещение −150 мм не меньше L − r = 101 мм: "
-        "механизм не провернётся; уменьшите смещение или удлините шатун",
-    ),
-    "short articulated rod": (
-        "articulated", "articulated.rod_length_mm", 40.0,
-        "articulated.rod_length_mm: прицепной шатун 40 мм не достаёт до оси своего цилиндра: "
-        "его палец отходит от неё на 49,84 мм; "
-        "удлините шатун или поставьте палец ближе к углу развала",
-    ),
-    "articulated pin beyond the master rod": (
-        "articulated", "articulated.radius_mm", 150.0,
-        "articulated.radius_mm: палец прицепного шатуна дальше длины главного (148 мм); "
-        "уменьшите расстояние ρ",
-    ),
+    "unreadable order": ("four", "crankshaft.firing_order", "один, три"),
+    "order without a cylinder": ("four", "crankshaft.firing_order", "1-3-4-4"),
+    "order against offsets": ("basic", "crankshaft.firing_order", "1-3-2"),
+    "odd v": ("v_six", "engine.cylinders", 5),
+    "bank angle against offsets": ("v_six", "crankshaft.bank_angle_deg", 60.0),
+    "split pin against offsets": ("v_six", "crankshaft.split_pin_deg", 30.0),
+    "bank angle in line": ("basic", "crankshaft.bank_angle_deg", 90.0),
+    "no bank angle": ("v_six", "crankshaft.bank_angle_deg", None),
+    "too few webs": ("v_six", "crankshaft.webs", []),
+    "offset that locks": ("basic", "geometry.crank_offset_mm", 101.0),
+    "pin offset that locks": ("basic", "geometry.pin_offset_mm", -150.0),
+    "short articulated rod": ("articulated", "articulated.rod_length_mm", 40.0),
+    "articulated pin beyond the master rod": ("articulated", "articulated.radius_mm", 150.0),
     "articulated in line": (
         "basic", "articulated",
         {"rod_length_mm": 110.0, "radius_mm": 38.0, "angle_deg": 60.0,
          "reciprocating_kg": 1.9, "big_end_kg": 0.6},
-        "articulated: прицепные шатуны бывают только у V-образного двигателя; "
-        "удалите раздел или задайте layout = \"v\"",
     ),
-    "scavenging in a four-stroke": (
-        "basic", "gas.scavenge_start_before_bdc_deg", 60.0,
-        "gas.scavenge_start_before_bdc_deg: продувка есть только у двухтактного двигателя; "
-        "удалите ключ или задайте strokes = 2",
-    ),
-    "no scavenging": (
-        "two_stroke", "gas.scavenge_start_before_bdc_deg", None,
-        "gas.scavenge_start_before_bdc_deg: начало продувки не задано; "
-        "двухтактному двигателю оно нужно",
-    ),
-    "scavenging before the exhaust": (
-        "two_stroke", "gas.scavenge_start_before_bdc_deg", 85.0,
-        "gas.scavenge_start_before_bdc_deg: продувка начинается за 85° до НМТ, не позже выпуска "
-        "(80°); выпуск должен открываться раньше продувки",
-    ),
-    "offset beyond the cycle": (
-        "two_stroke", "crankshaft.firing_offsets_deg", [0.0, 120.0, 600.0],
-        "crankshaft.firing_offsets_deg[3]: начало рабочего хода 600° вне цикла двухтактного "
-        "двигателя; допустимо до 360°",
-    ),
+    "scavenging in a four-stroke": ("basic", "gas.scavenge_start_before_bdc_deg", 60.0),
+    "no scavenging": ("two_stroke", "gas.scavenge_start_before_bdc_deg", None),
+    "scavenging before the exhaust": ("two_stroke", "gas.scavenge_start_before_bdc_deg", 85.0),
+    "offset beyond the cycle": ("two_stroke", "crankshaft.firing_offsets_deg", [0.0, 120.0, 600.0]),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_refused_with_one_line(case, raw, refused):
-    maker, path, value, message = REFUSED[case]
+def test_refused_with_one_line(case, raw, refused, snapshot):
+    maker, path, value = REFUSED[case]
     raw = MAKERS[maker](raw)
     section, _, key = path.partition(".")
     if not key:
@@ -187,7 +119,8 @@ def test_refused_with_one_line(case, raw, refused):
         del raw[section][key]
     else:
         raw[section][key] = value
-    assert refused(raw) == [f"f.toml: {message}"]
+    (line,) = refused(raw)
+    assert line == snapshot
 
 
 @pytest.mark.parametrize("maker", MAKERS)

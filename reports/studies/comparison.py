@@ -17,7 +17,7 @@ from reports.model.charts import PHI
 from reports.model.shape import pin_name, pin_table
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import NBSP, capital, fixed, joined, short, uncapital, written
-from reports.tables.unused import given_by_cycle
+from reports.tables.cycle_members import given_by_cycle
 
 if TYPE_CHECKING:
     from kshm.results.solution import Solution

@@ -24,8 +24,7 @@ from reports.model.book_text import BookLine, shelf_of
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
-from reports.tables.cycle_names import section_of, sizes_are_found
-from reports.tables.cycle_ranges import ranges_of
+from reports.tables.cycle_members import ranges_of, section_of, sizes_are_found
 from reports.tables.oil_members import oil_names, safety_names
 from reports.tables.strength_members import strength_names
 from reports.tables.torsion_members import torsion_names

@@ -1,4 +1,4 @@
-"""Tables that an engine with an offset or with articulated rods does without, and why."""
+"""What a calculation leaves out: tables of an offset or hung engine, inputs without effect."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.model.blocks import Block
 from reports.model.shape import Scope, Shape
 from reports.tables.contexts import books
+from reports.tables.cycle_members import given_by_cycle
 
 _BY_ORDERS = ("piston_motion", "balance", "balance_orders", "firing", "inertia", "torque_orders")
+_DEVICES = frozenset({"counterweight_share", "first_shafts_share", "second_shafts_share",
+                      "suppression", "shaft_radius_mm"})  # fmt: skip
 
 
 def left_out(model: InputFile) -> tuple[Block, ...]:
@@ -45,3 +48,19 @@ def left_out_note(model: InputFile) -> str:
         f"Не рассчитано из-за {without_orders(model)} (ряды по порядкам описывают центральный "
         f"механизм с одинаковыми шатунами), в книге нет листов {', '.join(named)}"
     )
+
+
+def unused(model: InputFile) -> set[str]:
+    """Names of the defaults of the input that the calculation does not take."""
+    devices = set(_DEVICES)
+    if model.masses.rod_kg is not None:
+        devices.add("rod_small_end_share")
+    unused_keys = given_by_cycle(model) | {
+        f"balance_{key}" for key in devices - model.balance.asked
+    }
+    if model.regime.indicated_power_kw is None:
+        unused_keys.add("regime_fullness")
+    for end in ("nose", "rear"):  # no such counterweight: neither its angle nor its arm counts
+        if not getattr(model.crankshaft, f"{end}_mass_kg"):
+            unused_keys |= {f"crankshaft_{end}_{key}" for key in ("mass_kg", "angle_deg", "arm_mm")}
+    return unused_keys

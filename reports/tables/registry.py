@@ -15,7 +15,7 @@ from reports.model.contents import contents_of
 from reports.model.rename import sized, substituted
 from reports.model.shape import Part, Scope
 from reports.tables.contexts import books
-from reports.tables.cycle_names import cycle_stand_ins
+from reports.tables.cycle_members import cycle_stand_ins
 from reports.tables.left_out import left_out_note
 from reports.tables.regimes import comparison, regime_models
 from reports.tables.verdicts import accepted_checks

@@ -24,7 +24,7 @@ from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
 from reports.shared.russian import NBSP, fixed, joined, runs
-from reports.tables.cycle_names import section_of
+from reports.tables.cycle_members import section_of
 
 if TYPE_CHECKING:
     from jinja2 import Environment

@@ -22,7 +22,7 @@ from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits
 from reports.model.blocks import ScalarTable
 from reports.shared.russian import MINUS, capital, fixed
-from reports.tables.cycle_names import friction_by_speed, is_boosted, section_of
+from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
 _MOST_DECIMALS = 8  # of values in passes
 

@@ -30,7 +30,7 @@ from reports.inputs.sections.input_file import LAYOUTS, InputFile
 from reports.model.context import diagram_kind
 from reports.model.shape import Shape
 from reports.shared.russian import joined
-from reports.tables.unused import unused
+from reports.tables.left_out import unused
 
 POINTS_FILE = "диаграмма.csv"  # all points of a diagram, attached to the PDF
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")

@@ -1,4 +1,4 @@
-"""Usual ranges of the cycle's results and inputs, told in the words of the tables."""
+"""The working cycle as the tables see it: names of its results, what it gives, usual ranges."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from kshm.cycle.inputs import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from reports.inputs.sections.gas import CycleSection
+from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
 from reports.shared.russian import short
-from reports.tables.cycle_names import is_boosted
 
 UNCHECKED = "обычные значения, с книгой не сверены"
 
@@ -38,6 +38,15 @@ _RANGE_NAMES = {
     "effective.eta_m": "cyc_eta_m",
     "indicated.p_i": "cyc_p_i",
 }
+# What the formulas of the indicator diagram call their parameters when the cycle gives them.
+GAS_NAMES = {
+    "gas_intake_pressure_mpa": "cyc_p_a",
+    "gas_residual_pressure_mpa": "cyc_p_r",
+    "gas_max_pressure_mpa": "cyc_p_z",
+    "gas_compression_exponent": "cyc_n1",
+    "gas_expansion_exponent": "cyc_n2",
+    "gas_preexpansion_ratio": "cyc_rho",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +58,40 @@ class CycleRange:
     high: float
     note: str
     source: str
+
+
+def section_of(model: InputFile) -> CycleSection | None:
+    """The [cycle] section when the gas comes from it."""
+    return model.cycle if model.gas.source == "cycle" else None
+
+
+def cycle_stand_ins(model: InputFile) -> dict[str, str]:
+    """Inputs of [gas] and the results of the cycle that take their place."""
+    return {} if section_of(model) is None else GAS_NAMES
+
+
+def sizes_are_found(model: InputFile) -> bool:
+    """Whether bore and stroke follow from the wanted power."""
+    return isinstance(model.geometry, DesignGeometrySection)
+
+
+def is_boosted(section: CycleSection) -> bool:
+    """Whether there is a turbocharger."""
+    return section.boost_ratio is not None
+
+
+def friction_by_speed(section: CycleSection) -> bool:
+    """Whether mechanical losses follow the piston speed, A + B c_m."""
+    return section.friction_a_mpa is not None
+
+
+def given_by_cycle(model: InputFile) -> set[str]:
+    """Those that a calculation of the cycle finds itself."""
+    cycle = section_of(model)
+    if cycle is None:
+        return set()
+    efficiency = {"regime_mechanical_efficiency"} if friction_by_speed(cycle) else set()
+    return {"regime_fullness", "regime_indicated_power_kw"} | efficiency
 
 
 def ranges_of(section: CycleSection) -> Iterator[CycleRange]:

@@ -10,6 +10,7 @@ import pytest
 from kshm.mechanics import strength as first
 from reports.commands.new_engine import new_text
 from reports.document.chapters.closing import check_keys
+from reports.document.chapters.strength import _MENDS
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.exports.own_books import own_numbers
@@ -186,6 +187,8 @@ def test_the_workbook_is_recalculated_and_the_chapter_says_its_results():
     assert errors_in(recalculated) == [] and differences_from_caches(book, recalculated) == []
     page = Report(model, values).page("screen")
     assert "Прочность деталей кривошипно-шатунного механизма</h1>" in page
+    assert values.scalars["check_range_oval_in0"] == "вне пределов"
+    assert "напряжение овализации (увеличить толщину стенки пальца)." in page
     for key in ("st_crown_MPa", "st_pin_bend_MPa", "st_shank_Kx", "st_cap_MPa", "st_bolt_max_MPa"):
         assert f'id="eq-n.3a.{key}"' in page, key
     told = own_numbers(model.input).scalars
@@ -195,6 +198,12 @@ def test_the_workbook_is_recalculated_and_the_chapter_says_its_results():
 def test_new_gives_usual_sizes_with_their_ratio():
     text = new_text(None, sample=None, cylinders=4, strength=True, kind="petrol", bore_mm=80.0)
     assert "crown_mm = 6 # Толщина днища поршня: 0,075 D (обычно 0,05…0,1)" in text
+
+
+def test_every_check_says_what_mends_it():
+    blocks = {block.id: block for block in model_of().blocks}
+    keys = [s.key for name in ("strength_ranges", "strength_allowed") for s in blocks[name].scalars]
+    assert {key.removeprefix("value_").split("_", 1)[1] for key in keys[::2]} == _MENDS.keys()
 
 
 def test_usual_spans_are_no_checks_of_the_calculation():

@@ -27,6 +27,32 @@ _LISTS = {
     "shank": ("strength_shank", "Стержень шатуна"),
     "cap": ("strength_cap", "Крышка шатуна и болты"),
 }
+# What mends a value above its usual limits, by the check of ``strength.book``.
+_MENDS = {
+    "crown": "увеличить толщину днища δ",
+    "press": "увеличить толщину стенки головки s",
+    "pull": "увеличить толщину стенки головки s",
+    "land": "увеличить высоту перемычки hп",
+    "q1": "удлинить юбку",
+    "q2": "увеличить высоту поршня",
+    "ring": "уменьшить разность зазоров замка A0",
+    "ring_work": "уменьшить разность зазоров замка A0",
+    "pin_eye": "удлинить втулку шатуна или увеличить диаметр пальца",
+    "pin_boss": "удлинить палец или увеличить его диаметр",
+    "pin_bend": "увеличить диаметр пальца или толщину его стенки",
+    "pin_shear": "увеличить диаметр пальца или толщину его стенки",
+    "oval": "увеличить толщину стенки пальца",
+    "oval_in0": "увеличить толщину стенки пальца",
+    "bush_in": "уменьшить натяг втулки",
+    "cap": "увеличить длину нижней головки или расстояние между болтами",
+    "eye_top": "увеличить наружный диаметр верхней головки",
+    "eye": "увеличить наружный диаметр верхней головки",
+    "shank": "увеличить сечение стержня или взять сталь прочнее",
+    "bolt": "увеличить диаметр болта",
+    "web": "увеличить ширину или толщину щеки, взять сталь прочнее",
+}
+_SPARE = "взято с запасом"  # of a value below the usual
+_USUAL_BORE_MM = 160  # of cars, lorries and tractors, which the usual limits are of
 
 
 def strength(chapter: Chapter) -> Markup:
@@ -54,10 +80,10 @@ def strength(chapter: Chapter) -> Markup:
                       "Размеры частей: а) поршень; б) палец; в) шатун"),
         estimated=any(getattr(section, f"{key}_mm") is None for key in PART_SHARES),
         cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
-        outside=[uncapital(pair[0].note.partition(":")[0])
-                 for pair in _pairs(_block(chapter, "strength_ranges"))
-                 if terms.values.scalars[pair[1].key] != "в пределах"],
+        outside=_outside(chapter),
         weak=_weak(chapter),
+        mends=_MENDS,
+        large=_bore_mm(terms) > _USUAL_BORE_MM,
         webs=terms.has("st_web_n"),
         rod=PART_MATERIALS[section.rod_material].label,
         bolt=PART_MATERIALS[section.bolt_material].label,
@@ -70,7 +96,8 @@ def concluded(chapter: Chapter) -> Markup:
     """The chapter's result in a line of the conclusion."""
     if chapter.input.strength is None:
         return Markup("")
-    weak, allowed = _weak(chapter), chapter.terms.num("strength_safety_allowed")
+    weak = [name for name, _ in _weak(chapter)]
+    allowed = chapter.terms.num("strength_safety_allowed")
     if weak:
         return Markup("запас прочности меньше допускаемого {}: {}").format(allowed, joined(weak))
     return Markup("запасы прочности шатуна, болтов и щёк не меньше допускаемого {}").format(allowed)
@@ -86,10 +113,24 @@ def _pairs(block: ScalarTable) -> list[tuple[Scalar, Scalar]]:
     return list(zip(block.scalars[::2], block.scalars[1::2], strict=True))
 
 
-def _weak(chapter: Chapter) -> list[str]:
-    """Parts whose safety is less than allowed."""
+def _outside(chapter: Chapter) -> list[tuple[str, str]]:
+    """Values outside of their usual limits, each with what mends it."""
+    found = []
+    for value, verdict in _pairs(_block(chapter, "strength_ranges")):
+        if chapter.terms.values.scalars[verdict.key] == "в пределах":
+            continue
+        low = value.note.partition("обычно ")[2].partition("…")[0].replace(",", ".")
+        is_low = abs(chapter.terms.value(value.key)) < abs(float(low.replace("−", "-")))
+        mend = _SPARE if is_low else _MENDS[value.key.removeprefix("value_range_")]
+        found.append((uncapital(value.note.partition(":")[0]), mend))
+    return found
+
+
+def _weak(chapter: Chapter) -> list[tuple[str, str]]:
+    """Parts whose safety is less than allowed, each with what mends it."""
     values = chapter.terms.values.scalars
-    return [uncapital(value.note) for value, verdict in _pairs(_block(chapter, "strength_allowed"))
+    return [(uncapital(value.note), _MENDS[value.key.removeprefix("value_st_")])
+            for value, verdict in _pairs(_block(chapter, "strength_allowed"))
             if values[verdict.key] == "НЕТ"]  # fmt: skip
 
 
@@ -121,6 +162,10 @@ def _drawn(chapter: Chapter) -> dict[str, float]:
     """Sizes for the sketch."""
     values = chapter.terms.values.scalars
     sizes = {key: float(values[f"st_{key}_mm"]) for key in PART_SHARES}
-    bore = (4 * float(values["F_piston"]) / math.pi) ** 0.5 * 1000
+    bore = _bore_mm(chapter.terms)
     crankpin = 2 * (sizes["bolts_apart"] / 2 - float(values["st_cap_wall_mm"]) - sizes["shell"])
     return sizes | {"bore": bore, "crankpin": crankpin}
+
+
+def _bore_mm(terms: Terms) -> float:
+    return 1000 * math.sqrt(4 * float(terms.values.scalars["F_piston"]) / math.pi)

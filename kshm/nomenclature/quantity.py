@@ -160,8 +160,8 @@ def _quantity(key: str) -> Quantity:
         return _ALL[key]
     further = re.fullmatch(r"(\w+)_R(\d+)", key)
     if further is not None:  # the same quantity of a further regime
-        found = _quantity(further[1])
-        return replace(found, key=key, title=f"{found.title}, режим {further[2]}")
+        base = _quantity(further[1])
+        return replace(base, key=key, title=f"{base.title}, режим {further[2]}")
     if key.startswith("throw") and "_" in key:
         return replace(_ALL[key.split("_", 1)[1]], key=key)
     if re.match(r"ray_[IVX]+_MPa", key):

@@ -91,9 +91,9 @@ class Declarations:
             raise ValueError(f"объявлено больше {MOST_DECLARED} величин и исходных")
 
     def _titled(self, rest: str) -> None:
-        found = _matched(_SECTION, rest, "section")
-        self._named(found["name"])
-        self.title = safe_text(found["title"])
+        heading = _matched(_SECTION, rest, "section")
+        self._named(heading["name"])
+        self.title = safe_text(heading["title"])
 
     def _input(self, rest: str) -> None:
         key, (title, symbol, unit, span, default) = self._head(rest, "input", 5)
@@ -123,8 +123,8 @@ class Declarations:
         self.fields[key] = (kind, choice(safe_text(title), words, default, structural=True))
 
     def _quantity(self, rest: str) -> None:
-        found = _matched(_QUANTITY, rest, "quantity")
-        key, (title, tex, unit, digits) = found["key"], _parts(found["rest"], 4)
+        row = _matched(_QUANTITY, rest, "quantity")
+        key, (title, tex, unit, digits) = row["key"], _parts(row["rest"], 4)
         if key in self.quantities:
             raise ValueError(f"величина «{key}» объявлена дважды")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
@@ -137,14 +137,14 @@ class Declarations:
 
     def _head(self, rest: str, word: str, parts: int) -> tuple[str, list[str]]:
         """Key and parts of the declaration of an input."""
-        found = _matched(_INPUT, rest, word)
-        self._named(found["section"])
-        key = found["key"]
+        head = _matched(_INPUT, rest, word)
+        self._named(head["section"])
+        key = head["key"]
         if key in self.fields:
             raise ValueError(f"исходное «{key}» объявлено дважды")
         if re.search(r"_r\d+$", key) or hasattr(Strictly, key):
             raise ValueError(f"имя «{key}» занято программой")
-        return key, _parts(found["rest"], parts)
+        return key, _parts(head["rest"], parts)
 
     def _named(self, section: str) -> None:
         """Keep the name of the section, the same on all lines."""
@@ -176,13 +176,13 @@ def declared(text: str) -> Declared:
         if control is not None:
             raise DeclarationError(at, control.start() + 1, "в строке управляющий символ",
                                    "оставьте обычный текст")  # fmt: skip
-        found = DECLARATION.fullmatch(line)
-        if found is None:
+        statement = DECLARATION.fullmatch(line)
+        if statement is None:
             continue
         try:
-            reader.take(found[1], found[2].strip())
+            reader.take(statement[1], statement[2].strip())
         except ValueError as error:
-            raise DeclarationError(at, 1, str(error), f"пишите {FORMS[found[1]]}") from None
+            raise DeclarationError(at, 1, str(error), f"пишите {FORMS[statement[1]]}") from None
     if not reader.fields:
         return Declared("", reader.title, None, reader.quantities)
     model = create_model(f"Own_{reader.section}", __base__=Strictly, **reader.fields)
@@ -381,10 +381,10 @@ def _unit(label: str) -> str:
 
 
 def _matched(pattern: re.Pattern[str], text: str, word: str) -> re.Match[str]:
-    found = pattern.fullmatch(text)
-    if found is None:
+    match = pattern.fullmatch(text)
+    if match is None:
         raise ValueError(f"«{word} {one_line(text, 60)}» не разобрано")
-    return found
+    return match
 
 
 def _parts(text: str, count: int) -> list[str]:

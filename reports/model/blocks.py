@@ -255,15 +255,15 @@ class Model:
 
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
         """The same specifications for an input of the same structure."""
-        made = Model(input_file, inputs, self.blocks, self.charts, self.remarks, self.chapters,
+        copy = Model(input_file, inputs, self.blocks, self.charts, self.remarks, self.chapters,
                      self.own_nodes)  # fmt: skip
         # What follows from the blocks and from the names of the inputs is the same as well.
         for name in (
             "tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "whole_tables",
             "programs",
         ):  # fmt: skip
-            made.__dict__[name] = getattr(self, name)
-        return made
+            copy.__dict__[name] = getattr(self, name)
+        return copy
 
 
 def nodes_in(block: Block) -> Iterator[tuple[str, Node]]:

@@ -149,18 +149,18 @@ def lines_of(name: str, shelf: Shelf, names: Mapping[str, object]) -> Iterator[B
 
 def _marked(text: str, name: str) -> str:
     """Lines with book and number behind them, but for those of Jinja alone and of comments."""
-    made, waiting = [], ""  # a statement or a value that goes on below
+    marked, waiting = [], ""  # a statement or a value that goes on below
     for number, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("#"):
-            made.append("")
+            marked.append("")
             continue
         whole = waiting + line
         is_statement = _STATEMENT.match(whole) is not None
         goes_on = _depth(whole) > 0 if is_statement else whole.count("{{") > whole.count("}}")
         waiting = whole if goes_on else ""
         bare = is_statement or goes_on
-        made.append(line if bare else f"{line}{_MARK}{name}:{number}{_MARK}")
-    return "\n".join(made) + "\n"
+        marked.append(line if bare else f"{line}{_MARK}{name}:{number}{_MARK}")
+    return "\n".join(marked) + "\n"
 
 
 def _depth(text: str) -> int:

@@ -181,10 +181,10 @@ class _BookReader:
 
     def _head(self, word: str, rest: str) -> None:
         pattern, form = _HEADS[word]
-        found = re.fullmatch(pattern, rest)
-        if found is None:
+        head = re.fullmatch(pattern, rest)
+        if head is None:
             raise self._fault(f"заголовок «{word} {rest}» не разобран", f"пишите {form}")
-        about = {key: value or "" for key, value in found.groupdict().items()}
+        about = {key: value or "" for key, value in head.groupdict().items()}
         if word == "sheet":
             self._sheet = about["title"].strip()
         elif word in ("place", "chapter"):
@@ -220,10 +220,10 @@ class _BookReader:
             block.scalars.append(self._scalar(text))
 
     def _extremes(self, block: _Open, rest: str) -> None:
-        found = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", rest)
-        if found is None:
+        match = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", rest)
+        if match is None:
             raise self._fault(f"«extremes {rest}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
-        table, column, name, source = found.groups()
+        table, column, name, source = match.groups()
         if block.word == "table":
             block.columns += extreme_columns(column, name)
         else:
@@ -231,11 +231,11 @@ class _BookReader:
 
     def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
-        found = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest)
-        if found is None:
+        match = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest)
+        if match is None:
             raise self._fault(f"«check {rest}» не разобрано",
                               "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ | ЧТО ПРОВЕРЕНО")  # fmt: skip
-        key, value_key, value, test, title, source = found.groups()
+        key, value_key, value, test, title, source = match.groups()
         verdict = key if value_key else f"check_{key}"
         own = value_key or f"value_{key}"
         test = renamed(test, lambda name: own if name == "value" else name)
@@ -323,23 +323,23 @@ def solved_columns(table: str, model: InputFile) -> Columns:
 @lru_cache(maxsize=8192)
 def _scalar(text: str, own: Texts, *, named: bool) -> Scalar | None:
     """Scalar of a line, None where it is none; ``named`` names the quantity in any case."""
-    found = _VALUE.fullmatch(text)
-    if found is None or found["helper"] or found["expr"] is None:
+    match = _VALUE.fullmatch(text)
+    if match is None or match["helper"] or match["expr"] is None:
         return None
-    of = found["of"] or (found["key"] if named else "")
-    return _known(Scalar(found["key"], found["expr"].strip(), found["source"] or "", of=of,
-                         every=found["every"] or TURN, note=found["note"] or ""), own)  # fmt: skip
+    of = match["of"] or (match["key"] if named else "")
+    return _known(Scalar(match["key"], match["expr"].strip(), match["source"] or "", of=of,
+                         every=match["every"] or TURN, note=match["note"] or ""), own)  # fmt: skip
 
 
 @lru_cache(maxsize=8192)
 def _column(text: str, own: Texts) -> Column | None:
     """Column of a line, None where it is none."""
-    found = _VALUE.fullmatch(text)
-    if found is None:
+    match = _VALUE.fullmatch(text)
+    if match is None:
         return None
-    expr = found["expr"] and found["expr"].strip()
-    column = Column(found["key"], expr, found["source"] or "", of=found["of"] or "",
-                    every=found["every"] or TURN, helper=bool(found["helper"]))  # fmt: skip
+    expr = match["expr"] and match["expr"].strip()
+    column = Column(match["key"], expr, match["source"] or "", of=match["of"] or "",
+                    every=match["every"] or TURN, helper=bool(match["helper"]))  # fmt: skip
     return _known(column, own)
 
 
@@ -367,9 +367,9 @@ def _known(node: Kind, books: Texts) -> Kind:
 
 def _rows_of(block: _Open) -> tuple[GridRow, ...]:
     """Rows by quantity in the order of their first cells, but for those asked to be last."""
-    cells = [{cell.of: cell for cell in made} for _, made in block.members]
-    found = dict.fromkeys(key for column in cells for key in column)
-    keys = (*(key for key in found if key not in block.last), *block.last)
+    cells = [{cell.of: cell for cell in members} for _, members in block.members]
+    order = dict.fromkeys(key for column in cells for key in column)
+    keys = (*(key for key in order if key not in block.last), *block.last)
     rows = []
     for key in keys:
         row = tuple(column.get(key) for column in cells)

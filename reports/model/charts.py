@@ -98,9 +98,9 @@ class ChartSpec:
         """Caption of the report's figure."""
         return self.caption or self.title
 
-    def drawn_by(self, place: Literal["workbook", "report"]) -> tuple[Series, ...]:
+    def drawn_by(self, medium: Literal["workbook", "report"]) -> tuple[Series, ...]:
         """Curves that the workbook or the report draws."""
-        return tuple(s for s in self.series if s.only in ("", place))
+        return tuple(s for s in self.series if s.only in ("", medium))
 
 
 _HEAD = re.compile(
@@ -139,11 +139,11 @@ class ChartLines:
         Raises:
             ValueError: it is none.
         """
-        found = _HEAD.fullmatch(rest)
-        if found is None:
+        head = _HEAD.fullmatch(rest)
+        if head is None:
             raise ValueError(f"заголовок «{word} {rest}» не разобран; пишите {word} ИМЯ: ЗАГОЛОВОК")
-        return cls(cls.HEADS[word], found["id"], "" if found["report"] else sheet, found["title"],
-                   found["over"] or "", found["box"] or "")  # fmt: skip
+        return cls(cls.HEADS[word], head["id"], "" if head["report"] else sheet, head["title"],
+                   head["over"] or "", head["box"] or "")  # fmt: skip
 
     def take(self, word: str, rest: str) -> ChartLines:
         """The chart with one more line.

@@ -75,13 +75,13 @@ def _check_chapters(shelf: Shelf, known: set[str]) -> None:
     """Refuse sheets of own books that name no chapter of the workbook."""
     for name, text in shelf.own:
         for number, line in enumerate(text.splitlines(), 1):
-            found = _SHEET.fullmatch(line)
-            title = found[1] if found else ""
-            if found is None:
+            sheet = _SHEET.fullmatch(line)
+            title = sheet[1] if sheet else ""
+            if sheet is None:
                 continue
-            if found[2] not in known:
-                raise BookError(name, number, line.index(found[2]) + 1,
-                                f"главы «{found[2]}» в книге Excel нет",
+            if sheet[2] not in known:
+                raise BookError(name, number, line.index(sheet[2]) + 1,
+                                f"главы «{sheet[2]}» в книге Excel нет",
                                 "главы: " + ", ".join(sorted(known)))  # fmt: skip
             if "{{" not in title and (
                 len(title) > MOST_TITLE or re.search(r"[\\/*?:\[\]']", title)

@@ -84,8 +84,8 @@ class Evaluation:
         self.running.add(key)
         table = self.model.whole_tables.get(key)
         if table is not None:
-            made = self._by_rows(table) if self.nodes[key].expr else self._computed(table)
-            done.update({node: values for node, values in made.items() if node not in done})
+            columns = self._by_rows(table) if self.nodes[key].expr else self._computed(table)
+            done.update({node: values for node, values in columns.items() if node not in done})
             self.running.discard(key)
             return done[key]
         program = self.programs.get(key)
@@ -107,23 +107,23 @@ class Evaluation:
         """Columns that the table's own function gives."""
         if table.computed is None:
             raise ValueError(f"nothing computes {table.id}")
-        found = table.computed(self.model.input)
-        return {f"{table.id}.{key}": np.asarray(found[key]) for key in found}
+        columns = table.computed(self.model.input)
+        return {f"{table.id}.{key}": np.asarray(columns[key]) for key in columns}
 
     def _by_rows(self, table: TableSpec) -> dict[str, Array]:
         """All columns of a table whose rows follow from those before, a row at a time."""
         keys = [column.key for column in table.columns]
         acts, needs = _row_acts(table.columns)
         row: dict[str, Any] = {name: self._needed(name) for name in needs}
-        made = {key: np.zeros(len(table.rows)) for key in keys}
+        columns = {key: np.zeros(len(table.rows)) for key in keys}
         given = {key: self.done.get(f"{table.id}.{key}") for key in keys}
         given[keys[0]] = np.array(table.rows)
         for i in range(len(table.rows)):
             row.update({f"{_ABOVE}{key}": row.get(key, 0.0) for key in keys})
             for key, act in zip(keys, acts, strict=True):
                 known = given[key]
-                row[key] = made[key][i] = act(row) if known is None else known[i]
-        return {f"{table.id}.{key}": values for key, values in made.items()}
+                row[key] = columns[key][i] = act(row) if known is None else known[i]
+        return {f"{table.id}.{key}": values for key, values in columns.items()}
 
     def _needed(self, name: str) -> Any:  # noqa: ANN401
         return self.done[name] if name in self.done else self._calculated(name)
@@ -188,12 +188,12 @@ _graphs: dict[tuple[tuple[str, str | None], ...], Graph] = {}
 def graph_of(model: Model) -> Graph:
     """The graph of a model; made once for a class, whose books differ in numbers only."""
     key = tuple((name, node.expr) for name, node in model.nodes.items())
-    found = _graphs.get(key)
-    if found is None:
+    graph = _graphs.get(key)
+    if graph is None:
         if len(_graphs) >= _KEPT:
             _graphs.clear()
-        found = _graphs[key] = Graph(model)
-    return found
+        graph = _graphs[key] = Graph(model)
+    return graph
 
 
 def nodes_of(block: Block) -> list[str]:
@@ -229,18 +229,18 @@ class Graph:
         if found is None:
             text = self.expression(node)
             table = node.split(".", maxsplit=1)[0] if "." in node else ""
-            made: set[str] = set()
+            keys: set[str] = set()
             for name in names(text) if text is not None else ():
                 local = f"{table}.{name}"
                 key = local if local in self._formulas else name
-                made.update(self._runs.get(key, (key,)))
-            found = self._references[node] = frozenset(made)
+                keys.update(self._runs.get(key, (key,)))
+            found = self._references[node] = frozenset(keys)
         return found
 
     def ancestors(self, node: str) -> frozenset[str]:
         """Every node and input that a node depends on."""
-        found = self._ancestors.get(node)
-        if found is None:
+        nodes = self._ancestors.get(node)
+        if nodes is None:
             seen: set[str] = set()
             stack = [node]
             while stack:
@@ -248,5 +248,5 @@ class Graph:
                     if name not in seen:
                         seen.add(name)
                         stack.append(name)
-            found = self._ancestors[node] = frozenset(seen)
-        return found
+            nodes = self._ancestors[node] = frozenset(seen)
+        return nodes

@@ -50,7 +50,7 @@ def copied(block: Block, names: Names) -> Block:
 def sized(blocks: tuple[Block, ...], small: int) -> tuple[Block, ...]:
     """Blocks of an engine of that smallness: its values have more decimals."""
 
-    def made(block: Block) -> Block:
+    def sized_block(block: Block) -> Block:
         if isinstance(block, Grid):
             rows = tuple(replace(row, small=small) for row in block.rows)
             block = replace(block, rows=rows)
@@ -58,7 +58,7 @@ def sized(blocks: tuple[Block, ...], small: int) -> tuple[Block, ...]:
             block, lambda item: replace(item, small=small), lambda item: replace(item, small=small)
         )
 
-    return tuple(map(made, blocks)) if small else blocks
+    return tuple(map(sized_block, blocks)) if small else blocks
 
 
 def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:

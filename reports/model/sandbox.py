@@ -212,8 +212,8 @@ def _counted(tree: nodes.Template) -> nodes.Template:
 def _without_joins(node: nodes.Node) -> None:
     for name, value in node.iter_fields():
         if isinstance(value, list):
-            made = [_join(item) if isinstance(item, nodes.Concat) else item for item in value]
-            setattr(node, name, made)
+            parts = [_join(item) if isinstance(item, nodes.Concat) else item for item in value]
+            setattr(node, name, parts)
         elif isinstance(value, nodes.Concat):
             setattr(node, name, _join(value))
     for child in node.iter_child_nodes():

@@ -105,7 +105,7 @@ class Shape:
     @property
     def split(self) -> bool:
         """Whether the pins are split."""
-        return any(place.pin for place in self.arrangement)
+        return any(cylinder.pin for cylinder in self.arrangement)
 
     @property
     def parts(self) -> int:
@@ -120,12 +120,12 @@ class Shape:
     @property
     def articulated(self) -> bool:
         """Whether there are articulated rods."""
-        return any(place.master is not None for place in self.arrangement)
+        return any(cylinder.master is not None for cylinder in self.arrangement)
 
     @property
     def banks(self) -> bool:
         """Whether the cylinders stand in two rows."""
-        return any(place.axis for place in self.arrangement) or not self.single_rods
+        return any(cylinder.axis for cylinder in self.arrangement) or not self.single_rods
 
     @property
     def by_orders(self) -> bool:

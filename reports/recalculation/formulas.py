@@ -288,7 +288,7 @@ class Formula:
     def _converts_known_units(self) -> bool:
         """Whether each conversion names two units, and such as are calculated."""
         places = zip(self.pattern, _places(self.pattern), strict=True)
-        units = [token for token, place in places if place.function == "CONVERT" and place.argument]
+        units = [token for token, use in places if use.function == "CONVERT" and use.argument]
         texts = [value[1:-1] for kind, value in units if kind == "text"]
         calls = sum(kind == "name" and value.upper() == "CONVERT" for kind, value in self.pattern)
         return len(texts) == 2 * calls and set(texts) <= UNITS.keys()

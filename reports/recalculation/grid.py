@@ -196,12 +196,12 @@ def is_backwards(run: Run, reference: Reference) -> bool:
     """Whether a range ends before it begins in some row of a run."""
     first, last = reference.first, reference.last
 
-    def place(fixed: bool, at: int, cell: int) -> int:
+    def absolute(fixed: bool, at: int, cell: int) -> int:
         return at if fixed else cell + at
 
-    columns = (place(ref.column_fixed, ref.column, run.column) for ref in (first, last))
+    columns = (absolute(ref.column_fixed, ref.column, run.column) for ref in (first, last))
     rows = [
-        [place(ref.row_fixed, ref.row, row) for ref in (first, last)]
+        [absolute(ref.row_fixed, ref.row, row) for ref in (first, last)]
         for row in (run.first, run.last)
     ]
     left, right = columns

@@ -115,7 +115,7 @@ class Forms:
         of_column: dict[int, list[tuple[int, Slot]]] = {number: [] for number in columns}
         for index, slot in enumerate(slots):
             of_column[slot[1]].append((index, slot))
-        parts = {number: _part(columns[number], found) for number, found in of_column.items()}
+        parts = {number: _part(columns[number], indices) for number, indices in of_column.items()}
         self._known[key] = (parts, cells)
 
 

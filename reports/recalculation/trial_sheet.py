@@ -81,20 +81,20 @@ class Bench:
         titles = {title: f"{_SCRATCH}{i}" for i, title in enumerate(grid.sheets)}
         scratch: dict[str, dict[int, CellColumn]] = {title: {} for title in titles.values()}
         self._runs: dict[str, list[Run]] = {}
-        made: dict[int, Run] = {}
+        copies: dict[int, Run] = {}
         for key, runs in formulas.items():
             self._runs[key] = []
             for run in runs:
-                moved = made.get(id(run))
+                moved = copies.get(id(run))
                 if moved is None:
                     for part in _whole_array(grid, run):
                         other = _moved(part, titles[run.sheet], rounded=rounded)
-                        made[id(part)] = other
+                        copies[id(part)] = other
                         columns = scratch[other.sheet]
                         columns.setdefault(other.column, CellColumn()).runs.append(other)
-                    moved = made[id(run)]
+                    moved = copies[id(run)]
                 self._runs[key].append(moved)
-        read = needed(grid, (area for run in made.values() for area in grid.precedents(run)))
+        read = needed(grid, (area for run in copies.values() for area in grid.precedents(run)))
         self._engine = Evaluator(CellGrid({**read.sheets, **scratch}, grid.names, grid.areas))
         self._read = {(title, n) for title, columns in read.sheets.items() for n in columns}
 

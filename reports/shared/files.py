@@ -168,7 +168,7 @@ def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     Raises:
         OutputError: an output is one of the inputs.
     """
-    read = {place for path in inputs for place in _places(path)}
+    read = {target for path in inputs for target in _places(path)}
     for path in outputs:
         if read & _places(path):
             what = "результат лёг бы поверх ваших исходных данных"

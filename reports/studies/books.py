@@ -18,11 +18,11 @@ from reports.studies.comparison import (
     X_TITLE,
     Chart,
     Compared,
-    apart,
     charts,
     conclusions,
     differences,
     results,
+    split_rows,
 )
 from reports.studies.plan import Axis, Chunk, Plan, span_text
 from reports.studies.quantities import ChosenQuantities, described, format_of, symbol_of
@@ -76,7 +76,7 @@ def _data(book: _Book) -> None:
     book.head(sheet, ("Величина", "Обозначение", "Единица", *labels))
     sheet.append(["Двигатель", "", "", *[engine.model.engine.name for engine in book.engines]])
     sheet.append(["Файл", "", "", *[engine.source.name for engine in book.engines]])
-    different, only = apart(differences(book.engines), labels)
+    different, only = split_rows(differences(book.engines), labels)
     for row in different:
         symbol = row.symbol.replace("_", "")
         sheet.append([row.title, symbol, row.unit, *row.values])
@@ -100,7 +100,7 @@ def _results(book: _Book) -> None:
     sheet = book.sheet(RESULTS, widths, "Результаты; значения — из расчёта файлов листа «Данные»")
     others = [f"{label} к {labels[0]}, %" for label in labels[1:]]
     book.head(sheet, ("Величина", "Обозначение", "Единица", *labels, *others))
-    rows, lacking = apart(results(book.engines), labels)
+    rows, lacking = split_rows(results(book.engines), labels)
     number, group = _HEAD, ""
     for row in rows:
         if row.group != group:

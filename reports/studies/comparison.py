@@ -163,8 +163,8 @@ def check_sources(
         hint = f"сравниваются от {FEWEST} до {MOST} двигателей"
         raise InputError(Problem(where, f"файлов {count}", hint))
     places = [source.resolve() for source in sources]
-    for number, place in enumerate(places):
-        if place in places[:number]:
+    for number, path in enumerate(places):
+        if path in places[:number]:
             what, hint = "файл назван дважды", "уберите повтор или сделайте копию с правками"
             raise InputError(Problem(str(sources[number]), what, hint))
     if target is not None and target.resolve() in places:
@@ -199,7 +199,7 @@ def differences(engines: Sequence[Compared]) -> tuple[Difference, ...]:
     return tuple(rows)
 
 
-def apart(rows: Sequence[AnyRow], labels: Sequence[str]) -> tuple[list[AnyRow], str]:
+def split_rows(rows: Sequence[AnyRow], labels: Sequence[str]) -> tuple[list[AnyRow], str]:
     """Rows that are complete or differ, and a sentence on the rest.
 
     Nothing is compared where one engine alone has a result, or where all that have a datum

@@ -31,13 +31,13 @@ from reports.studies.comparison import (
     Compared,
     Difference,
     Row,
-    apart,
     charts,
     check_sources,
     conclusions,
     differences,
     read_engines,
     results,
+    split_rows,
 )
 
 if TYPE_CHECKING:
@@ -65,8 +65,8 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
 
     numbering = Draft()
     labels = [engine.label for engine in engines]
-    rows, lacking = apart(results(engines), labels)
-    different, only = apart(differences(engines), labels)
+    rows, lacking = split_rows(results(engines), labels)
+    different, only = split_rows(differences(engines), labels)
     data = numbering.section(1, "Чем отличаются исходные данные")
     data_table = NumberedBlock(data_block(labels, different), numbering.place("table", "data"),
                         "Исходные данные, которые не совпадают")  # fmt: skip
@@ -240,8 +240,8 @@ class ComparisonChapter:
 
         labels = [label for label, *_ in self.engines]
         size = "dense" if len(labels) <= _FEW_ENGINES else "tiny"
-        different, only = apart(self.differences, labels)
-        shown, lacking = apart(self.rows, labels)
+        different, only = split_rows(self.differences, labels)
+        shown, lacking = split_rows(self.rows, labels)
         data = TablePlan(
             partial(data_block, labels, different),
             "Исходные данные, которые не совпадают", size=size, lined=True,

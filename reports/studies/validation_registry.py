@@ -67,7 +67,7 @@ _REFERENCE: tuple[tuple[str, str], ...] = (
 def _text(
     name: str,
     source: str,
-    place: str,
+    printed_at: str,
     numbers: dict[str, Number],
     *,
     run: str = _FIGURES,
@@ -76,7 +76,7 @@ def _text(
 ) -> Table:
     """Numbers of running text, each with its own tolerance."""
     ours: Callable[[], Lookup] = partial(by_key, numbers)
-    return Table(name, source, place, title, run, ours, cells=text_of, notes=notes)
+    return Table(name, source, printed_at, title, run, ours, cells=text_of, notes=notes)
 
 
 TABLES: tuple[Table, ...] = (

@@ -62,7 +62,7 @@ class RegimeModel:
                 needs[name] = frozenset(
                     f"{block.id}.{used}" if used in local else used for used in names(expr)
                 )
-        found = (
+        nodes = (
             {item.name for item in self.inputs if item.path[0] in ("regime", "gas")}
             | {
                 "gas_points_deg",
@@ -72,38 +72,38 @@ class RegimeModel:
         )
         waiting = dict(needs)
         while True:
-            reached = {name for name, used in waiting.items() if used & found}
+            reached = {name for name, used in waiting.items() if used & nodes}
             if not reached:
-                return frozenset(found)
-            found |= reached
-            found |= self._runs(found)
+                return frozenset(nodes)
+            nodes |= reached
+            nodes |= self._runs(nodes)
             for name in reached:
                 del waiting[name]
 
-    def _runs(self, found: set[str]) -> set[str]:
+    def _runs(self, nodes: set[str]) -> set[str]:
         """Rows of grids, as formulas name them, with a cell among the names found."""
         return {
             f"{block.id}.{row.of}"
             for block in self.blocks
             if isinstance(block, Grid)
             for row in block.rows
-            if any(cell is not None and cell.key in found for cell in row.cells)
+            if any(cell is not None and cell.key in nodes for cell in row.cells)
         }
 
     @cached_property
     def blocks_to_copy(self) -> tuple[Block, ...]:
         """Blocks to copy: whole tables and grids, of lists only what depends on the regime."""
-        made: list[Block] = []
+        copies: list[Block] = []
         for block in self.blocks:
             if block.id in _LEFT_OUT or main_only(block.id):
                 continue
             if isinstance(block, ScalarTable):
                 kept = tuple(s for s in block.scalars if s.key in self.dependent)
                 if kept:
-                    made.append(replace(block, scalars=kept))
+                    copies.append(replace(block, scalars=kept))
             elif any(name in self.dependent for name in _formulas(block)):
-                made.append(block)
-        return tuple(made)
+                copies.append(block)
+        return tuple(copies)
 
     @cached_property
     def _own(self) -> frozenset[str]:
@@ -131,14 +131,14 @@ class RegimeModel:
         return Part(tuple(map(self._block, self.blocks_to_copy)), tuple(charts))
 
     def _block(self, block: Block) -> Block:
-        made = replace(
+        copy = replace(
             copied(block, self.name),
             title=f"{block.title} (режим {self.number})",
             sheet=self.sheet(block.sheet),
         )
-        if isinstance(made, TableSpec):
-            return replace(made, number=f"{made.number}.р{self.number}")
-        return made
+        if isinstance(copy, TableSpec):
+            return replace(copy, number=f"{copy.number}.р{self.number}")
+        return copy
 
     def sheet(self, title: str) -> str:
         """Title of the regime's sheet."""
@@ -167,7 +167,7 @@ def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple
     """
     if not model.regimes:
         return ()
-    made = []
+    models = []
     main = {k: v for block in chain(model).blocks for k, v in _formulas(block).items()}
     for number, regime in enumerate(model.regimes, 2):
         values = {key: value for key, value in regime if key not in ("gas", "name")}
@@ -182,8 +182,8 @@ def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple
         )
         part = chain(alone)
         inputs = tuple(iter_fields(alone))
-        made.append(RegimeModel(number, inputs, part.blocks, part.charts, main))
-    return tuple(made)
+        models.append(RegimeModel(number, inputs, part.blocks, part.charts, main))
+    return tuple(models)
 
 
 # Comparison: forces of figures 23-25 and loads side by side, Gots 2.4. The last column of each row

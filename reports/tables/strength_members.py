@@ -45,12 +45,12 @@ class PartSize:
 
 def usual_sizes(kind: str) -> tuple[PartSize, ...]:
     """Sizes of a kind of engine, in an order in which each follows from those before."""
-    found = []
+    sizes = []
     for key, (base, petrol, diesel) in PART_SHARES.items():
         low, high = diesel if kind == "diesel" else petrol
         name, of = _BASES.get(base) or (f"st_{base}_mm", _NAMES[base])
-        found.append(PartSize(key, name, of, low, high))
-    return tuple(found)
+        sizes.append(PartSize(key, name, of, low, high))
+    return tuple(sizes)
 
 
 def strength_names(scope: Scope) -> dict[str, object]:

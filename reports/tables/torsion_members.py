@@ -60,18 +60,18 @@ class TrainMasses:
     @property
     def bisections(self) -> tuple[tuple[str, str, str, str, int], ...]:
         """Tables that halve: id, number, title, variant of the train, number of the mode."""
-        found = [
+        rows = [
             (f"torsion_f{m}", f"К.{m}", f"Частота {m}: деление отрезка пополам", "", m)
             for m in self.modes
         ]
         other = "Первая частота с другим маховиком"
-        found.append(("torsion_f1_other", "К.м", other, "other", 1))
+        rows.append(("torsion_f1_other", "К.м", other, "other", 1))
         if not self.own:
-            found += [
+            rows += [
                 (f"torsion_f1_{key}", "К.ж", f"Первая частота при жёсткости: {name}", key, 1)
                 for key, name in FORMULAS.items()
             ]
-        return tuple(found)
+        return tuple(rows)
 
 
 def torsion_names(scope: Scope) -> dict[str, object]:

@@ -23,13 +23,13 @@ from reports.shared.russian import capital
 from reports.studies.books import CURVES, FIGURES, INPUTS, RESULTS, book_bytes
 from reports.studies.comparison import (
     Row,
-    apart,
     charts,
     conclusions,
     differences,
     labels,
     read_engines,
     results,
+    split_rows,
     spread,
 )
 from reports.studies.comparison_page import comparison_page, results_block
@@ -320,22 +320,22 @@ def test_data_of_a_regime_are_said_to_be_of_it():
 def test_what_one_engine_alone_has_is_named_in_a_sentence_and_no_row_of_dashes():
     found = engines(("d-240", "d-240-bearings", "gots-regimes"))
     names = [engine.label for engine in found]
-    shown, said = apart(differences(found), names)
+    shown, said = split_rows(differences(found), names)
     assert "подшипники и прочность шеек" in said and "газы режима 3" in said
-    for row in (*shown, *apart(results(found), names)[0]):
+    for row in (*shown, *split_rows(results(found), names)[0]):
         known = [value for value in row.values if value is not None]
         assert len(known) == len(names) or len(set(known)) > 1, row.title
     page = plain(comparison_page(found, media="screen"))
     assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
     sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(found)))[INPUTS]
     assert said in [cell.value for cell in sheet["A"]]
-    assert apart(differences(found[:1] * 2), names[:2]) == ([], "")
+    assert split_rows(differences(found[:1] * 2), names[:2]) == ([], "")
 
 
 def test_results_that_one_engine_alone_has_are_named_by_their_group():
     pair = [
         Row("Уравновешенность", key, key, "", quantity("F1_after_max"), (1.0, None)) for key in "ab"
     ]
-    assert apart(pair, ("А", "Б")) == ([], "Есть не у всех: А — уравновешенность.")
-    shown, said = apart([*pair, replace(pair[0], key="c", values=(1.0, 2.0))], ("А", "Б"))
+    assert split_rows(pair, ("А", "Б")) == ([], "Есть не у всех: А — уравновешенность.")
+    shown, said = split_rows([*pair, replace(pair[0], key="c", values=(1.0, 2.0))], ("А", "Б"))
     assert [row.key for row in shown] == ["c"] and said == "Есть не у всех: А — a, b."

@@ -11,8 +11,9 @@ from __future__ import annotations
 import ast
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from typing import TypeVar
 
 from reports.document.chapters.chapter import chosen
 from reports.formula.parse import parse
@@ -24,6 +25,7 @@ from tests.layouts import MAKERS, made
 
 ALL = os.environ.get("KSHM_ALL") == "1"
 QUICK = os.environ.get("KSHM_QUICK") == "1" and not ALL
+Case = TypeVar("Case")
 Kind = Callable[[Model], set[tuple]]
 _NUMBER = re.compile(r"\d+")
 _FUNCTION = re.compile(r"\b([a-z_]+)\(")
@@ -130,6 +132,11 @@ def samples_with(*kinds: Kind) -> list[str]:
 def examples(usual: int, every: int) -> int:
     """How many random examples: as many as find what a break in the room breaks, or more."""
     return every if ALL else usual
+
+
+def sparse(cases: Iterable[Case], every: int = 2) -> list[Case]:
+    """Every so many of cases that are of one kind; all of them with ``KSHM_ALL``."""
+    return list(cases)[:: 1 if ALL else every]
 
 
 def engines_with(*kinds: Kind) -> list[str]:

@@ -17,7 +17,7 @@ from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
 from reports.tables.registry import build_model
 from tests.bearings.files import laid_out, tractor
-from tests.cover import examples
+from tests.cover import examples, sparse
 from tests.layouts import MAKERS
 from tests.tables.test_two_statements import assert_agree, results_of
 
@@ -31,7 +31,7 @@ GIVEN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("maker", MAKERS)
+@pytest.mark.parametrize("maker", sparse(MAKERS))
 def test_rules_of_every_layout(maker: str) -> None:
     assert_agree(laid_out(maker, {}, step_deg=30))
 

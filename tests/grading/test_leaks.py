@@ -23,6 +23,7 @@ from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
 from reports.tables.registry import build_model
 from tests.conftest import sample
+from tests.cover import examples
 from tests.grading import classroom
 from tests.grading.forms import rewritten
 from tests.referee.changes import without_charts
@@ -202,7 +203,7 @@ def random_assignment(seed: int) -> Assignment:
     return assignment_of(model, rubric_of({"work": {"fill": fill}}, "r"))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(examples(3, 6)))
 def test_no_random_class_is_given_its_answers(seed):
     assignment = random_assignment(seed)
     assert leaks_of(handout_bytes(assignment, TICKET), assignment) == []

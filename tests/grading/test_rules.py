@@ -21,6 +21,7 @@ from reports.grading.judging.verdicts import CELL_RULES, ITEM_RULES
 from reports.grading.reading.submissions import Submission
 from reports.model.evaluation import Values, evaluate_model
 from reports.workbook.layout import Layout
+from tests.cover import sparse
 from tests.grading import classroom
 from tests.grading.fill import Formula, filled_book
 from tests.grading.test_verdicts import formulas
@@ -238,7 +239,7 @@ def outcome(line: dict[str, Any]) -> tuple[str, float]:
     return line["verdict"], round(line["points"] / line["of"], 2)
 
 
-@pytest.mark.parametrize(("table", "name"), WORKS)
+@pytest.mark.parametrize(("table", "name"), sparse(WORKS))
 def test_a_rule_decides_a_work_alone(
     table: str, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -17,6 +17,7 @@ from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.units import number_text
 from reports.new.generate import generate_engine
 from reports.shared.resources import samples_dir
+from tests.cover import examples, sparse
 from tests.inputs.slips import (
     FACTORS,
     SWAPPED,
@@ -52,8 +53,8 @@ def sample(name):
 
 
 def cases():
-    yield from list_samples()
-    yield from range(10)
+    yield from sparse(list_samples())
+    yield from range(examples(5, 10))
 
 
 @pytest.fixture(params=cases(), ids=str)
@@ -210,7 +211,7 @@ def test_samples_are_not_odd(name):
     assert load_toml(samples_dir() / f"{name}.toml").warnings == ()
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(examples(20, 40)))
 def test_random_engines_are_not_odd(seed):
     assert told(random_engine(seed)) == []
 
@@ -303,14 +304,14 @@ def silent(raw: dict) -> list[tuple[str, float]]:
     ]
 
 
-@pytest.mark.parametrize("name", list_samples())
+@pytest.mark.parametrize("name", sparse(list_samples()))
 def test_no_slip_in_a_sample_is_silent(name):
     """With its [checks]: what a file accepts says nothing of its other values."""
     assert silent(tomllib.loads((samples_dir() / f"{name}.toml").read_text("utf-8"))) == []
 
 
 @pytest.mark.parametrize("named", [True, False])
-@pytest.mark.parametrize("case", MADE, ids=str)
+@pytest.mark.parametrize("case", sparse(MADE), ids=str)
 def test_no_slip_in_an_engine_made_of_usual_values_is_silent(case, named):
     cylinders, layout, strokes, kind = case
     raw = copy.deepcopy(generate_engine(cylinders, layout=layout, strokes=strokes, kind=kind).data)

@@ -30,7 +30,7 @@ from tools.referees.by_formualizer import Formualizer
 from tools.referees.cells import Book, cached_values
 
 PYTHON = "/usr/bin/python3"
-ENGINES = ("gots-diesel", "two-stroke", *(("yamz-238", "ecoboost-10") if ALL else ()))
+ENGINES = ("two-stroke", *(("gots-diesel", "yamz-238", "ecoboost-10") if ALL else ()))
 COMPUTED = "mwm-6"  # with values that the program computes: they do not follow an open book
 INPUTS = {"geometry_rod_length_mm": 1.08, "regime_speed_rpm": 0.95, "geometry_bore_mm": 1.03}
 

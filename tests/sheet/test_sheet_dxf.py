@@ -126,7 +126,7 @@ def test_every_curve_lies_where_the_table_says(name):
     assert check_curves(terms(name)) > 400
 
 
-@settings(max_examples=examples(8, 20))
+@settings(max_examples=examples(4, 20))
 @given(
     cylinders=st.integers(1, 12), layout=st.sampled_from(["inline", "v", "opposed"]),
     strokes=st.sampled_from([4, 2]), kind=st.sampled_from(["petrol", "diesel"]),

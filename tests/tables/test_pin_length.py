@@ -18,6 +18,7 @@ from reports.model.evaluation import evaluate_model
 from reports.new.generate import generate_engine
 from reports.tables.registry import build_model
 from tests.conftest import sample
+from tests.cover import sparse
 
 
 class Pin(NamedTuple):
@@ -61,7 +62,7 @@ CASES = {
 }
 
 
-@pytest.fixture(params=CASES)
+@pytest.fixture(params=sparse(CASES))
 def name(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 

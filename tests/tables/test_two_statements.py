@@ -16,7 +16,7 @@ from reports.model.evaluation import Evaluation, evaluate_model
 from reports.new.generate import file_text, generate_engine
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
-from tests.cover import ALL
+from tests.cover import ALL, sparse
 from tests.layouts import MAKERS, made
 
 
@@ -63,8 +63,10 @@ if ALL:
     GRIDS = [(step, method) for step in (1, 3, 5, 30) for method in ("textbook", "exact")]
 
 
-@pytest.mark.parametrize(("step", "method"), GRIDS)
-@pytest.mark.parametrize("name", sample_names())
+CASES = [(name, *grid) for name in sample_names() for grid in GRIDS]
+
+
+@pytest.mark.parametrize(("name", "step", "method"), sparse(CASES, 3))
 def test_every_sample_on_every_grid(name: str, step: int, method: str) -> None:
     rays = 18 if step == 5 else 12
     assert_agree(variant(name, step_deg=step, method=method, wear_rays=rays))

@@ -19,6 +19,7 @@ from reports.tables.registry import build_model
 from reports.workbook.layout import Layout
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
+from tests.cover import sparse
 from tests.layouts import MAKERS
 from tests.tables.test_diagram import PETROL
 from tests.tables.test_two_statements import assert_agree
@@ -90,7 +91,7 @@ def test_both_statements_scale_alike(name: str) -> None:
     assert_agree(load_mapping(stepped(name, 15), source="f").model)
 
 
-@pytest.mark.parametrize("name", ["points", "smooth points", "rounded", "polytropes"])
+@pytest.mark.parametrize("name", sparse(["points", "smooth points", "polytropes", "rounded"]))
 def test_the_sheet_finds_the_largest_pressure(name: str) -> None:
     model = build_model(load_mapping(stepped(name, 15), source="f").model)
     (result,) = Formualizer().recalculate([workbook_bytes(model)])

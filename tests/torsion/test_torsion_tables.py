@@ -24,7 +24,7 @@ from reports.tables.registry import build_model, stand_ins
 from reports.tables.torsion_members import main_orders
 from reports.workbook.layout import FIRST_ROW, Layout
 from reports.workbook.write import workbook_bytes
-from tests.cover import examples
+from tests.cover import examples, sparse
 from tests.layouts import MAKERS
 from tests.referee.changes import Change, free_fields, type_into, with_values
 from tests.referee.compare import differences_from_caches, errors_in
@@ -44,7 +44,7 @@ GIVEN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("maker", MAKERS)
+@pytest.mark.parametrize("maker", sparse(MAKERS))
 def test_estimates_of_every_layout(maker: str) -> None:
     data = laid_out(maker, {}, step_deg=15)
     assert_agree(data, solve(*engine_and_cycle(data)))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from reports.document.text.tex import TexError
 from reports.document.text.texts import FORMULA
 from reports.word.omml import displayed, omath
-from tests.cover import chapters, samples_with
+from tests.cover import chapters, samples_with, sparse
 from tests.word.docx_samples import NAME, NUMBER, M, W, docx_of, page_of, part, root_of, text_of
 
 _UNSAID = ("span[@class='hn']", "nav", "*[@class='form2']", "*[@class='form2a']",
@@ -62,7 +62,7 @@ def numbers_of_docx(data: bytes) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", samples_with(chapters))
+@pytest.mark.parametrize("name", sparse(samples_with(chapters)))
 def test_every_number_of_the_pdf_stands_in_word(name):
     """In the order of the text; within a formula an index may stand before a power."""
     page, word = numbers_of_page(page_of(name)), numbers_of_docx(docx_of(name))

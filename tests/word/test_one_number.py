@@ -15,7 +15,7 @@ from ezdxf import recover
 from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits
 from reports.sheet.write import sheet_files
-from tests.cover import ALL, chapters, samples_with
+from tests.cover import ALL, chapters, samples_with, sparse
 from tests.document.report_samples import shipped_pdf
 from tests.word.docx_samples import docx_of, model_of, page_of, part, root_of, text_of
 from tests.workbook.made import book as own_book
@@ -48,7 +48,7 @@ def of_workbook(data: bytes) -> dict[str, float]:
     return values
 
 
-@pytest.mark.parametrize("name", samples_with(chapters))
+@pytest.mark.parametrize("name", sorted({*PRINTED, *sparse(samples_with(chapters), 3)}))
 def test_the_same_number_everywhere(name, tmp_path):
     model, values = model_of(name)
     terms = Terms(model, values)

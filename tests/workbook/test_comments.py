@@ -7,7 +7,7 @@ import pytest
 from reports.formula.plain import plain
 from reports.model.blocks import TableSpec
 from reports.workbook.layout import HEADER_ROW, Layout
-from tests.cover import charts, quantities, samples_with
+from tests.cover import charts, quantities, samples_with, sparse
 from tests.workbook.made import coarse_model, coarse_opened
 
 SYMBOLS = {"a": "a", "b": "b", "t.x": "x", "m": "m − n", "q": "V/Vc"}
@@ -27,7 +27,7 @@ def test_an_expression_as_a_line(text: str, said: str) -> None:
     assert plain(text, SYMBOLS.__getitem__) == said
 
 
-@pytest.mark.parametrize("name", samples_with(charts, quantities))
+@pytest.mark.parametrize("name", sparse(samples_with(charts, quantities)))
 def test_every_column_explains_itself(name: str) -> None:
     """Formula and place in the book, unless the formula only repeats another column."""
     book, model = coarse_opened(name), coarse_model(name)

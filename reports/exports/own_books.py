@@ -243,8 +243,20 @@ def _infinite(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Ite
             return
 
 
+_REASONS: dict[type[Exception], str] = {
+    ZeroDivisionError: "деление на ноль",
+    OverflowError: "число слишком большое",
+    KeyError: "нет такого имени",
+}
+
+
 def _reason(error: Exception) -> str:
-    return one_line(f"{type(error).__name__}: {error}", 80)
+    """What went wrong: in Russian as it was said, or by the kind of the error."""
+    text = str(error)
+    if re.search("[а-яё]", text):
+        return one_line(text, 80)
+    return next((said for kind, said in _REASONS.items() if isinstance(error, kind)),
+                "действие не для этих значений")  # fmt: skip
 
 
 # Engines of every kind that a book alone is tried on.

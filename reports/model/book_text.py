@@ -186,7 +186,7 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
                         "уберите вызов себя через себя") from None  # fmt: skip
     except jinja2.TemplateSyntaxError as error:
         book = shelf.called(error.name or name)
-        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано: {error.message}",
+        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано{_cause(error)}",
                         "проверьте % if, % for и скобки") from error  # fmt: skip
     except jinja2.TemplateNotFound as error:
         book, number = _raised_at(error, name)
@@ -196,9 +196,23 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
         book, number = _raised_at(error, name)
         book = shelf.called(book)
         raise BookError(
-            book, number, 1, f"условие Jinja2 не вычислено: {error}",
+            book, number, 1, f"условие Jinja2 не вычислено{_cause(error)}",
             "имена, которые знает книга, перечислены в docs/books.md",
         ) from error  # fmt: skip
+
+
+def _cause(error: Exception) -> str:
+    """Why, after a colon, where it can be said in Russian."""
+    text = str(error)
+    if re.search("[а-яё]", text):
+        return f": {text}"
+    names = re.findall(r"'([^']*)'", text)
+    if isinstance(error, jinja2.TemplateError) and names:
+        undefined = isinstance(error, jinja2.UndefinedError)
+        return f": {'нет имени' if undefined else 'непонятно'} «{names[-1]}»"
+    if isinstance(error, ZeroDivisionError):
+        return ": деление на ноль"
+    return "" if isinstance(error, jinja2.TemplateError) else ": действие не для этих значений"
 
 
 def _raised_at(error: Exception, name: str) -> tuple[str, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 
@@ -155,6 +156,20 @@ def test_a_hostile_book_is_refused_in_lines(case: str):
     for line in lines:
         assert len(line) < 700 and "Traceback" not in line and "/reports/" not in line
         assert "root:" not in line
+        assert re.search(r"(?:[a-z]{2,} ){2}[a-z]{2,}|[a-z]Error", line) is None, line
+
+
+@pytest.mark.parametrize(
+    ("line", "cause"),
+    [
+        ("% set a = 1 +", "условие Jinja2 не разобрано"), ("% nix", "непонятно «nix»"),
+        ("% set a = 1 | nix", "непонятно «nix»"), ("% set a = nix.more", "нет имени «nix»"),
+        ("% set a = 1/0", "деление на ноль"), ("% set a = short()", "не для этих значений"),
+    ],
+)  # fmt: skip
+def test_a_mistake_of_a_statement_is_told_in_russian(line: str, cause: str):
+    assert told(statement(line)).startswith("hostile.book: строка 5")
+    assert cause in told(statement(line))
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,9 @@ def page(mode: str) -> tuple[str, dict]:
 def test_hints_do_not_draw_the_right_curve():
     html, item = page("hints")
     chart = item["chart"]
-    assert line_chart(chart["x"], chart["own"], None) in html
+    axes = ("φ, °", "м/с")
+    assert line_chart(chart["x"], chart["own"], None, axes) in html
+    assert "<b>П3.1 v<sub>п1</sub>, м/с</b>" in html
     assert 'class="right"' not in html
     assert "правильные значения" not in html
     assert "значения и правильные" not in html
@@ -85,7 +87,7 @@ def test_a_question_ends_with_its_own_mark():
 def test_full_feedback_draws_both_curves():
     html, item = page("full")
     chart = item["chart"]
-    assert line_chart(chart["x"], chart["own"], chart["right"]) in html
+    assert line_chart(chart["x"], chart["own"], chart["right"], ("φ, °", "м/с")) in html
     assert html.count('class="right"') == 2  # the curve and its sample in the legend
     assert all(f">{number(cell['right'], item['digits'])}<" in html for cell in item["cells"])
 

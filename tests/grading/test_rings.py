@@ -13,7 +13,8 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.grading.batch.memory import remember, remembered
-from reports.grading.judging import rings
+from reports.grading.judging import rings, similarity, traits
+from reports.grading.judging import works as judging_works
 from reports.grading.judging.canonical import Reader
 from reports.grading.judging.rings import PastWork, rings_of
 from reports.grading.judging.traits import ERROR, FORM, HELPER, IDLE, SLIP, TEXT
@@ -136,6 +137,12 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
     words = {FORM: "своя формула — до", SLIP: "ошибка с известной причиной — до",
              ERROR: "редкая ошибка — до", IDLE: "действие без смысла (`+0`, `*1`) — до",
              HELPER: "вспомогательный столбец — до", TEXT: "раскладка — до"}  # fmt: skip
+    share = f"не меньше {judging_works.VERBATIM} формул и не меньше {judging_works.NEARLY_ALL:.0%}"
+    held, told = text.split("**Только сообщает:**")
+    assert share.replace("%", " %") in held
+    assert f"те же {judging_works.VERBATIM} формул" in told
+    assert f"от {traits._PASTED} зелёных столбцов" in held
+    assert f"от {similarity._SHARED} столбцов" in held
     for kind, said in words.items():
         assert f"{said} {rings._KINDS[kind][1]:g}".replace(".", ",") in text, said
 

@@ -75,6 +75,17 @@ def indexed(symbol_tex: str, plain: str) -> str:
     return plain if any(each in html for each in _NO_TEXT) else text
 
 
+_INDEXED = re.compile(r"_([^\s_·/=,;.()²³⁴]+(?:[.\u00a0][^\s_·/=,;.()²³⁴]+)*(?:\([i\d\s+]+\))?)")
+
+
+def with_indices(text: str) -> Markup:
+    """A text with the symbols of ``indexed`` in it, their indices lowered."""
+    parts = _INDEXED.split(text)
+    lowered = (Markup("<sub>{}</sub>").format(part) for part in parts[1::2])
+    return Markup("").join(Markup("{}{}").format(*pair) for pair in zip(parts[::2], [*lowered, ""],
+                                                                          strict=True))  # fmt: skip
+
+
 @functools.lru_cache(maxsize=4096)
 def titled_html(title: str) -> Markup:
     """A title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""
@@ -105,6 +116,8 @@ def _html(nodes: Sequence[TexNode], *, upright: bool) -> str:
     for number, node in enumerate(wanted, 1):
         piece = _piece(node, upright=upright)
         if piece in _SPACED and pieces and number < len(wanted) and not pieces[-1].endswith(NBSP):
+            piece = f"{NBSP}{piece}{NBSP}"
+        if node.command in _FUNCTIONS and pieces and not pieces[-1].endswith(NBSP):
             piece = f"{NBSP}{piece}{NBSP}"
         pieces.append(piece)
     # Neighbouring slanted letters stand in one element.

@@ -17,6 +17,7 @@ from math import sqrt
 import numpy as np
 
 from kshm.nomenclature.quantity import Quantity
+from reports.document.text.symbols import indexed
 from reports.formula.parse import names, parse
 from reports.grading.issuing.rubric import Rubric
 from reports.inputs.messages import likely_word
@@ -51,6 +52,12 @@ class Item:
     def is_column(self) -> bool:
         """Whether this is a column of a table."""
         return "." in self.nodes[0]
+
+    @property
+    def indexed(self) -> str:
+        """The symbol with «_» before its index."""
+        plain = self.quantity.symbol
+        return indexed(self.quantity.tex, plain) if self.symbol == plain else self.symbol
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from reports.grading.judging.scoring import HandedIn, score
 from reports.grading.judging.traits import Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
-from reports.grading.judging.works import feedback_line, formula_marks, own_marks
+from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import leave_out_unused, restore
 from reports.grading.reading.student import StudentBook
@@ -266,9 +266,6 @@ class Marker:
         return {name: field.title for name, field in assignment.model.fields.items()}
 
 
-_MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
-
-
 def _of_the_program(
     student: StudentBook, formulas: Mapping[str, Sequence[Any]], book: Textbook
 ) -> list[str]:
@@ -278,7 +275,7 @@ def _of_the_program(
         told.append(f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги")
     own = sum(bool(mark[2]) for mark in formulas.values())
     issued = any(name.startswith("col_") for name in student.grid.names)
-    if not issued and own >= max(_MANY, _NEARLY_ALL * len(formulas)):
+    if not issued and is_verbatim(own, len(formulas)):
         told.append(
             f"это книга, решённая программой: слово в слово {own} из {len(formulas)} формул"
         )

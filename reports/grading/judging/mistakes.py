@@ -335,7 +335,7 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         yield "sin и cos взяты друг вместо друга", OtherRatio(which).visit
     yield from _shorter(tree, block, model)
     yield "значение под корнем: корень не извлечён", WithoutRoot().visit
-    yield "аргументы ATAN2 переставлены: первым стоит x", Swapped().visit
+    yield "аргументы ATAN2 переставлены: первым пишут x", Swapped().visit
     for value, words in _ROUGH:
         yield f"π взято как {words}", OtherPi(value).visit
     for text in factors(tree):

@@ -9,14 +9,13 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from reports.grading.judging.rings import Ring, who
-from reports.grading.judging.works import Work
+from reports.grading.judging.works import Work, is_verbatim
 
 Works = Sequence[Work]
 
 _COMMON = {"", "kshm", "openpyxl"}
 _FEW = 3  # owners of a value that are named
 _SHARED = 3  # formulas, or columns, from which it is no chance
-_MANY, _NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
 
 
 def signals(results: Works, rings: Sequence[Ring] = ()) -> list[str]:
@@ -138,7 +137,7 @@ def _of_the_program(graded: Works) -> list[str]:
     labels = []
     for result in graded:
         own = [line.formula[2] for line in result.items if line.formula]
-        if len(own) >= _MANY and sum(own) >= _NEARLY_ALL * len(own):
+        if is_verbatim(sum(own), len(own)):
             text = "формулы слово в слово как в книге, решённой программой"
             labels.append(f"{who(result)}: {text} — {sum(own)} из {len(own)}")
     return labels

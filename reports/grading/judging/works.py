@@ -218,6 +218,14 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
     )
 
 
+VERBATIM, NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
+
+
+def is_verbatim(own: int, count: int) -> bool:
+    """Whether so many formulas are the program's to a sign that they are copied."""
+    return own >= max(VERBATIM, NEARLY_ALL * count)
+
+
 # --- lines of the feedback -----------------------------------------------------------------------
 
 _SAMPLE = 200  # signs of a formula that a person looks at
@@ -243,6 +251,7 @@ def feedback_line(
         "label": f"{short} {item.symbol}",
         "title": item.title,
         "symbol": item.symbol,
+        "indexed": item.indexed,
         "unit": item.quantity.unit_label,
         "source": item.source,
         "digits": asdict(item.quantity.digits),
@@ -267,7 +276,9 @@ def feedback_line(
         line["cells"] = _cells(student, judgement)
         line["mark"] = fingerprint(item, judgement.values)
         if item.is_column:
+            angle = assignment.model.tables[item.block].columns[0].quantity
             line["chart"] = {
+                "over": ", ".join(filter(None, (angle.symbol, angle.unit_label))),
                 "x": [float(label) for label in item.labels],
                 "own": _plain(judgement.values),
                 "right": _plain(judgement.expected),

@@ -8,13 +8,14 @@ from functools import lru_cache
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from kshm.nomenclature.digits import Digits
+from reports.document.text.symbols import with_indices
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.judgement import UNKNOWN, WORDS
 from reports.shared.resources import templates_dir
-from reports.shared.russian import capital, short, written
+from reports.shared.russian import capital, fixed, short, written
 
 
 @lru_cache(maxsize=1)
@@ -32,6 +33,8 @@ def _environment() -> Environment:
         "rows": rows,
         "moment": moment,
         "capitalize_first": capital,
+        "indices": with_indices,
+        "fixed": fixed,
     }
     return environment
 
@@ -73,7 +76,8 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
 
 
 def _line(line: dict[str, Any], full: bool) -> dict[str, Any]:
-    return {"message": "", "needs": (), **line, "svg": _chart(line, full)}
+    given = {"message": "", "needs": (), "indexed": line["symbol"], **line}
+    return {**given, "svg": _chart(line, full)}
 
 
 def _by_heading(lines: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
@@ -114,8 +118,9 @@ def _chart(line: dict[str, Any], full: bool) -> Markup:
         return Markup("")
     # The right curve would give away what a hint only points at.
     right = chart["right"] if full else None
-    # The chart is made of numbers only: no text of a person's is in it.
-    return Markup(line_chart(chart["x"], chart["own"], right))
+    # The chart is made of numbers and of names of units: no text of a person's is in it.
+    axes = chart.get("over", ""), line["unit"]
+    return Markup(line_chart(chart["x"], chart["own"], right, axes))
 
 
 def number(value: float | None, digits: Mapping[str, Any] | None = None) -> str:
@@ -145,12 +150,12 @@ def rows(labels: list[str], limit: int = 14) -> str:
 # --- curves --------------------------------------------------------------------------------------
 
 WIDTH, HEIGHT = 640, 200
-_LEFT, _RIGHT, _TOP, _BOTTOM = 56, 12, 10, 26
+_LEFT, _RIGHT, _TOP, _BOTTOM = 80, 16, 26, 26
 
 Points = Sequence[float | None]
 
 
-def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str = ".4g") -> str:
+def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tuple[str, str]) -> str:
     """The chart's SVG; gaps where there is no number, one line where ``right`` is None."""
     known = [v for line in (own, right or ()) for v in line if v is not None]
     if not known or len(x) < 2:
@@ -179,7 +184,7 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str =
         parts.append(
             f'<line class="grid" x1="{_LEFT}" x2="{WIDTH - _RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>'
         )
-        label = format(value, fmt).replace(".", ",").replace("-", "−")
+        label = short(value, 4)
         parts.append(f'<text x="{_LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{label}</text>')
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
         value = x[0] + (x[-1] - x[0]) * share
@@ -187,6 +192,10 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, fmt: str =
         parts.append(
             f'<text x="{at_x(value):.1f}" y="{HEIGHT - 8}" text-anchor="{anchor}">{value:g}</text>'
         )
+    over = at_x(x[0] + 0.875 * (x[-1] - x[0])), HEIGHT - 8
+    for name, (left, top) in zip(axes, (over, (_LEFT, 14)), strict=True):
+        words = f'<text x="{left:.1f}" y="{top}" text-anchor="middle">{escape(name)}</text>'
+        parts.append(words)
     if right is not None:
         parts.append(_path(x, right, at_x, at_y, "right"))
     parts.append(_path(x, own, at_x, at_y, "own"))

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.document.text.symbols import indexed
 from reports.formula.parse import names, parse
 from reports.formula.plain import plain
 from reports.grading.issuing.assignment import Assignment, Item
@@ -86,7 +87,7 @@ class _Maker:
             return None
         if abs(values[at]) <= abs(values[near]) * (1 + _TELLING):
             return None
-        name = f"{item.symbol} ({item.title})"
+        name = f"{item.indexed} ({item.title})"
         word = "наибольшее" if values[at] > 0 else "наименьшее"
         text = (
             f"Почему {name} принимает {word} значение при φ = {short(angles[at])}°, а не в мёртвой "
@@ -105,12 +106,13 @@ class _Maker:
         if column is None:
             return None
         table, values, angles = column
-        turns = [i for i in range(1, len(values)) if values[i - 1] * values[i] < 0]
+        clear = _clear(values)
+        turns = [i for i in range(1, len(clear)) if clear[i - 1] * clear[i] < 0]
         if not turns:
             return None
         at = chance.choice(turns)
         text = (
-            f"Между какими углами около φ = {short(angles[at])}° {item.symbol} ({item.title}) "
+            f"Между какими углами около φ = {short(angles[at])}° {item.indexed} ({item.title}) "
             "меняет знак и что в формуле его меняет?"
         )
         turned = [
@@ -135,6 +137,7 @@ class _Maker:
             and isinstance(field.value, float)
             and field.value > 0
             and field.unit
+            and field.title.casefold() != item.title.casefold()
         ]
         if not before or not inputs or self._is_copy(item):
             return None
@@ -148,7 +151,7 @@ class _Maker:
         what = "наибольшее по модулю значение " if item.is_column else ""
         title = uncapital(field.title)
         text = (
-            f"Как изменится {what}{item.symbol} ({item.title}), если увеличить на 10 % величину "
+            f"Как изменится {what}{item.indexed} ({item.title}), если увеличить на 10 % величину "
             f"«{title}» ({short(float(value))} {field.unit}), а остальное оставить?"
         )
         word = "вырастет" if share > 0 else "уменьшится"
@@ -164,9 +167,9 @@ class _Maker:
         if column is None:
             return None
         table, values, angles = column
-        at = chance.choice([i for i in range(len(values)) if values[i]] or [0])
+        at = chance.choice(np.flatnonzero(_clear(values)).tolist() or [0])
         where = f"φ = {short(angles[at])}°"
-        text = f"Подставьте числа и получите {item.symbol} ({item.title}) при {where}."
+        text = f"Подставьте числа и получите {item.indexed} ({item.title}) при {where}."
         answer = f"{self._is(item, values[at])}. {self._formula(item)}"
         return Question("substitution", item.id, text, answer + self._beside(item, table, at, at))
 
@@ -216,15 +219,23 @@ class _Maker:
     def _formula(self, item: Item) -> str:
         expression = self.assignment.graph.expression(item.nodes[0]) or "0"
         text = plain(expression, lambda name: self._symbol(node_of(name, item.block, self.model)))
-        return f"Формула: {item.symbol} = {text}." if len(text) < 160 else ""
+        telling = text != item.indexed and len(text) < 160
+        return f"Формула: {item.indexed} = {text}." if telling else ""
 
     def _symbol(self, node: str) -> str:
         key = self.model.grid_runs.get(node, (node,))[0]
         if key in self.model.nodes:
-            return self.model.nodes[key].quantity.symbol
+            about = self.model.nodes[key].quantity
+            return indexed(about.tex, about.symbol)
         field = self.model.fields.get(node)
         return field.title if field is not None else node
 
     def _is(self, item: Item, value: float) -> str:
         unit = item.quantity.unit_label
-        return f"{written(float(value) + 0.0, item.quantity.digits)} {unit}".strip()
+        space = "" if unit == "°" else " "
+        return f"{written(float(value) + 0.0, item.quantity.digits)}{space}{unit}".strip()
+
+
+def _clear(values: Array) -> Array:
+    """Values with noughts for what print may show as nought."""
+    return np.where(np.abs(values) > _TELLING * np.abs(values).max(), values, 0.0)

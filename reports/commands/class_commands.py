@@ -165,7 +165,7 @@ def grade(
 
     author = author or _user()
     if decisions and issued is None and folder is not None:
-        done = decide_all(folder, GradeSetup(decisions=decisions, author=author))
+        done = decide_all(folder, GradeSetup(decisions=decisions, author=author, form=form))
         click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
         return LOOK if done.needs_a_person else DONE
     if issued is None or submitted is None or folder is None:

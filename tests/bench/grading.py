@@ -75,7 +75,7 @@ def figures() -> Iterator[Figure]:
 
 
 def _issued(folder: Path) -> Register:
-    lines = ["Фамилия;Имя"] + [f"Студент{chr(1040 + i)};Имя" for i in range(STUDENTS)]
+    lines = ["Фамилия;Имя"] + [f"Студент{letter};Имя" for letter in "АБВГДЕЖЗКЛ"[:STUDENTS]]
     (folder / "group.csv").write_text("\n".join(lines), encoding="utf-8")
     return issue(
         samples_dir() / "class" / "base.toml",

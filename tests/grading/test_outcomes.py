@@ -177,6 +177,10 @@ def test_copies_and_questions_lie_beside_the_pages_without_answers(handed, tmp_p
 def test_pages_without_names_tell_none(handed, tmp_path):
     out = tmp_path / "out"
     handed.graded(out, anonymous=True, questions=True)
+    path = form(tmp_path / "form.xlsx", [])
+    word = handed.register.books[2].student.full, "всё", "+", ""
+    decide(out, GradeSetup(decisions=(word,), author="Гоц", form=path))  # and keeps it so
+    assert load_workbook(out / "ведомость.xlsx").active["D7"].value == 5
     told = [*out.glob("*.html"), *out.glob("pages/*"), *out.glob("questions/*")]
     assert len(told) == 10
     for page in told:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import datetime, timedelta
+from types import SimpleNamespace
 
 import pytest
 
+from reports.grading.batch.extras import put_off
 from reports.grading.batch.rubric_trial import try_rubric
-from reports.grading.issuing.roster import read_roster
+from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import load_rubric, rubric_of
 from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, WRONG
 from reports.grading.judging.marking import Marker
@@ -61,6 +63,15 @@ def test_an_own_deadline_of_the_roster(tmp_path, given, hours):
     path.write_text(f"Фамилия;Имя;Срок\nИванов;Иван;{given}\n", encoding="utf-8")
     (student,) = read_roster(path)
     assert hours_late(LATE, datetime(2026, 12, 3), student.extension) == hours
+
+
+def test_an_own_deadline_of_nobody_in_the_class_is_told():
+    known = [SimpleNamespace(student=Student(id=name, surname=name, name="")) for name in "аб"]
+    register = SimpleNamespace(books=known)
+    for student, words in ((Student("в", "Вуз", "", extension="+24"), "в этой выдаче нет: Вуз"),
+                           (Student("г", "Гоц", ""), "в списке нет её студентов")):  # fmt: skip
+        with pytest.raises(InputError, match=words):
+            put_off(register, [student])
 
 
 def test_an_own_deadline_that_is_none_is_one_clear_line(tmp_path):

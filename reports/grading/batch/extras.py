@@ -90,9 +90,12 @@ def write_questions(
 def put_off(register: Register, students: Sequence[Student]) -> Register:
     """The register with the deadlines of a newer roster; nothing else is taken from it."""
     given = {student.id: student.extension for student in students}
-    if given.keys().isdisjoint(book.student.id for book in register.books):
+    known = {book.student.id for book in register.books}
+    lost = [student.full for student in students if student.extension and student.id not in known]
+    if lost or known.isdisjoint(given):
         hint = "возьмите список, по которому выданы варианты, и впишите в него столбец «Срок»"
-        raise InputError(Problem("--roster", "в списке нет студентов этой выдачи", hint))
+        what = f"в этой выдаче нет: {', '.join(lost[:5])}" if lost else "в списке нет её студентов"
+        raise InputError(Problem("--roster", what, hint))
     books = (
         replace(book, student=replace(book.student, extension=given[book.student.id]))
         if book.student.id in given

@@ -152,8 +152,7 @@ def grade(
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
     if options.form is not None:
-        rows = table_rows(register, batch.ordered, batch.rings())
-        fill_form(folder, rows, register.rubric, options.form)
+        batch.fill_form(options.form)
     if options.copies:
         write_copies(
             folder, batch.results(submissions), register.rubric, workers, options.timeout_s
@@ -184,12 +183,17 @@ def decide(folder: Path, options: GradeSetup) -> Graded:
         InputError: there are no results, or a decision names no student or item.
     """
     started = time.monotonic()
-    batch = _Batch(load_register(folder / RESULTS / FILE), folder)
+    register = load_register(folder / RESULTS / FILE)
+    anonymous = bool(read_json(folder / "summary.json").get("anonymous"))
+    batch = _Batch(register, folder, anonymous=anonymous)
     batch.take_over()
     batch.check(options)
     if (refused := batch.decide(options)) is not None:
         raise refused
-    return Graded(folder, batch.finish(), len(batch.works), time.monotonic() - started)
+    summary = batch.finish()
+    if options.form is not None:
+        batch.fill_form(options.form)
+    return Graded(folder, summary, len(batch.works), time.monotonic() - started)
 
 
 class _Batch:
@@ -428,7 +432,8 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
         maximum = self.register.rubric.maximum
-        data = {**summary, "rows": [_row(row) for row in rows]}
+        veiled = self._veil is not None
+        data = {**summary, "rows": [_row(row) for row in rows], "anonymous": veiled}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
@@ -454,6 +459,15 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, self.rings())
         worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
+
+    def fill_form(self, path: Path) -> None:
+        """The institute's form with points and marks.
+
+        Raises:
+            InputError: it cannot be read.
+        """
+        rows = table_rows(self.register, self.ordered, self.rings())
+        fill_form(self.folder, rows, self.register.rubric, path)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.

@@ -19,12 +19,12 @@ from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
-from reports.grading.judging.traits import Textbook, pasted, traits_of
+from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.verdicts import judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
-from reports.grading.reading.restoring import leave_out_unused, restore
+from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
 from reports.grading.reading.student import StudentBook
 from reports.grading.reading.submissions import (
     Match,
@@ -153,7 +153,9 @@ class Marker:
     def _first(self) -> _Tables:
         """Those of the first work-book, whichever is graded first: the others are mostly alike."""
         assignment = assignment_for(self.register.books[0], self.register.rubric)
-        return _Tables(assignment, Layout.of(assignment.model), self.register)
+        layout = Layout.of(assignment.model)
+        issued_formulas(assignment, layout)  # read once for the class
+        return _Tables(assignment, layout, self.register)
 
     def _tables(self, assignment: Assignment) -> _Tables:
         """Shared data of a student's tables."""
@@ -216,8 +218,9 @@ class Marker:
             result["doubts"].append(text)
             result["manual"].append(text)
         result["formulas"] = formula_marks(student, tables.own)
-        result["traits"] = traits_of(student, items, tables.textbook)
-        for text in _of_the_program(student, result["formulas"], tables.textbook):
+        own = OwnFormulas(student, tables.textbook)
+        result["traits"] = traits_of(own, items)
+        for text in _of_the_program(own, result["formulas"]):
             result["doubts"].append(text)
             result["manual"].append(text)
         if student.changed:
@@ -266,18 +269,16 @@ class Marker:
         return {name: field.title for name, field in assignment.model.fields.items()}
 
 
-def _of_the_program(
-    student: StudentBook, formulas: Mapping[str, Sequence[Any]], book: Textbook
-) -> list[str]:
+def _of_the_program(own: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:
     """How the work comes of a book that the program has solved: a person decides."""
     told = []
-    if sheet := pasted(student, book):
+    if sheet := pasted(own):
         told.append(f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги")
-    own = sum(bool(mark[2]) for mark in formulas.values())
-    issued = any(name.startswith("col_") for name in student.grid.names)
-    if not issued and is_verbatim(own, len(formulas)):
+    same = sum(bool(mark[2]) for mark in formulas.values())
+    issued = any(name.startswith("col_") for name in own.student.grid.names)
+    if not issued and is_verbatim(same, len(formulas)):
         told.append(
-            f"это книга, решённая программой: слово в слово {own} из {len(formulas)} формул"
+            f"это книга, решённая программой: слово в слово {same} из {len(formulas)} формул"
         )
     return told
 

@@ -43,7 +43,9 @@ class Textbook:
 
     assignment: Assignment
     layout: Layout
-    known: dict[tuple[str, Formula, int], Tree | None] = field(default_factory=dict)
+    known: dict[tuple[str, Formula, int, frozenset[str] | None], Tree | None] = field(
+        default_factory=dict
+    )
 
     @cached_property
     def formulas(self) -> dict[str, tuple[Formula, ...]]:
@@ -92,7 +94,8 @@ class Textbook:
         return places
 
     @cached_property
-    def _cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
+    def cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
+        """Cell → its name, the index of its value and how many there are, as issued."""
         return {
             (sheet, row, column): (name, index, len(rows))
             for name, (sheet, rows, column) in self.places.items()
@@ -100,7 +103,7 @@ class Textbook:
         }
 
     def _node_at(self, sheet: str, row: int, column: int) -> tuple[str, int, int] | None:
-        return self._cells.get((sheet, row, column))
+        return self.cells.get((sheet, row, column))
 
     def _named(self, name: str) -> tuple[str, int, int] | None:
         return self.names.get(name)
@@ -119,14 +122,16 @@ class Textbook:
         return {name.casefold(): self.names[name.casefold()] for name in self.layout.named}
 
 
-class _Own:
+class OwnFormulas:
     """Trees of one student's formulas."""
 
     def __init__(self, student: StudentBook, book: Textbook) -> None:
         self.student, self.book = student, book
 
     @cached_property
-    def cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
+    def _cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
+        if self._lacking is not None:
+            return self.book.cells
         return {
             (place.sheet, row, place.column): (name, index, len(place.rows))
             for name, place in self.student.placement.places.items()
@@ -134,8 +139,9 @@ class _Own:
             if row is not None
         }
 
-    def _node_at(self, sheet: str, row: int, column: int) -> tuple[str, int, int] | None:
-        return self.cells.get((self._title(sheet), row, column))
+    def node_at(self, sheet: str, row: int, column: int) -> tuple[str, int, int] | None:
+        """Name, index and length of the value of a cell."""
+        return self._cells.get((self._title(sheet), row, column))
 
     def _title(self, sheet: str) -> str:
         return self.student.grid.title(sheet) or sheet
@@ -157,14 +163,14 @@ class _Own:
         """Tree of a run; that of a table is known where another student has it too."""
         if run.formula is None:
             return None
-        known = self._node_at(run.sheet, run.first, run.column)
+        known = self.node_at(run.sheet, run.first, run.column)
         index = known[1] if known is not None else 0
-        key = node, run.formula, index
-        shared = bool(node) and self._as_issued
+        key = node, run.formula, index, self._lacking
+        shared = bool(node) and self._lacking is not None
         if shared and key in self.book.known:
             return self.book.known[key]
         # Kept nowhere: a circle of references would keep the whole book with it.
-        reader = Reader(self._node_at, self.formula_at, self._constant_at, self._named)
+        reader = Reader(self.node_at, self.formula_at, self._constant_at, self._named)
         try:
             at = run.sheet, run.first, run.column
             tree: Tree | None = reader.tree(run.formula.pattern, at, index)
@@ -175,10 +181,16 @@ class _Own:
         return tree
 
     @cached_property
-    def _as_issued(self) -> bool:
-        """Whether cells and names are as issued: what is read then is the same for a class."""
-        issued = self.book.defined
-        return self.student.as_laid_out and all(self._named(n) == at for n, at in issued.items())
+    def _lacking(self) -> frozenset[str] | None:
+        """Issued names that the book lacks, None where a cell or a name is not as issued.
+
+        What is read of books that lack the same names is the same for a class.
+        """
+        named = {name: self._named(name) for name in self.book.defined}
+        moved = any(at not in (None, self.book.defined[name]) for name, at in named.items())
+        if moved or not self.student.as_laid_out:
+            return None
+        return frozenset(name for name, at in named.items() if at is None)
 
     @cached_property
     def helpers(self) -> list[Run]:
@@ -186,16 +198,14 @@ class _Own:
         runs = (
             run
             for run in self.student.grid.runs()
-            if run.formula is not None and (run.sheet, run.first, run.column) not in self.cells
+            if run.formula is not None and self.node_at(run.sheet, run.first, run.column) is None
         )
         return [run for run, _ in zip(runs, range(_MOST_HELPERS), strict=False)]
 
 
-def traits_of(
-    student: StudentBook, lines: Sequence[Mapping[str, Any]], book: Textbook
-) -> list[Trait]:
+def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trait]:
     """Traits of a work; ``lines`` are those of its feedback."""
-    own = _Own(student, book)
+    student, book = own.student, own.book
     by_item = {line["id"]: line for line in lines}
     traits: list[Trait] = []
     for item in student.assignment.items:
@@ -234,7 +244,7 @@ def _manner(trees: Sequence[Tree | None], right: Sequence[Tree | None]) -> str:
     return " ".join(sorted(mine - theirs))
 
 
-def _helper_traits(own: _Own) -> list[Trait]:
+def _helper_traits(own: OwnFormulas) -> list[Trait]:
     traits: dict[Trait, None] = {}
     book, grid = own.book, own.student.grid
     places: set[tuple[str, int]] = set()
@@ -260,9 +270,9 @@ def _helper_traits(own: _Own) -> list[Trait]:
     return list(traits)
 
 
-def pasted(student: StudentBook, book: Textbook) -> str:
+def pasted(own: OwnFormulas) -> str:
     """The sheet of the program's own formulas that green cells only refer to, empty without one."""
-    own = _Own(student, book)
+    student, book = own.student, own.book
     of_program: Counter[str] = Counter()
     for node in student.assignment.fill_nodes:
         run = _main(student.runs(node))
@@ -273,7 +283,7 @@ def pasted(student: StudentBook, book: Textbook) -> str:
             continue
         for area in student.grid.precedents(run):
             at = (area.sheet, area.first_row, area.first_column)
-            tokens = None if at in own.cells else own.formula_at(*at)
+            tokens = None if own.node_at(*at) else own.formula_at(*at)
             if tokens is not None and tokens in book.patterns:
                 of_program[area.sheet] += 1
     sheet, count = of_program.most_common(1)[0] if of_program else ("", 0)

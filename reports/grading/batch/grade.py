@@ -152,7 +152,7 @@ def grade(
     if options.worksheet is not None:
         batch.fill_worksheet(options.worksheet)
     if options.form is not None:
-        batch.fill_form(options.form)
+        fill_form(folder, batch.table(), register.rubric, options.form)
     if options.copies:
         write_copies(
             folder, batch.results(submissions), register.rubric, workers, options.timeout_s
@@ -183,16 +183,15 @@ def decide(folder: Path, options: GradeSetup) -> Graded:
         InputError: there are no results, or a decision names no student or item.
     """
     started = time.monotonic()
-    register = load_register(folder / RESULTS / FILE)
-    anonymous = bool(read_json(folder / "summary.json").get("anonymous"))
-    batch = _Batch(register, folder, anonymous=anonymous)
+    register, known = load_register(folder / RESULTS / FILE), read_json(folder / "summary.json")
+    batch = _Batch(register, folder, anonymous=bool(known.get("anonymous")))
     batch.take_over()
     batch.check(options)
     if (refused := batch.decide(options)) is not None:
         raise refused
     summary = batch.finish()
     if options.form is not None:
-        batch.fill_form(options.form)
+        fill_form(folder, batch.table(), register.rubric, options.form)
     return Graded(folder, summary, len(batch.works), time.monotonic() - started)
 
 
@@ -217,9 +216,7 @@ class _Batch:
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
-        self._by_group: list[
-            tuple[str, str, str, str]
-        ] = []  # those that the gradebook has of groups
+        self._by_group: list[tuple[str, str, str, str]] = []  # what the gradebook says of groups
         self._group_author = ""
         self.past: Past = _kept_past(folder)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
@@ -414,7 +411,9 @@ class _Batch:
         write_text(self.folder / RESULTS / f"{stem}.json", text)
         self._keep(result)
         if not self._stands and time.monotonic() - self._written > _EVERY_S:
-            table = gradebook_csv(self._rows(), self.register.rubric.maximum)
+            table = gradebook_csv(
+                table_rows(self.register, self.ordered), self.register.rubric.maximum
+            )
             write_text(self.folder / "gradebook.csv", table)
             self._written = time.monotonic()
 
@@ -423,8 +422,9 @@ class _Batch:
         """Works in the order of their keys, whatever the order in which they came."""
         return [self.works[key] for key in sorted(self.works)]
 
-    def _rows(self) -> list[dict[str, Any]]:
-        return table_rows(self.register, self.ordered)
+    def table(self) -> list[dict[str, Any]]:
+        """Rows of the gradebook, with what rings hold."""
+        return table_rows(self.register, self.ordered, self.rings())
 
     def finish(self) -> dict[str, Any]:
         """All tables, the page of the class and its JSON: made first, then written together."""
@@ -432,8 +432,7 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
         maximum = self.register.rubric.maximum
-        veiled = self._veil is not None
-        data = {**summary, "rows": [_row(row) for row in rows], "anonymous": veiled}
+        data = {**summary, "rows": [_row(row) for row in rows], "anonymous": bool(self._veil)}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
@@ -451,23 +450,10 @@ class _Batch:
         return summary
 
     def fill_worksheet(self, path: Path) -> None:
-        """Moodle's worksheet with the grades.
-
-        Raises:
-            InputError: it is none.
-        """
-        rows = table_rows(self.register, self.ordered, self.rings())
-        worksheet = filled(read_worksheet(path), rows, self.register.rubric.maximum, path.name)
+        """Moodle's worksheet with the grades; InputError if it is none."""
+        maximum = self.register.rubric.maximum
+        worksheet = filled(read_worksheet(path), self.table(), maximum, path.name)
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
-
-    def fill_form(self, path: Path) -> None:
-        """The institute's form with points and marks.
-
-        Raises:
-            InputError: it cannot be read.
-        """
-        rows = table_rows(self.register, self.ordered, self.rings())
-        fill_form(self.folder, rows, self.register.rubric, path)
 
     def write_pdf(self) -> None:
         """A PDF beside every page.

@@ -29,6 +29,8 @@ FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT = (
 _MOST_HELPERS = 300  # runs outside the tables that are looked at
 _PASTED = 6  # formulas of the program on a sheet that green cells only refer to
 _TELLING = 6  # tokens of a formula that may tell who wrote it
+_MOST_NAMES = 100  # sets of names for which trees are kept
+Names = frozenset[tuple[str, tuple[str, int, int]]]
 _PLAIN_TITLES = ("лист", "sheet", "таблица")
 
 
@@ -43,9 +45,8 @@ class Textbook:
 
     assignment: Assignment
     layout: Layout
-    known: dict[tuple[str, Formula, int, frozenset[str] | None], Tree | None] = field(
-        default_factory=dict
-    )
+    known: dict[tuple[str, Formula, int, Names], Tree | None] = field(default_factory=dict)
+    names_of: dict[Names, Names] = field(default_factory=dict)  # each set of names once
 
     @cached_property
     def formulas(self) -> dict[str, tuple[Formula, ...]]:
@@ -116,11 +117,6 @@ class Textbook:
             name.casefold(): (cell.sheet, cell.row, cell.column) for name, cell in cells.items()
         }
 
-    @cached_property
-    def defined(self) -> dict[str, tuple[str, int, int]]:
-        """Names that the issued book defines."""
-        return {name.casefold(): self.names[name.casefold()] for name in self.layout.named}
-
 
 class OwnFormulas:
     """Trees of one student's formulas."""
@@ -130,7 +126,7 @@ class OwnFormulas:
 
     @cached_property
     def _cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
-        if self._lacking is not None:
+        if self.student.as_laid_out:
             return self.book.cells
         return {
             (place.sheet, row, place.column): (name, index, len(place.rows))
@@ -165,8 +161,8 @@ class OwnFormulas:
             return None
         known = self.node_at(run.sheet, run.first, run.column)
         index = known[1] if known is not None else 0
-        key = node, run.formula, index, self._lacking
-        shared = bool(node) and self._lacking is not None
+        key = node, run.formula, index, self._names
+        shared = bool(node) and self.student.as_laid_out
         if shared and key in self.book.known:
             return self.book.known[key]
         # Kept nowhere: a circle of references would keep the whole book with it.
@@ -181,16 +177,15 @@ class OwnFormulas:
         return tree
 
     @cached_property
-    def _lacking(self) -> frozenset[str] | None:
-        """Issued names that the book lacks, None where a cell or a name is not as issued.
-
-        What is read of books that lack the same names is the same for a class.
-        """
-        named = {name: self._named(name) for name in self.book.defined}
-        moved = any(at not in (None, self.book.defined[name]) for name, at in named.items())
-        if moved or not self.student.as_laid_out:
-            return None
-        return frozenset(name for name, at in named.items() if at is None)
+    def _names(self) -> Names:
+        """Names of the book with their cells: the very same set for all books that have it."""
+        grid = self.student.grid
+        areas = ((name, (a.sheet, a.first_row, a.first_column)) for name, a in grid.areas.items())
+        names = frozenset((*grid.names.items(), *areas))
+        if len(self.book.names_of) > _MOST_NAMES:  # a class must not fill the memory
+            self.book.names_of.clear()
+            self.book.known.clear()
+        return self.book.names_of.setdefault(names, names)
 
     @cached_property
     def helpers(self) -> list[Run]:

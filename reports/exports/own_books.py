@@ -71,11 +71,11 @@ def _serves_others(shelf: Shelf, name: str) -> bool:
 def _faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
     """Faults that only the whole model shows; each kind where the ones before are none."""
     for kind in (_repeated, _odd_words, _unknown_refs, book_faults, _unfit, _infinite):
-        found = False
+        faulty = False
         for fault in kind(model, places, shelf):
-            found = True
+            faulty = True
             yield fault
-        if found:
+        if faulty:
             return
 
 

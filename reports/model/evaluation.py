@@ -225,8 +225,8 @@ class Graph:
 
     def references(self, node: str) -> frozenset[str]:
         """Nodes and inputs that a node's formula names."""
-        found = self._references.get(node)
-        if found is None:
+        known = self._references.get(node)
+        if known is None:
             text = self.expression(node)
             table = node.split(".", maxsplit=1)[0] if "." in node else ""
             keys: set[str] = set()
@@ -234,8 +234,8 @@ class Graph:
                 local = f"{table}.{name}"
                 key = local if local in self._formulas else name
                 keys.update(self._runs.get(key, (key,)))
-            found = self._references[node] = frozenset(keys)
-        return found
+            known = self._references[node] = frozenset(keys)
+        return known
 
     def ancestors(self, node: str) -> frozenset[str]:
         """Every node and input that a node depends on."""

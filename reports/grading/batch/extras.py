@@ -77,10 +77,10 @@ def write_questions(
     for work in works:
         book = books[work.number or 0]
         wrong = [line.id for line in work.items if line.of and line.points < line.of]
-        asked = questions_for(marker.assignment(book)[0], book.ticket, wrong)
+        questions = questions_for(marker.assignment(book)[0], book.ticket, wrong)
         student = book.student
         sheet = {"student": student.full, "group": student.group, "number": book.number,
-                 "questions": asked}  # fmt: skip
+                 "questions": questions}  # fmt: skip
         sheets.append(sheet)
         page = shown(questions_page([sheet], rubric, answers=False))
         write_text(folder / QUESTIONS / Path(work.page).name, page)

@@ -115,8 +115,8 @@ def copies(
 
 
 def _copying(rubric: Rubric) -> Callable[..., bytes]:
-    made: Callable[..., bytes] = import_module(_COPIES).copying(rubric)
-    return made
+    copying: Callable[..., bytes] = import_module(_COPIES).copying(rubric)
+    return copying
 
 
 # --- a Dask cluster ------------------------------------------------------------------------------

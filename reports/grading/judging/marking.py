@@ -271,16 +271,18 @@ class Marker:
 
 def _of_the_program(own: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:
     """How the work comes of a book that the program has solved: a person decides."""
-    told = []
+    doubts = []
     if sheet := pasted(own):
-        told.append(f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги")
+        doubts.append(
+            f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги"
+        )
     same = sum(bool(mark[2]) for mark in formulas.values())
     issued = any(name.startswith("col_") for name in own.student.grid.names)
     if not issued and is_verbatim(same, len(formulas)):
-        told.append(
+        doubts.append(
             f"это книга, решённая программой: слово в слово {same} из {len(formulas)} формул"
         )
-    return told
+    return doubts
 
 
 def _equal(text: object, value: object) -> bool:

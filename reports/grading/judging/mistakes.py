@@ -52,14 +52,14 @@ def _is_sum(tree: ast.AST) -> bool:
 
 def brackets(tree: ast.expr) -> list[str]:
     """Sums in brackets by which a formula multiplies or divides, with a power or without."""
-    found: dict[str, None] = {}
+    bases: dict[str, None] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
             for side in (node.left, node.right):
                 base = side.left if _is_power(side) else side
                 if _is_sum(base):
-                    found[ast.unparse(base)] = None
-    return list(found)
+                    bases[ast.unparse(base)] = None
+    return list(bases)
 
 
 def factors(tree: ast.expr) -> list[str]:

@@ -103,12 +103,12 @@ def rings_of(graded: Sequence[Work], past: Past = ()) -> list[Ring]:
     count = len({_owner(work) for work in everyone})
     pairs: dict[tuple[int, int], _Evidence] = {}
     for one, other in _near(everyone, len(people), owners, count):
-        found = _evidence(everyone[one].traits, everyone[other].traits, owners, count)
-        if found.bits >= TOLD:
-            pairs[one, other] = found
+        evidence = _evidence(everyone[one].traits, everyone[other].traits, owners, count)
+        if evidence.bits >= TOLD:
+            pairs[one, other] = evidence
     rings: list[Ring] = []
     for held in (True, False):
-        links = {pair: found for pair, found in pairs.items() if found.held == held}
+        links = {pair: evidence for pair, evidence in pairs.items() if evidence.held == held}
         for group in _groups(links):
             ring = _ring(group, everyone, links, held=held)
             if not any(_has(known, ring) for known in rings):  # a part of what is told already
@@ -159,10 +159,10 @@ def _near(
             if at is not None:
                 table[row, at] = _bits(trait, owners, count) ** 0.5
     sums = table[:people] @ table.T
-    found = np.argwhere(sums >= TOLD - 1e-3)
+    near = np.argwhere(sums >= TOLD - 1e-3)
     return [
         (int(one), int(other))
-        for one, other in found
+        for one, other in near
         if one < other and _owner(everyone[one]) != _owner(everyone[other])
     ]
 
@@ -218,14 +218,14 @@ def _ring(
     group: Sequence[int], everyone: Sequence[Work | PastWork],
     links: Mapping[tuple[int, int], _Evidence], *, held: bool,
 ) -> Ring:  # fmt: skip
-    inside = [found for pair, found in links.items() if pair[0] in group]
-    counts = Counter(trait for found in inside for trait in found.shared)
+    inside = [evidence for pair, evidence in links.items() if pair[0] in group]
+    counts = Counter(trait for evidence in inside for trait in evidence.shared)
     shared = [trait for trait, n in counts.items() if 2 * n >= len(inside)]
     works = [everyone[index] for index in group]
     return Ring(
         tuple(work for work in works if isinstance(work, Work)),
         tuple(work for work in works if isinstance(work, PastWork)),
         tuple(sorted(shared)),
-        max(found.bits for found in inside),
+        max(evidence.bits for evidence in inside),
         held,
     )

@@ -347,9 +347,9 @@ def _at(student: StudentBook, item: Item) -> list[str]:
     """The cells of an item as ranges."""
     places = filter(None, map(student.placement.places.get, item.nodes))
     return [
-        f"{place.sheet}!{range_text(place.span.first, place.span.last, place.column)}"
-        for place in places
-        if place.span is not None
+        f"{location.sheet}!{range_text(location.span.first, location.span.last, location.column)}"
+        for location in places
+        if location.span is not None
     ]
 
 

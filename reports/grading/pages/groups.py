@@ -36,7 +36,7 @@ def groups_of(
 ) -> list[WaitingGroup]:  # fmt: skip
     """Groups of the works that count, the largest first; what is decided waits for nobody."""
     members: dict[tuple[str, str], list[Work]] = {}
-    told: dict[tuple[str, str], tuple[str, str, str, float]] = {}
+    labels: dict[tuple[str, str], tuple[str, str, str, float]] = {}
     for _, work in sorted(counted.items()):
         if work.decision is not None:
             continue
@@ -48,12 +48,12 @@ def groups_of(
             spelt = line.formula[0] if line.formula else line.sample
             key = line.id, f"{marks.get(line.id, spelt)} {line.reason}"
             members.setdefault(key, []).append(work)
-            told.setdefault(key, (line.label, line.reason, line.sample, line.of))
+            labels.setdefault(key, (line.label, line.reason, line.sample, line.of))
         for words, why in _whole(work, held.get(work.key, ()), rings):
             members.setdefault(("", words), []).append(work)
-            told.setdefault(("", words), ("вся работа", why, "", maximum))
+            labels.setdefault(("", words), ("вся работа", why, "", maximum))
     groups = [
-        WaitingGroup(_name(key), key[0], *told[key], tuple(work.number or 0 for work in works),
+        WaitingGroup(_name(key), key[0], *labels[key], tuple(work.number or 0 for work in works),
               tuple(work.student for work in works))
         for key, works in members.items()
     ]  # fmt: skip
@@ -62,15 +62,15 @@ def groups_of(
 
 def _whole(work: Work, doubts: Sequence[str], rings: Sequence[Ring]) -> list[tuple[str, str]]:
     """What a person has to say about a whole work: words that are the same for a group, and why."""
-    asked = [text for text in work.manual if not text.startswith(_UNTOLD)]
-    texts = dict.fromkeys([*doubts, *asked])
-    told = []
+    reasons = [text for text in work.manual if not text.startswith(_UNTOLD)]
+    texts = dict.fromkeys([*doubts, *reasons])
+    lines = []
     for ring in rings:
         if ring.held and work in ring.works:
             for text in [text for text in texts if text == ring.text(work)]:
                 del texts[text]
-            told.append((" ".join(sorted(one.key for one in ring.works)), ring.text()))
-    return [*told, *((_NUMBERS.sub("#", text), text) for text in texts)]
+            lines.append((" ".join(sorted(one.key for one in ring.works)), ring.text()))
+    return [*lines, *((_NUMBERS.sub("#", text), text) for text in texts)]
 
 
 def _name(key: tuple[str, str]) -> str:

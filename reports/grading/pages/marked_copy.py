@@ -32,8 +32,8 @@ def marked_copy(data: bytes, result: dict[str, Any], rubric: Rubric) -> bytes:
     left = _MOST_CELLS
     for line in result["items"]:
         colour = _COLOURS.get(line["verdict"], _WRONG)
-        for index, place in enumerate(line["where"] or line.get("at", ())):
-            title, _, cells = place.rpartition("!")
+        for index, area in enumerate(line["where"] or line.get("at", ())):
+            title, _, cells = area.rpartition("!")
             if title not in book.sheetnames or not isinstance(book[title], Worksheet):
                 continue
             sheet = book[title]

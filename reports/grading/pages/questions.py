@@ -53,10 +53,10 @@ def questions_for(
     kinds = [maker.largest, maker.change, maker.sign, maker.change, maker.substitution]
     for number in range(count):
         kind = kinds[number % len(kinds)]
-        taken = {question.item for question in chosen}
-        found = next(_of(kind, (i for i in items if i.id not in taken), chance), None)
-        if found is not None:
-            chosen.append(found)
+        taken = {each.item for each in chosen}
+        question = next(_of(kind, (i for i in items if i.id not in taken), chance), None)
+        if question is not None:
+            chosen.append(question)
     return chosen
 
 
@@ -64,7 +64,7 @@ def _of(
     kind: Callable[[Item, random.Random], Question | None], items: Iterator[Item] | Any,  # noqa: ANN401
     chance: random.Random,
 ) -> Iterator[Question]:  # fmt: skip
-    return (found for item in items if (found := kind(item, chance)) is not None)
+    return (question for item in items if (question := kind(item, chance)) is not None)
 
 
 class _Maker:
@@ -197,13 +197,13 @@ class _Maker:
 
     def _columns_of(self, item: Item, table: TableSpec) -> list[tuple[str, Array]]:
         """Columns of the same rows that the formula of an item reads."""
-        found = []
+        columns = []
         for name in sorted(names(self.assignment.graph.expression(item.nodes[0]) or "0")):
             node = node_of(name, table.id, self.model)
             value = self.run.value(node) if "." in node and node in self.model.nodes else ""
             if not isinstance(value, str) and np.size(value) == len(table.rows):
-                found.append((node, np.asarray(value, dtype=float)))
-        return found
+                columns.append((node, np.asarray(value, dtype=float)))
+        return columns
 
     def _beside(self, item: Item, table: TableSpec, at: int, other: int) -> str:
         """What the formula reads in two rows."""

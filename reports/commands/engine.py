@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -99,8 +99,21 @@ def _with_named(source: Path, loaded: Loaded) -> Loaded:
     if report.compare:
         from reports.studies.comparison_page import with_others
 
-        return with_others(source, loaded)
-    return loaded
+        loaded = with_others(source, loaded)
+    return _with_prototype(source, loaded)
+
+
+def _with_prototype(source: Path, loaded: Loaded) -> Loaded:
+    """Check the prototype's file and keep it from being written over."""
+    if loaded.model.prototype is None:
+        return loaded
+    from reports.inputs.load import load_toml, prototype_file
+
+    other = prototype_file(loaded.model, source.parent)
+    if other is None:
+        return loaded
+    load_toml(other)
+    return replace(loaded, beside=(*loaded.beside, other))
 
 
 def _chapters(source: Path, loaded: Loaded) -> Sequence[Any]:

@@ -30,7 +30,14 @@ from reports.document.chapters import (
     strength,
     torsion,
 )
-from reports.document.chapters.chapter import ELSEWHERE, Chapter, chosen, pin_stems, worst_pin
+from reports.document.chapters.chapter import (
+    ELSEWHERE,
+    Chapter,
+    Prototype,
+    chosen,
+    pin_stems,
+    worst_pin,
+)
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.floating import arranged, redrawn
@@ -40,7 +47,7 @@ from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
 from reports.document.text import texts
 from reports.document.text.terms import Terms
-from reports.inputs.load import load_toml
+from reports.inputs.load import load_toml, prototype_file
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection
@@ -105,7 +112,7 @@ class Report:
     style: Style = USUAL
     further: Further = ()
     with_sheet: bool = False
-    prototype: Terms | None = None
+    prototype: Prototype | None = None
 
     @classmethod
     def of(
@@ -135,7 +142,7 @@ class Report:
         folder = overrides.find(report.templates, source.parent)
         with_sheet = with_sheet or "sheet" in (report.formats or ())
         style_of = find_style(report, source.parent, style)
-        other = prototype_of(report, source.parent)
+        other = prototype_of(model.input, source.parent)
         return cls(model, values, folder, style_of, further, with_sheet, other)
 
     def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
@@ -271,13 +278,22 @@ def find_style(report: ReportSection, beside: Path, given: Path | None = None) -
     return USUAL if given is None else read_style(given)
 
 
-def prototype_of(report: ReportSection, beside: Path) -> Terms | None:
-    """The first file of an engine that the input names for comparison, if it names one."""
-    name = report.compare.split(";")[0].strip()
-    if not name.endswith(".toml"):
-        return None
-    model = build_model(load_toml(beside / name).model)
-    return Terms(model, evaluate_model(model))
+def prototype_of(model: InputFile, beside: Path) -> Prototype | None:
+    """The prototype of an input: its section, or the first file that it is compared with.
+
+    Raises:
+        InputError: the prototype's file is missing or wrong.
+    """
+    section, file = model.prototype, prototype_file(model, beside)
+    if section is None:
+        name = model.report.compare.split(";")[0].strip()
+        file = beside / name if name.endswith(".toml") else None
+    if file is not None:
+        other = build_model(load_toml(file).model)
+        name = section.name if section is not None else ""
+        terms = Terms(other, evaluate_model(other))
+        return Prototype(name or other.input.engine.name, terms.value)
+    return None if section is None else rationale.stated(section)
 
 
 def _run_on(chapter: Chapter, style: Style) -> float:

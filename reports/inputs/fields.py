@@ -142,7 +142,7 @@ def _shape(field: Field) -> Value | None:
 
 
 def _shapes(field: Field) -> bool:
-    text = isinstance(field.value, str) and field.path[0] != "report"
+    text = isinstance(field.value, str) and field.path[0] not in ("report", "prototype")
     phase = field.path[0] == "crankshaft" and field.name.endswith("_deg")  # tables shift by them
     return field.structural or text or phase
 

@@ -225,11 +225,34 @@ def load_remote(raw: Mapping[str, Any]) -> Loaded:
         InputError: With everything that is wrong, or that names files of this machine.
     """
     loaded = load_mapping(raw, source="")
-    named = [key for key in FILE_KEYS if getattr(loaded.model.report, key)]
+    model = loaded.model
+    named = [f"report.{key}" for key in FILE_KEYS if getattr(model.report, key)]
+    if model.prototype is not None and model.prototype.file:
+        named.append(PROTOTYPE_KEY)
     if named:
         what, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
-        raise InputError([Problem(f"report.{key}", what, hint) for key in named])
+        raise InputError([Problem(key, what, hint) for key in named])
     return loaded
+
+
+PROTOTYPE_KEY = "prototype.file"
+
+
+def prototype_file(model: InputFile, beside: FilePath) -> FilePath | None:
+    """The file of the prototype that an input names, if it names one.
+
+    Raises:
+        InputError: There is no such file, or it is no TOML.
+    """
+    name = "" if model.prototype is None else model.prototype.file.strip()
+    if not name:
+        return None
+    path = beside / name
+    if path.suffix.lower() != ".toml":
+        raise refused(PROTOTYPE_KEY, f"{name} — не файл .toml", "укажите файл исходных данных")
+    if not path.is_file():
+        raise refused(PROTOTYPE_KEY, f"нет файла {path}", "укажите файл от файла исходных данных")
+    return path
 
 
 class _SectionReader:

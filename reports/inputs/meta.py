@@ -16,7 +16,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, c
 from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
 from reports.inputs.units import InputUnit
-from reports.shared.russian import capital
+from reports.shared.russian import capital, uncapital
 
 MAX_TEXT = 300
 USUAL = object()  # the default of a key is that of the solver
@@ -165,6 +165,13 @@ def choice(
     """Return the field of a choice; `options` maps each value to its Russian label."""
     meta = Meta(title, symbol, choices=options, structural=structural, solver=solver)
     return _field(meta, default)
+
+
+def borrowed(model: type[BaseModel], key: str, title: str) -> Any:  # noqa: ANN401
+    """Return an optional field with the unit and limits of another model's key."""
+    meta = hints(model)[key].metas[0]
+    named = f"{title}: {uncapital(meta.title)}"
+    return _field(replace(meta, title=named, structural=False, solver=""), None)
 
 
 def _field(meta: Meta, default: object, alias: str | None = None) -> Any:  # noqa: ANN401

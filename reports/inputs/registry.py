@@ -18,6 +18,7 @@ from reports.inputs.sections.input_file import (
     Calculation,
     EngineSection,
     GeometrySection,
+    PrototypeSection,
     Regime,
 )
 from reports.inputs.sections.mechanism import (
@@ -206,6 +207,17 @@ _ALL = (
         absent=True,
         lists={"lambdas": ListKey("Справочные таблицы: значения λ", "reference_lambda_{n}_value")},
         words=("Таблицы 1–3, 5–8 и рисунки 3–10 учебника для любых λ; lambdas — список:",),
+    ),
+    InputSection(
+        "prototype",
+        "Прототип",
+        PrototypeSection,
+        optional=True,
+        absent=True,
+        words=(
+            "Раздел [prototype] ставит рядом с двигателем прототип в главе об исходных данных:",
+            'его главные числа или file = "прототип.toml" — его файл исходных данных.',
+        ),
     ),
     InputSection(
         "sheet",

@@ -27,7 +27,7 @@ FEWEST, MOST = 2, 6
 _ROUNDING = 1e-9  # kN, N·m: forces that cancel
 _NOUGHT = 1e-6  # of the greatest: no base for a difference in per cent
 LEAST_PERCENT = -99.95  # below it −100,0 would be printed of what is not nought
-_NOT_COMPARED = ("report", "workbook", "reference", "checks")
+_NOT_COMPARED = ("report", "workbook", "prototype", "reference", "checks")
 
 
 @dataclass(frozen=True, slots=True)

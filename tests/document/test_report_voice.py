@@ -17,10 +17,13 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.texts import of_digits, of_digits_tex
 from reports.formula.parse import parse
 from reports.formula.tex import to_tex, to_tex_numbers
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_remote, prototype_file
 from reports.inputs.reasons import REASONS
 from reports.inputs.solve_input import refined, solved
 from reports.model.evaluation import evaluate_model
 from reports.new.generate import file_text, generate_engine
+from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
 from reports.tables.registry import build_model
@@ -234,13 +237,49 @@ def test_the_comments_of_a_new_engine_tell_the_same_spans():
             assert reason.words("petrol") in text
 
 
-def test_the_prototype_stands_beside_the_engine(tmp_path):
+STATED = {"name": "Д-240", "bore_mm": 110.0, "stroke_mm": 125.0, "cylinders": 4,
+          "speed_rpm": 2200.0, "power_kw": 58.8}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [
+        ({"report__compare": "other.toml"}, "с прототипом — двигателем"),
+        ({"prototype__file": "other.toml"}, "с прототипом — двигателем"),
+        ({f"prototype__{key}": value for key, value in STATED.items()}, "двигателем «Д-240»"),
+        ({}, ""),
+    ],
+)
+def test_the_prototype_stands_beside_the_engine(tmp_path, named, words):
+    """Its file or its main values: S/D of both, volume and speed with the difference."""
     other = samples_dir() / "d-240.toml"
     (tmp_path / "other.toml").write_bytes(other.read_bytes())
-    model = engine(report__detail="course", report__compare="other.toml")
+    model = engine(report__detail="course", **named)
     report = Report.of(build_model(model), evaluate_model(build_model(model)), tmp_path / "t.toml")
-    rows = printed_rows(report.page("print"), "Принятые данные и обычные пределы")
-    assert len(rows[0]) == 7 and rows[0][3].replace("\xa0", "").strip() == "1,14"
+    page = report.page("print")
+    rows = printed_rows(page, "Принятые данные и обычные пределы")
+    assert (len(rows[0]) == 7) == bool(named)
+    assert words in plain(page)
+    pairs = printed_rows(page, "Двигатель и прототип")
+    if not named:
+        assert pairs is None and "прототип" not in plain(page)
+        return
+    assert rows[0][3].replace("\xa0", "").strip() == "1,14"
+    shown = {row[0].partition(",")[0]: row[2:] for row in pairs}
+    assert shown["Рабочий объём двигателя"] == ["1,715", "4,752", "−63,9"]
+    assert shown["Частота вращения"][1:] == ["2200", "100,0"]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("none.toml", "prototype.file: нет файла"), ("a.xlsx", "a.xlsx — не файл .toml")],
+)
+def test_a_prototype_of_no_file_is_refused(tmp_path, name, words):
+    model = engine(prototype__file=name)
+    with pytest.raises(InputError, match=words):
+        prototype_file(model, tmp_path)
+    with pytest.raises(InputError, match="файлов с диска здесь не читают"):
+        load_remote(to_mapping(model))
 
 
 @pytest.mark.parametrize("detail", ["short", "course"])

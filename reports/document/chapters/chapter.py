@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
@@ -168,6 +168,19 @@ _SHORT_PLACE, _ONE_FORMULA = 8, 14
 FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
+@dataclass(frozen=True, slots=True)
+class Prototype:
+    """The engine that the report's one is held against.
+
+    Attributes:
+        name: its name.
+        value: the number of a node or an input in its unit; KeyError where it is not known.
+    """
+
+    name: str
+    value: Callable[[str], float]
+
+
 @dataclass(frozen=True)
 class Chapter:
     """Tools for writing one report; templates see the public methods by their names."""
@@ -175,7 +188,7 @@ class Chapter:
     terms: Terms
     writer: Writer
     environment: Environment
-    prototype: Terms | None = None  # the engine that the report's one is held against
+    prototype: Prototype | None = None
     figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
 
     @property

@@ -35,7 +35,8 @@ from reports.tables.left_out import unused
 POINTS_FILE = "диаграмма.csv"  # all points of a diagram, attached to the PDF
 _LISTS = ("firing_offset_", "throw_angle_", "force_offset_", "web_", "gas_point_")
 _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
-_OTHERS = {"report", "workbook", "regimes", "checks"}  # sections that are told elsewhere
+# Sections that are told elsewhere.
+_OTHERS = {"report", "workbook", "prototype", "regimes", "checks"}
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
 
 

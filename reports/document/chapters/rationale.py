@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 from markupsafe import Markup
 
 from kshm.engine.arrangement import rods_beside
-from reports.document.chapters.chapter import Chapter, after_noun
+from reports.document.chapters.chapter import Chapter, Prototype, after_noun
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms, with_unit
+from reports.document.text.terms import with_unit
 from reports.document.text.texts import rich
 from reports.formula.numeric import evaluate
 from reports.inputs.checks.bands import stated_kind
 from reports.inputs.firing import arrangement_of
 from reports.inputs.reasons import REASONS, Reason
+from reports.inputs.sections.input_file import PrototypeSection
 from reports.inputs.to_si.masses import Sizes
-from reports.shared.russian import fixed, short, uncapital
+from reports.shared.russian import NBSP, fixed, short, uncapital
 
 _NEAR = 1e-9  # a value on the end of its span is inside
 
@@ -65,17 +66,98 @@ class Judged:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class Main:
+    """A main value of an engine: title, symbol, formulas of which the first known counts."""
+
+    title: str
+    tex: str
+    value: tuple[str, ...]
+    unit: str = ""
+    digits: int = 0
+
+
+# Main values; those of the table of usual ranges are not repeated.
+_POWER = "cyc_N_e", "N_e_calc"
+_MAIN = (
+    Main("Число цилиндров", "i", ("engine_cylinders",)),
+    Main("Диаметр цилиндра", "D", ("2000*sqrt(F_piston/pi)",), "мм", 1),
+    Main("Ход поршня", "S", ("1000*S_stroke",), "мм", 1),
+    Main("Рабочий объём двигателя", r"V_{\mathrm{л}}", ("V_engine",), "дм³", 3),
+    Main("Частота вращения", "n", ("regime_speed_rpm",), "мин⁻¹"),
+    Main("Эффективная мощность", "N_e", _POWER, "кВт", 1),
+    Main("Литровая мощность", r"N_{\mathrm{л}}", tuple(f"{p}/V_engine" for p in _POWER),
+         "кВт/дм³", 1),
+)  # fmt: skip
+
+
 def rationale(chapter: Chapter) -> Markup:
     """The data beside usual ranges and the prototype."""
     judged = list(judge(chapter))
     prototype = chapter.prototype
+    pairs = _pairs(chapter)
     return chapter.page(
         "rationale",
-        plan=TablePlan(partial(_table, judged, prototype is not None),
+        plan=TablePlan(partial(_table, judged, any(each.other is not None for each in judged)),
                        "Принятые данные и обычные пределы", size="dense", lined=True),
         outside=[each.line for each in judged if each.verdict != "в пределах"],
-        prototype=after_noun(prototype.model.input.engine.name) if prototype else "",
+        compared=prototype is not None,
+        prototype=after_noun(prototype.name) if prototype and prototype.name else "",
+        pairs=TablePlan(partial(_main_table, pairs), "Двигатель и прототип") if pairs else None,
+        denser=_denser(pairs),
     )  # fmt: skip
+
+
+def stated(section: PrototypeSection) -> Prototype:
+    """The prototype whose main values the input tells."""
+    known = section.model_dump(exclude_none=True)
+    nodes = {_NODES[key]: float(value) for key, value in known.items() if key in _NODES}
+
+    def value(name: str) -> float:
+        formula = _SIZES.get(name)
+        return nodes[name] if formula is None else float(evaluate(formula, value))
+
+    return Prototype(section.name, value)
+
+
+_NODES = {
+    "cylinders": "engine_cylinders", "bore_mm": "geometry_bore_mm",
+    "stroke_mm": "geometry_stroke_mm", "rod_length_mm": "geometry_rod_length_mm",
+    "compression_ratio": "geometry_compression_ratio", "speed_rpm": "regime_speed_rpm",
+    "power_kw": "cyc_N_e", "mechanical_efficiency": "regime_mechanical_efficiency",
+    "max_pressure_mpa": "gas_max_pressure_mpa", "piston_group_kg": "masses_piston_group_kg",
+    "rod_kg": "masses_rod_kg", "pin_diameter_mm": "crankshaft_pin_diameter_mm",
+    "main_diameter_mm": "crankshaft_main_diameter_mm",
+}  # fmt: skip
+# Sizes of a prototype that follow from its main values.
+_SIZES = {
+    "F_piston": "pi*geometry_bore_mm**2/4e6", "S_stroke": "geometry_stroke_mm/1000",
+    "lam": "geometry_stroke_mm/2/geometry_rod_length_mm",
+    "c_m": "S_stroke*regime_speed_rpm/30", "V_engine": "1000*F_piston*S_stroke*engine_cylinders",
+}  # fmt: skip
+
+
+def _pairs(chapter: Chapter) -> list[tuple[Main, float, float]]:
+    """Main values that both engines have."""
+    prototype = chapter.prototype
+    if prototype is None:
+        return []
+    found = ((main, _value(main.value, chapter.terms.value), _value(main.value, prototype.value))
+             for main in _MAIN)  # fmt: skip
+    return [(main, own, other) for main, own, other in found
+            if own is not None and other is not None]  # fmt: skip
+
+
+def _denser(pairs: list[tuple[Main, float, float]]) -> str:
+    """By how much the power per litre is above the prototype's, in words."""
+    values = {main.tex: (own, other) for main, own, other in pairs}
+    if _MAIN[-1].tex not in values:
+        return ""
+    own, other = values[_MAIN[-1].tex]
+    percent = fixed(abs(own / other - 1) * 100, 1)
+    if not float(percent.replace(",", ".")):
+        return "равна литровой мощности прототипа"
+    return f"{'больше' if own > other else 'меньше'}, чем у прототипа, на {percent}{NBSP}%"
 
 
 def concluded(chapter: Chapter) -> Markup:
@@ -101,19 +183,33 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     kind, times = stated_kind(model), sizes.heavier
     several = rods_beside(arrangement_of(model), 0) > 1
     for reason in REASONS:
-        value = _value(reason, chapter.terms)
+        value = _value(reason.value, number)
         if value is not None and not (reason.one_rod and several):
-            other = _value(reason, prototype) if prototype is not None else None
+            other = None if prototype is None else _value(reason.value, prototype.value)
             yield Judged(reason, value, other, *reason.span(kind, times))
 
 
-def _value(reason: Reason, terms: Terms) -> float | None:
-    for text in reason.value:
+def _value(formulas: Sequence[str], number: Callable[[str], float]) -> float | None:
+    for text in formulas:
         try:
-            return float(evaluate(text, terms.value))
+            return float(evaluate(text, number))
         except KeyError:  # the engine's data go another way
             continue
     return None
+
+
+def _main_table(pairs: list[tuple[Main, float, float]]) -> TableBlock:
+    columns = [
+        TableColumn("Показатель", 4, text=True), TableColumn("Символ", 1.2),
+        TableColumn("Двигатель", 1.5), TableColumn("Прототип", 1.5),
+        TableColumn("Отличие, %", 1.5),
+    ]  # fmt: skip
+    rows = []
+    for main, own, other in pairs:
+        title = rich(f"{main.title}, {main.unit}" if main.unit else main.title)
+        shown = (fixed(own, main.digits), fixed(other, main.digits))
+        rows.append([title, inline_html(main.tex), *shown, fixed((own / other - 1) * 100, 1)])
+    return table_block(columns, rows)
 
 
 def _table(judged: list[Judged], compared: bool) -> TableBlock:

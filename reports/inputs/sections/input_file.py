@@ -11,9 +11,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, SerializeAsAny
 
-from reports.inputs.meta import Strictly, choice, number, text, title_of
+from reports.inputs.meta import Strictly, borrowed, choice, number, text, title_of
 from reports.inputs.sections.bearings import BearingsSection
-from reports.inputs.sections.gas import CycleSection, GasSection
+from reports.inputs.sections.gas import CycleSection, GasSection, PolytropicGasSection
 from reports.inputs.sections.mechanism import (
     ArticulatedSection,
     BalanceSection,
@@ -134,6 +134,33 @@ class RegimeSection(RegimeValues):
     gas: Annotated[GasSection, Field(discriminator="source")]
 
 
+_PROTOTYPE = "Прототип"
+
+
+class PrototypeSection(Strictly):
+    """[prototype]: the engine that the report's one is held against: a file, or its main values."""
+
+    name: str = text(f"{_PROTOTYPE}: название", "")
+    file: str = text(f"{_PROTOTYPE}: файл исходных данных", "")
+    cylinders: int | None = number(
+        f"{_PROTOTYPE}: число цилиндров", "i", NONE, 1, MAX_CYLINDERS, None
+    )
+    bore_mm: float | None = borrowed(GeometrySection, "bore_mm", _PROTOTYPE)
+    stroke_mm: float | None = borrowed(GeometrySection, "stroke_mm", _PROTOTYPE)
+    rod_length_mm: float | None = borrowed(GeometrySection, "rod_length_mm", _PROTOTYPE)
+    compression_ratio: float | None = borrowed(GeometrySection, "compression_ratio", _PROTOTYPE)
+    speed_rpm: float | None = borrowed(Regime, "speed_rpm", _PROTOTYPE)
+    power_kw: float | None = number(
+        f"{_PROTOTYPE}: эффективная мощность", "N_e", KW, 0.01, 1e5, None
+    )
+    mechanical_efficiency: float | None = borrowed(Regime, "mechanical_efficiency", _PROTOTYPE)
+    max_pressure_mpa: float | None = borrowed(PolytropicGasSection, "max_pressure_mpa", _PROTOTYPE)
+    piston_group_kg: float | None = borrowed(MassesSection, "piston_group_kg", _PROTOTYPE)
+    rod_kg: float | None = borrowed(MassesSection, "rod_kg", _PROTOTYPE)
+    pin_diameter_mm: float | None = borrowed(CrankshaftSection, "pin_diameter_mm", _PROTOTYPE)
+    main_diameter_mm: float | None = borrowed(CrankshaftSection, "main_diameter_mm", _PROTOTYPE)
+
+
 class InputFile(Strictly):
     """The whole input file in user units."""
 
@@ -152,6 +179,7 @@ class InputFile(Strictly):
     bearings: BearingsSection | None = None
     strength: StrengthSection | None = None
     reference: ReferenceSection | None = None
+    prototype: PrototypeSection | None = None
     sheet: SheetSection | None = None
     workbook: WorkbookSection = Field(default_factory=WorkbookSection)
     checks: ChecksSection | None = None

@@ -4,9 +4,12 @@ import re
 import numpy as np
 import pytest
 
+from reports.document.chapters.cycle import _characteristic_plan
 from reports.document.figures.canvas import SMALL
 from reports.document.figures.curves import Panel, PlotCurve, curves_figure
 from reports.document.figures.labels import text_size
+from reports.document.text.terms import Terms
+from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.figure_samples import FIGURES, FORCE, PHI, T, texts
@@ -116,3 +119,18 @@ def test_the_name_of_an_axis_keeps_off_its_last_number():
     ((name, _),) = [p for p in placed if p[1] == "n"]
     start, end = (float(re.search(r' x="([\d.]+)"', look).group(1)) for look in (last, name))
     assert end >= start + text_size("20\xa0000", SMALL)[0]
+
+
+@pytest.mark.parametrize("name", ["cycle-petrol", "cycle-turbo-diesel"])
+def test_the_external_characteristic_is_one_field_with_its_adaptability(name):
+    """Both torques stand at their speeds; K is their ratio; each scale holds its curve."""
+    model = build_model(sample(name))
+    said = texts(_characteristic_plan(Terms(model, evaluate_model(model))).draw())
+    marked = "".join(said).replace("\xa0", "")
+    most, rated, k = (
+        float(re.search(rf"{symbol}=([\d,]+)", marked)[1].replace(",", "."))
+        for symbol in ("max", "eN", "K")
+    )
+    assert most / rated == pytest.approx(k, abs=6e-4) and k > 1
+    for unit in ("Н·м", "кВт", "г/(кВт·ч)", "кг/ч", "мин"):
+        assert any(unit in text for text in said), unit

@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
-from reports.document.page.numbering import Kind, TablePlan, Writer
+from reports.document.page.numbering import Figure, Kind, TablePlan, Writer
 from reports.document.page.style import Style
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
@@ -394,6 +394,13 @@ class Chapter:
         own = series or {}
         charts = [replace(chart, series=own.get(chart.id, chart.series)) for chart in charts]
         return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))
+
+    def shared(self, key: str, names: Iterable[str], plan: Callable[[], Figure]) -> Markup:
+        """One figure for several charts of the specifications, drawn in a manner of its own."""
+        if self.writer.draft:
+            self.figures.update((name, self.figures.get(name, key)) for name in names)
+            return self.writer.figure(key, None)
+        return self.writer.figure(key, plan())
 
     def scalars(self, caption: str, keys: Iterable[str], **manner: Any) -> TablePlan:  # noqa: ANN401
         """A list of the scalars and inputs that there are."""

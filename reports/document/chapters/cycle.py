@@ -8,6 +8,7 @@ from functools import partial
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
+from reports.document.figures.curves import Band, Mark, PlotCurve, bands_figure
 from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
@@ -16,7 +17,8 @@ from reports.document.page.blocks import (
     table_block,
     unit_cell,
 )
-from reports.document.page.numbering import TablePlan
+from reports.document.page.charts import axis_name
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits
@@ -69,11 +71,52 @@ def cycle(chapter: Chapter) -> Markup:
         species=[f"mix_{name}" for name in species],
         tables=_tables(chapter),
         corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
-        speed_step=500.0 if float(terms.column("speed.speed_n")[-1]) <= 5000 else 1000.0,
+        characteristic=partial(_characteristic, chapter),
         outside=_outside(terms),
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
         residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
     )
+
+
+def _characteristic(chapter: Chapter) -> Markup:
+    """Power, torque and fuel over the speed in one field; both torques of K are marked."""
+    return chapter.shared("cycle_speed", _SPEED, partial(_characteristic_plan, chapter.terms))
+
+
+def _characteristic_plan(terms: Terms) -> Figure:
+    speed, ratio = terms.value("regime_speed_rpm"), terms.value("spd_K")
+    rated = terms.value("cyc_M_e")
+    marks = [
+        Mark(f"${symbol}$ = {of_digits(value, terms.quantity('cyc_M_e').digits)} Н·м", at, value)
+        for symbol, at, value in (
+            (r"M_{e\,\max}", terms.value("spd_Kc") * speed, ratio * rated),
+            ("M_{eN}", speed, rated),
+        )
+    ]
+    bands = [
+        Band(
+            PlotCurve(f"${terms.tex(f'speed.{name}')}$", terms.column(f"speed.{name}")),
+            axis_name(terms, f"speed.{name}"), rows, right=right, zero=zero,
+            marks=marks if name == "speed_Me" else (),
+            rise=f"$K$ = {terms.num('spd_K')}" if name == "speed_Me" else "",
+        )
+        for name, (rows, right, zero) in _SPEED.items()
+    ]  # fmt: skip
+    draw = partial(
+        bands_figure, terms.column("speed.speed_n"), bands, axis_name(terms, "speed.speed_n"),
+        height=_SPEED_MM, x_step=500.0 if terms.column("speed.speed_n")[-1] <= 5000 else 1000.0,
+    )  # fmt: skip
+    return Figure(draw, "Внешняя скоростная характеристика")
+
+
+# Curves of the external characteristic: rows of the grid, the right scale, from zero.
+_SPEED = {
+    "speed_Gf": ((0, 3), True, True),
+    "speed_Ne": ((0, 5), False, True),
+    "speed_ge": ((4, 5), True, False),
+    "speed_Me": ((6, 5), False, False),
+}
+_SPEED_MM = 118.0
 
 
 def _tables(chapter: Chapter) -> dict[str, TablePlan]:

@@ -168,11 +168,7 @@ class Axes:
         for x, text in zip(xs, _uncrowded(xs, self.x), strict=True):
             if text:
                 page.text((x, height), text, SMALL, middle=False, layer=0.6)
-        left_side = not self.reverse[0]
-        side = left - pads[1] if left_side else right + pads[1]
-        for y, text in zip(ys, self.y.texts, strict=True):
-            anchor = (side, y - _TOP * SMALL / 2)
-            page.text(anchor, text, SMALL, middle=False, align=float(left_side), layer=0.6)
+        self.number_y(right=self.reverse[0], pad=pads[1])
         corners = [(left, low), (right, low), (right, high), (left, high)]
         page.line(corners[1:], GRID, 0.6)
         for edge, look in zip((corners[::3], corners[:2]), edges, strict=True):
@@ -181,6 +177,19 @@ class Axes:
             self.level(0.0, AXIS, 1.5)
         if zeros and self.x.low < 0 < self.x.high:
             page.line(self.at([0.0, 0.0], [self.y.low, self.y.high]), AXIS, 1.5)
+
+    def number_y(self, *, right: bool = False, pad: float = 3.0, title: str = "") -> None:
+        """Numbers of the vertical axis at one of the edges, under a title of their own."""
+        side = self.field[2] + pad if right else self.field[0] - pad
+        ys = self.at(self.x.low, self.y.places)[:, 1].tolist()
+        align = 0.0 if right else 1.0
+        for y, text in zip(ys, self.y.texts, strict=True):
+            if text:
+                anchor = (side, y - _TOP * SMALL / 2)
+                self.page.text(anchor, text, SMALL, middle=False, align=align, layer=0.6)
+        if title:
+            anchor = (side, self.field[3] + _TOP * SMALL / 2 + 3.5)
+            self.page.text(anchor, title, FONT_SIZE, align=align, middle=False)
 
     def name_y(self, text: str) -> None:
         """Name and unit of the vertical axis above its upper end."""

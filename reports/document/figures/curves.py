@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.document.figures.axes import Axes, angle_ticks, bounds, value_ticks
+from reports.document.figures.axes import Axes, Ticks, angle_ticks, at_steps, bounds, value_ticks
 from reports.document.figures.canvas import (
     EDGE,
     FONT_SIZE,
@@ -17,6 +18,7 @@ from reports.document.figures.canvas import (
     PATTERNS,
     SMALL,
     LineStyle,
+    Pen,
     Sheet,
 )
 from reports.document.figures.labels import (
@@ -236,3 +238,119 @@ def _mark(axes: Axes, room: LabelField, point: tuple[float, float], name: str) -
     centre = label_point(room, (point[0], point[1]), text_size(name, SMALL))
     if centre:
         axes.page.text(centre, name, SMALL, halo=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """A curve with a scale of its own over some rows of a common grid.
+
+    Attributes:
+        curve: Name and ordinates.
+        title: Name and unit of its scale.
+        rows: First row of the grid, from below, and their number.
+        right: The scale stands at the right edge.
+        zero: The scale begins at zero.
+        marks: Points with a line to the abscissa and, at the left, to the scale.
+        rise: Name of the distance from the last marked point up to the first.
+    """
+
+    curve: PlotCurve
+    title: str
+    rows: tuple[int, int]
+    right: bool = False
+    zero: bool = False
+    marks: Sequence[Mark] = ()
+    rise: str = ""
+
+
+_THIN = LineStyle(0.6, (5, 2.5))
+
+
+def bands_figure(
+    x: ArrayLike,
+    bands: Sequence[Band],
+    x_title: str,
+    *,
+    height: float = 110.0,
+    x_step: float | None = None,
+) -> str:
+    """Curves over one abscissa in one field, each to a scale of its own, as SVG.
+
+    Args:
+        x: Abscissa, shape (n,).
+        bands: The curves, from below.
+        x_title: Name and unit of the abscissa.
+        height: Height of the figure [mm].
+        x_step: Step of the marks of the abscissa.
+    """
+    abscissa = np.asarray(x, dtype=np.float64)
+    x_ticks = angle_ticks(*bounds([abscissa.tolist()]), step=x_step)
+    scales = [_scale(np.asarray(b.curve.y), b.rows[1], zero=b.zero) for b in bands]
+    rows = max(first + count for first, count in (band.rows for band in bands))
+    page = Sheet(PAGE_WIDTH, height)
+    sides = [0.0, text_size(x_title, FONT_SIZE)[0] + x_ticks.beyond()]
+    for band, ticks in zip(bands, scales, strict=True):
+        wide = max(ticks.width(), text_size(band.title, FONT_SIZE)[0])
+        sides[band.right] = max(sides[band.right], wide)
+    field = (sides[0] + 8, _BOTTOM, page.width - sides[1] - 8, page.height - _TOP)
+    step = (field[3] - field[1]) / rows
+    blank = Ticks(tuple(range(rows + 1)), ("",) * (rows + 1))
+    whole = Axes(page, field, x_ticks, blank)
+    whole.dress()
+    page.line([(field[2], field[1]), (field[2], field[3])], EDGE, 2.5)
+    room = LabelField((field[0] + 2, field[1] + 2, field[2] - 2, field[3] - 2))
+    lines = []
+    for number, (band, ticks) in enumerate(zip(bands, scales, strict=True)):
+        base = field[1] + band.rows[0] * step
+        own = (field[0], base, field[2], base + band.rows[1] * step)
+        axes = Axes(page, own, x_ticks, ticks)
+        axes.number_y(right=band.right, title=band.title)
+        line = axes.at(abscissa, np.asarray(band.curve.y, dtype=np.float64))
+        page.line(line, PATTERNS[number % len(PATTERNS)])
+        lines.append(dense(line))
+        room.curves.append(lines[-1])
+        _points(axes, room, band, field[1])
+    for band, line in zip(bands, lines, strict=True):
+        others = [other for other in lines if other is not line]
+        centre = label_curve(room, line, others, text_size(band.curve.name, FONT_SIZE))
+        if centre:
+            page.text(centre, band.curve.name, halo=True)
+    whole.name_x(x_title)
+    return page.svg()
+
+
+def _scale(y: NDArray[np.float64], count: int, *, zero: bool) -> Ticks:
+    """Marks of exactly so many intervals that hold a curve."""
+    low, high = bounds([y.tolist()])
+    low = 0.0 if zero else low
+    least = max(high - low, 1e-9 * max(1.0, abs(high))) / count
+    power = 10.0 ** math.floor(math.log10(least))
+    for step in (factor * size for size in (power, 10 * power) for factor in (1, 2, 2.5, 5)):
+        first = math.floor(low / step + 1e-9)
+        if (first + count) * step >= high * (1 - 1e-9):
+            return at_steps(first, count + 1, step)
+    return at_steps(math.floor(low / (100 * power)), count + 1, 100 * power)
+
+
+def _points(axes: Axes, room: LabelField, band: Band, foot: float) -> None:
+    """Marked points of a band with thin lines to its scale and to the abscissa."""
+    places = [tuple(axes.at(mark.x, mark.y).tolist()) for mark in band.marks]
+    for x, y in places:
+        axes.page.lines([[(axes.field[0], y), (x, y)], [(x, y), (x, foot)]], _THIN, 1.2)
+        room.curves.append(dense(np.array([(axes.field[0], y), (x, y)])))
+    if band.rise and len(places) > 1:
+        (x, low), top = places[-1], places[0][1]
+        axes.page.lines([[places[0], (x, top)]], _THIN, 1.2)
+        Pen(axes.page, 3).arrow((x, low), (x, top), 0.8, 6)
+        room.curves.append(dense(np.array([places[0], (x, top), (x, low)])))
+    for (x, y), mark in zip(places, band.marks, strict=True):
+        axes.page.circle((x, y), 1.6, "#000000", None, 4)
+        across = dense(np.array([(axes.field[0], y), (x, y)]))
+        centre = label_curve(room, across, room.curves[:-1], text_size(mark.name, SMALL))
+        if centre:
+            axes.page.text(centre, mark.name, SMALL, halo=True)
+    if band.rise and len(places) > 1:
+        middle = (places[-1][0], (places[-1][1] + places[0][1]) / 2)
+        centre = label_point(room, middle, text_size(band.rise, SMALL), first=(-1.0, 0.0))
+        if centre:
+            axes.page.text(centre, band.rise, SMALL, halo=True)

@@ -154,7 +154,7 @@ def panels_figure(
     panels = (_panel(terms, c, columns[n]) for n, c in enumerate(charts))
     draw = partial(
         curves_figure, abscissa, tuple(panels),
-        _axis(terms, x), height=size, **more,
+        axis_name(terms, x), height=size, **more,
     )  # fmt: skip
     caption = f"{first.group}: {words}"
     return Figure(draw, caption, _spoken(terms, caption, charts))
@@ -170,7 +170,7 @@ def _curves(
         curves = (PlotCurve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)
         panel = replace(panel, curves=tuple(curves))
     return partial(
-        curves_figure, x, (panel,), _axis(terms, name),
+        curves_figure, x, (panel,), axis_name(terms, name),
         height=size, angle=chart.x_is_angle, x_step=chart.x_step,
     )  # fmt: skip
 
@@ -213,7 +213,9 @@ def _panel(
             np.isclose(y, y.min(), rtol=0, atol=_TIE),
         )
         rows = (*rows, ("max", int(high.argmax())), ("min", int(low.argmax())))
-    title = chart.y_tex or (_axis(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title))
+    title = chart.y_tex or (
+        axis_name(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title)
+    )
     return Panel(
         tuple(
             PlotCurve(_name(terms, series), column)
@@ -233,7 +235,10 @@ def _path(
 ) -> Callable[[], str]:
     drawn, *others = chart.drawn_by("report")
     table = drawn.x.partition(".")[0]
-    titles = (chart.x_tex or _axis(terms, drawn.x), chart.y_tex or _axis(terms, drawn.y))
+    titles = (
+        chart.x_tex or axis_name(terms, drawn.x),
+        chart.y_tex or axis_name(terms, drawn.y),
+    )
     if others:
         titles = (_tex(chart.x_title), _tex(chart.y_title))
     poles = (Pole(f"${tex}$", 0.0, float(evaluate(expr, terms.value))) for tex, expr in chart.poles)
@@ -269,7 +274,7 @@ _KINDS: dict[str, Callable[..., Callable[[], str]]] = {
 }
 
 
-def _axis(terms: Terms, name: str) -> str:
+def axis_name(terms: Terms, name: str) -> str:
     """Symbol and unit of a column."""
     unit = terms.unit(name)
     return f"${terms.tex(name)}${', ' if unit else ''}{unit}"

@@ -280,7 +280,7 @@ class Blocks:
         """«Приложение А» with its letter as a bookmark: the tables' numbers show it."""
         name, title = ("".join(span.itertext()) for span in element.iterfind("span"))
         match = _APPENDIX.match(name)
-        caps = frozenset({"caps"})
+        caps = frozenset({"caps"} if self.style.appendix.isupper() else ())
         if match is None:
             return [run(f"{name}\n", caps), run(title)]
         self.lines.letters.add(match[2])

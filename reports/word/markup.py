@@ -116,8 +116,12 @@ _ANCHOR = """<wp:anchor {names} distT="0" distB="0" distL="0" distR="0" simplePo
 <wp:docPr id="{number}" name="{words} {number}" descr="{words}"/><wp:cNvGraphicFramePr/>
 <a:graphic><a:graphicData uri="{wps}"><wps:wsp><wps:cNvSpPr/><wps:spPr>
 <a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
-<a:prstGeom prst="rect"><a:avLst/></a:prstGeom>{looks}</wps:spPr><wps:bodyPr/></wps:wsp>
+<a:prstGeom prst="rect"><a:avLst/></a:prstGeom>{looks}</wps:spPr>{text}</wps:wsp>
 </a:graphicData></a:graphic></wp:anchor>"""
+# Words that are read from below.
+_UPWARDS = """<wps:txbx><w:txbxContent xmlns:w="{W}"><w:p><w:pPr><w:pStyle w:val="Stamp"/></w:pPr>
+<w:r><w:t>{words}</w:t></w:r></w:p></w:txbxContent></wps:txbx>
+<wps:bodyPr vert="vert270" lIns="0" tIns="0" rIns="0" bIns="0" anchor="ctr"/>"""
 _LINE = '<a:noFill/><a:ln w="21600"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln>'
 _WHITE = '<a:solidFill><a:srgbClr val="FFFFFF"/></a:solidFill><a:ln><a:noFill/></a:ln>'
 
@@ -133,7 +137,9 @@ class Rectangle(NamedTuple):
     height: float
 
 
-def rectangle(area: Rectangle, number: int, words: str, *, line: bool) -> Element:
+def rectangle(
+    area: Rectangle, number: int, words: str, *, line: bool, inside: bool = False
+) -> Element:
     """A rectangle: a line behind the text, or white in front of it.
 
     Args:
@@ -141,6 +147,7 @@ def rectangle(area: Rectangle, number: int, words: str, *, line: bool) -> Elemen
         number: its number among the drawings of the file.
         words: what it is.
         line: an empty frame; otherwise white without a line.
+        inside: the words stand in it, turned to be read from below.
     """
     left, top, width, height = (
         round(_EMU_MM * value) for value in (area.left, area.top, area.width, area.height)
@@ -150,5 +157,6 @@ def rectangle(area: Rectangle, number: int, words: str, *, line: bool) -> Elemen
         behind=int(line), across=area.across, down=area.down, left=left, top=top,
         cx=width, cy=height, number=number, words=words, wps=_NAMES["wps"],
         looks=_LINE if line else _WHITE,
+        text=_UPWARDS.format(W=W, words=words) if inside else "<wps:bodyPr/>",
     )  # fmt: skip
     return etree.fromstring(drawn.replace(">\n<", "><"))

@@ -55,19 +55,21 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
     indent, size = twips(10 * style.indent_cm), style.font_size_pt
     width = twips(style.width_mm)
     hang = round(2.2 * size * 20)
+    above, below = style.heading_before_pt, style.heading_after_pt
+    apart = style.formula_space_pt / 2  # the rows of formulas that follow one another add up
     styles = {
         "BodyText": ParagraphStyle("Body Text", jc="both", first=indent),
         "Flush": ParagraphStyle("Текст без отступа", jc="both"),
         "Where": ParagraphStyle("Где", line=style.line_spacing, left=hang, first=-hang),
-        "Heading1": ParagraphStyle("heading 1", line=_TIGHT, before=0, after=8, left=indent,
+        "Heading1": ParagraphStyle("heading 1", line=_TIGHT, before=0, after=below, left=indent,
                                    first=0,
                          size=size + 2, level=1, bold=True, keep_next=True, keep_lines=True,
                          new_page=True, list_number=HEADINGS, following="BodyText"),
-        "Heading2": ParagraphStyle("heading 2", line=_TIGHT, before=14, after=8, left=indent,
+        "Heading2": ParagraphStyle("heading 2", line=_TIGHT, before=above, after=below, left=indent,
                                    first=0,
                          level=2, bold=True, keep_next=True, keep_lines=True,
                          list_number=HEADINGS, following="BodyText"),
-        "Heading3": ParagraphStyle("heading 3", line=_TIGHT, before=14, after=8, left=indent,
+        "Heading3": ParagraphStyle("heading 3", line=_TIGHT, before=above, after=below, left=indent,
                                    first=0,
                          level=3, bold=True, italic=True, keep_next=True, keep_lines=True,
                          list_number=HEADINGS, following="BodyText"),
@@ -75,7 +77,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
                                        caps=True,
                              list_number=0, following="BodyText"),
         "Appendix": ParagraphStyle("Приложение", "HeadingPlain", caps=False, following="BodyText"),
-        "FrontHeading": ParagraphStyle("Заголовок листа", jc="center", line=_TIGHT, after=8,
+        "FrontHeading": ParagraphStyle("Заголовок листа", jc="center", line=_TIGHT, after=below,
                                        size=size + 2,
                              bold=True, caps=True, keep_next=True, new_page=True),
         "Caption": ParagraphStyle("caption", line=_TIGHT),
@@ -86,7 +88,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
                              keep_lines=True),
         "TableContinued": ParagraphStyle("Продолжение таблицы", "Caption", line=1.0),
         "Figure": ParagraphStyle("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
-        "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=3, after=3),
+        "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=apart, after=apart),
         "FormulaNumber": ParagraphStyle("Номер формулы", jc="right", line=1.0),
         "BodyAfterTable": ParagraphStyle("Текст после таблицы", "BodyText", before=8),
         "FlushAfterTable": ParagraphStyle("Текст без отступа после таблицы", "Flush", before=8),

@@ -10,9 +10,10 @@ import io
 import re
 import zipfile
 from datetime import datetime
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from reports.document.page.style import Style
+from reports.document.page.style import FRAME_MM, SIDE_MM, Style
 from reports.document.report import Report
 from reports.word.blocks import Blocks, stamp_table
 from reports.word.inline import Lines, count_totals
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from docx.document import Document
     from docx.section import Section
     from lxml.html import HtmlElement
-
-_FRAME = (20.0, 5.0, 185.0, 287.0)  # left, top, width, height of the frame [mm]
 
 
 def set_sheet(section: Section, style: Style) -> None:
@@ -61,7 +60,7 @@ def framed(section: Section, style: Style, lines: Lines, blocks: list[HtmlElemen
     section.different_first_page_header_footer = True
     section.bottom_margin = Mm(30)
     section.footer_distance = Mm(5)
-    indent = twips(_FRAME[0] - style.margins.left)
+    indent = twips(FRAME_MM[0] - style.margins.left)
     for number, (foot, head) in enumerate((
         (section.first_page_footer, section.first_page_header),
         (section.footer, section.header),
@@ -69,14 +68,24 @@ def framed(section: Section, style: Style, lines: Lines, blocks: list[HtmlElemen
         table = stamp_table(lines, blocks[number], indent)
         # A table must not end a footer; the line after it is as low as a line can be.
         last = paragraph("Footer", (), w("spacing", line=20, lineRule="exact"))
-        _put(foot, [paragraph("Footer"), table, last])
-        _put(head, [paragraph("Header", [w("r", w("drawing", _rectangle(number + 1)))])])
+        drawn = [w("r", w("drawing", each)) for each in _frame(style, 900 + 20 * number)]
+        # LibreOffice loses the words of boxes that stand in the header of a first sheet.
+        _put(foot, [paragraph("Footer", drawn), table, last])
+        _put(head, [paragraph("Header")])
 
 
-def _rectangle(number: int) -> Element:
-    left, top, width, height = _FRAME
+def _frame(style: Style, number: int) -> Iterator[Element]:
+    """The frame of a sheet and the boxes left of it."""
+    left, top, width, height = FRAME_MM
     area = Rectangle("page", left, "page", top, width, height)
-    return rectangle(area, 900 + number, "Рамка листа", line=True)
+    yield rectangle(area, number, "Рамка листа", line=True)
+    for words, upper, tall in style.side_cells:
+        edge = left - sum(SIDE_MM)
+        for wide, inside in zip(SIDE_MM, (True, False), strict=True):
+            number += 1
+            box = Rectangle("page", edge, "page", upper, wide, tall)
+            yield rectangle(box, number, words, line=True, inside=inside)
+            edge += wide
 
 
 def _put(part: object, content: list[Element]) -> None:
@@ -127,30 +136,33 @@ def _number_pages(root: HtmlElement, style: Style) -> int:
 
 
 def _fill(document: Document, root: HtmlElement, blocks: Blocks) -> None:
-    """Front sheets in one section, the text in another."""
+    """Front sheets in one section; the text, or what stands in a frame, in another."""
     from docx.enum.section import WD_SECTION
 
     body = document.element.body
     text = root.find(".//div[@class='text']")
-    stamps = text.xpath("./div[@class='form2' or @class='form2a']")
+    stamps = root.xpath("//div[@class='form2' or @class='form2a']")
     for stamp in stamps:
-        text.remove(stamp)
+        stamp.getparent().remove(stamp)
     fronts = root.xpath("//section[contains(concat(' ', @class, ' '), ' sheet ')]")
     places = root.xpath("//div[@class='place']")
     for item in places:
         item.drop_tree()
-    for number, sheet in enumerate(fronts):
-        elements = blocks.written([sheet])
-        if number:
-            _new_page(elements[0])
-        for element in elements:
-            body.insert(len(body) - 1, element)
+    # Sheets before the text are one page each; the frame begins with the text at the latest.
+    wanted = blocks.style.frame_from if stamps else None
+    bare = len(fronts) if wanted is None else min(wanted - 1, len(fronts))
     first = document.sections[0]
     set_sheet(first, blocks.style)
     front(first, blocks.lines.runs(places[0]) if places else [])
-    section = document.add_section(WD_SECTION.NEW_PAGE)
-    for element in blocks.written([text]):
-        body.insert(len(body) - 1, element)
+    section = first
+    for number, sheet in enumerate([*fronts, text]):
+        elements = blocks.written([sheet])
+        if number == bare:
+            section = document.add_section(WD_SECTION.NEW_PAGE)
+        elif number and sheet is not text:
+            _new_page(elements[0])
+        for element in elements:
+            body.insert(len(body) - 1, element)
     if stamps:
         tables = [stamp.find("table") for stamp in stamps]
         framed(section, blocks.style, blocks.lines, tables)

@@ -19,7 +19,9 @@ font_size_pt = 12
 line_spacing = 1.2
 numbering = "chapter"
 page_number = "bottom-right"
-frame = "none"
+frame = "eskd"
+frame_from = 2
+appendix = "Приложение"
 table_step_deg = 90
 
 [margins]
@@ -94,6 +96,11 @@ def test_a_style_file_changes_the_sheets(tmp_path):
     pages = pages_of(result.pdf, tmp_path)
     assert "Министерство образования" in pages[0] and "Курсовая работа" in pages[0]
     whole = "\n".join(pages)
+    # The frame begins with the assignment; the appendix is called as the department has it.
+    assert ["Разраб." in sheet for sheet in pages[:3]] == [False, True, False]
+    assert ["Взам. инв. №" in sheet.replace("\xa0", " ") for sheet in pages[:3]] == [
+        False, True, True]  # fmt: skip
+    assert whole.count("Приложение А") == 2 and "ПРИЛОЖЕНИЕ" not in whole
     assert "Реферат" not in page and "РЕФЕРАТ" not in whole
     assert re.search(r"Рисунок\s1\.1\s—", whole) and re.search(r"(?m)\(2\.1\)\s*$", whole)
     start = re.search(r"Таблица\sБ\.2\s—", whole).start()

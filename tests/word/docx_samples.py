@@ -32,7 +32,8 @@ NAME = "gots-p3"  # whose file is looked at closely; its PDF is set for other te
 # All that a department may ask for at once.
 DEPARTMENT = {
     "font_size_pt": 12, "line_spacing": 1.2, "indent_cm": 1.0,
-    "frame": "eskd", "numbering": "chapter", "table_continuation": True,
+    "frame": "eskd", "numbering": "chapter", "table_continuation": True, "frame_from": 2,
+    "appendix": "Приложение", "heading_before_pt": 21, "formula_space_pt": 9,
 }  # fmt: skip
 NUMBER = re.compile(r"\d+(?:,\d+)?")
 

@@ -102,6 +102,8 @@ def test_a_style_file_changes_named_styles_and_not_the_text():
     assert size.get(f"{W}val") == "24"
     body = next(s for s in sheet.iter(f"{W}style") if s.get(f"{W}styleId") == "BodyText")
     assert body.find(f"{W}pPr/{W}ind").get(f"{W}firstLine") == "567"
+    head = next(s for s in sheet.iter(f"{W}style") if s.get(f"{W}styleId") == "Heading2")
+    assert head.find(f"{W}pPr/{W}spacing").get(f"{W}before") == "420"
     names = {e.get(f"{W}val") for e in part(usual).iter(f"{W}pStyle")}
     defined = {s.get(f"{W}styleId") for s in sheet.iter(f"{W}style")}
     assert names <= defined
@@ -114,13 +116,18 @@ def test_frames_and_title_blocks_stand_in_headers_and_footers():
     data = department(NAME)
     with zipfile.ZipFile(io.BytesIO(data)) as parts:
         feet = [part(data, n) for n in parts.namelist() if re.match(r"word/footer\d", n)]
-        heads = [parts.read(n).decode() for n in parts.namelist() if "word/header" in n]
     stamps = [foot for foot in feet if foot.find(f"{W}tbl") is not None]
     assert sorted(len(s.find(f"{W}tbl").findall(f"{W}tr")) for s in stamps) == [3, 8]
     assert all("Подп." in text_of(stamp) for stamp in stamps)
     fields = [[e.text.strip() for e in s.iter(f"{W}instrText")] for s in stamps]
     assert ["PAGE"] in fields and ["PAGE", "NUMPAGES"] in fields
-    assert sum('prst="rect"' in head for head in heads) == 2
+    for stamp in stamps:  # the frame and two columns of boxes 19-23
+        drawn = [e.get("prst") for e in stamp.iter() if e.tag.endswith("}prstGeom")]
+        assert drawn == 11 * ["rect"] and text_of(stamp).count("Подп. и дата") == 2
+    # It begins with the assignment, the second sheet.
+    first = next(part(data).iter(f"{W}sectPr")).getparent().getparent()
+    above = "".join(text_of(e) for e in first.itersiblings(preceding=True))
+    assert "Допущен к защите" in above and "ЗАДАНИЕ" not in above
 
 
 def test_a_long_table_is_told_to_go_on_where_a_department_wants_it():

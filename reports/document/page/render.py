@@ -16,7 +16,7 @@ from markupsafe import Markup
 
 from reports.document.page import fitting
 from reports.document.page.fitting import DIVIDED
-from reports.document.page.style import USUAL, Style
+from reports.document.page.style import FRAME_MM, SIDE_MM, USUAL, Style
 from reports.document.text import texts
 from reports.document.text.mathsvg import complaints, formula_lines
 from reports.document.text.symbols import inline_html
@@ -245,6 +245,9 @@ def _environment(overrides: Path | None, media: str, style: Style) -> Environmen
         "media": media,
         "fonts_css": lambda embedded=False: Markup(fonts.fonts_css(embedded=embedded)),
         "font_stack": Markup(fonts.STACK),
+        "font_family": fonts.FAMILY,
+        "frame_mm": FRAME_MM,
+        "side_mm": SIDE_MM,
         "formula_lines": formula_lines,
         "nbsp": NBSP,
         "divided": DIVIDED,

@@ -14,6 +14,11 @@ from reports.shared.errors import InputError, Problem
 
 HINT = "исправьте файл оформления; ключи описаны в docs/report.md"
 PX = 96 / 25.4  # CSS pixels in a millimetre
+FRAME_MM = (20.0, 5.0, 185.0, 287.0)  # left, top, width, height of the frame
+# Boxes 19-23 of ГОСТ 2.104 left of the frame, from below: words and height; widths of the columns.
+_SIDES = (("Инв. № подл.", 25.0), ("Подп. и дата", 35.0), ("Взам. инв. №", 25.0),
+          ("Инв. № дубл.", 25.0), ("Подп. и дата", 35.0))  # fmt: skip
+SIDE_MM = (5.0, 7.0)
 FRAMED_MM = 30.0  # bottom margin of a sheet with the title block, form 2а
 _TABLE = 12 / 14  # type of tables relative to the text's
 _HEAD_ROWS = 4  # of a table: caption, titles, numbers
@@ -55,6 +60,9 @@ class Style(_Strict):
     numbering: Literal["through", "chapter"] = "through"
     page_number: Literal["bottom-center", "bottom-right"] = "bottom-center"
     frame: Literal["none", "eskd"] | None = None
+    frame_from: Annotated[int, Field(ge=2, le=20)] | None = None
+    side_columns: bool = True
+    appendix: Literal["ПРИЛОЖЕНИЕ", "Приложение"] = "ПРИЛОЖЕНИЕ"
     chapters_on_new_page: bool | None = None
     tagged_tables: bool | None = None
     table_continuation: bool = True
@@ -67,6 +75,15 @@ class Style(_Strict):
         """The same for sheets with a frame: the title block stands at their foot."""
         margins = self.margins.model_copy(update={"bottom": FRAMED_MM})
         return self.model_copy(update={"margins": margins})
+
+    @property
+    def side_cells(self) -> tuple[tuple[str, float, float], ...]:
+        """Boxes left of the frame: words, top and height [mm]; none where they are not wanted."""
+        low, cells = FRAME_MM[1] + FRAME_MM[3], []
+        for words, tall in _SIDES if self.side_columns else ():
+            low -= tall
+            cells.append((words, low, tall))
+        return tuple(cells)
 
     @property
     def width_mm(self) -> float:

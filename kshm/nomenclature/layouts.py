@@ -84,7 +84,7 @@ _THROWS = (
     ("C5", "C_5", "N", "масса правого шатуна на шейке", 0),
     ("C5x", "C_{5x}", "N", "масса правого шатуна, по оси x", 0),
     ("C4x", "C_{4x}", "N", "шатунная шейка, по оси x", 0),
-    ("share2", r"a_{\mathrm{п}2}/l", "", "доля нагрузки правого шатуна на правой опоре", 4),
+    ("share2", r"a_{\mathrm{ш}2}/l", "", "доля нагрузки правого шатуна на правой опоре", 4),
 )  # fmt: skip
 
 # Helper values of articulated rods and of drawings: they serve formulas and are no results.

@@ -9,8 +9,8 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from datetime import datetime
 from collections.abc import Iterator
+from datetime import datetime
 from typing import TYPE_CHECKING
 
 from reports.document.page.style import FRAME_MM, SIDE_MM, Style

@@ -3,6 +3,7 @@
 import ast
 import html
 import re
+from collections import defaultdict
 
 import pytest
 from hypothesis import given, settings
@@ -14,11 +15,12 @@ from reports.document.chapters.closing import tolerance
 from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
 from reports.document.text.symbols import inline_html
+from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits, of_digits_tex
 from reports.formula.parse import parse
-from reports.formula.tex import to_tex, to_tex_numbers
+from reports.formula.tex import input_symbol_tex, to_tex, to_tex_numbers
 from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_remote, prototype_file
+from reports.inputs.load import load_mapping, load_remote, prototype_file
 from reports.inputs.reasons import REASONS
 from reports.inputs.solve_input import refined, solved
 from reports.model.evaluation import evaluate_model
@@ -26,6 +28,7 @@ from reports.new.generate import file_text, generate_engine
 from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
+from reports.tables.left_out import unused
 from reports.tables.registry import build_model
 from tests import layouts
 from tests.conftest import sample
@@ -319,6 +322,49 @@ def test_a_number_told_twice_is_one_number(layout, speed, step):
 
 def _bare(text):
     return re.sub(r"<[^>]+>|[\s\u200b]", "", html.unescape(text)).replace("−", "-")
+
+
+# Names of one quantity: what is given and what the calculation calls so.
+_SAME = (
+    {"masses_rod_small_end_share", "rod_share"}, {"rod_l1", "rod_x", "masses_rod_centre_mm"},
+    {"m_j", "masses_reciprocating_kg"}, {"m_2", "masses_rod_big_end_kg"},
+    {"geometry_lambda", "lam"}, {"gas_combustion_start_deg", "phi_c_deg"},
+    {"phi_deg", "timing_deg", "alpha_deg", "reference_angle_deg"},
+    *({f"ref_lambda{n}", f"reference_lambda_{n}_value"} for n in range(1, 13)),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "more"),
+    [
+        ("cycle-turbo-diesel", {"strength": {}, "bearings": {}, "torsion": {}}),
+        ("mwm-6", {}), ("d-240", {"reference": {}}),
+    ],
+)  # fmt: skip
+def test_a_symbol_is_one_quantity(name, more, monkeypatch):
+    """l_1 was an arm of a throw and a length of the rod, q a heat and a sensitivity."""
+    raw = to_mapping(sample(name)) | more
+    raw["report"]["detail"] = "full"
+    model = load_mapping(raw, source="t.toml").model
+    seen, tex_of = defaultdict(dict), Terms.tex
+
+    def noted(terms, name):
+        seen[_canonical(tex_of(terms, name))][name.rpartition(".")[2]] = terms.title(name).lower()
+        return tex_of(terms, name)
+
+    monkeypatch.setattr(Terms, "tex", noted)
+    bare_page(model)
+    for field in build_model(model).inputs:
+        if field.symbol and field.name not in unused(model) and "gas_point" not in field.name:
+            seen[_canonical(input_symbol_tex(field.symbol))][field.name] = field.title.lower()
+    for tex, titles in seen.items():
+        kinds = {re.sub(r"\d+", "", title) for title in titles.values()}
+        assert len(kinds) == 1 or not tex or any(titles.keys() <= same for same in _SAME), (
+            tex, titles)  # fmt: skip
+
+
+def _canonical(tex):
+    return re.sub(r"_(\w)(?!\w)", r"_{\1}", tex.replace(" ", ""))
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "cycle-turbo-diesel", "yamz-236"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from kshm.nomenclature.quantity import quantity
 from reports.document.figures.canvas import CENTRE, HAIR, SMALL, THIN, Pen, Point, Sheet
 
 Sizes = Mapping[str, float]
@@ -49,11 +50,11 @@ def _piston(pen: Pen, corner: Point, k: float, s: Sizes) -> None:
     pen.line([(middle, y + 8), (middle, y - height - 8)], HAIR, CENTRE)
     axis = y - 0.55 * height
     pen.circle((middle, axis), s["pin"] * k / 2, fill="#ffffff", width=_BOLD)
-    _down(pen, middle + 0.18 * bore, y, y - crown, r"$\delta$", 12)
-    _down(pen, x - 8, y, y - height, "$H$", -9)
-    _down(pen, x + bore + 8, y - 0.35 * height, y - height, r"$h_ю$", 11)
+    _down(pen, middle + 0.18 * bore, y, y - crown, _letter("crown"), 12)
+    _down(pen, x - 8, y, y - height, _letter("height"), -9)
+    _down(pen, x + bore + 8, y - 0.35 * height, y - height, _letter("skirt"), 11)
     _across(pen, y - height - 14, x, x + bore, "$D$")
-    _across(pen, y + 14, x, x + ring, "$t$")
+    _across(pen, y + 14, x, x + ring, _letter("ring_radial"))
 
 
 def _pin(pen: Pen, middle: Point, k: float, s: Sizes) -> None:
@@ -74,11 +75,13 @@ def _pin(pen: Pen, middle: Point, k: float, s: Sizes) -> None:
         pen.line([(left, y + side * bore / 2), (left + length, y + side * bore / 2)], THIN)
     pen.line([(left - 8, y), (left + length + 8, y)], HAIR, CENTRE)
     below = y - outer / 2 - 30
-    _across(pen, below, x - s["eye_length"] * k / 2, x + s["eye_length"] * k / 2, r"$l_ш$")
-    _across(pen, below - 17, x - s["bosses"] * k / 2, x + s["bosses"] * k / 2, "$b$")
-    _across(pen, below - 34, left, left + length, r"$l_п$")
-    _down(pen, left + length + 12, y + outer / 2, y - outer / 2, r"$d_п$", 12)
-    _down(pen, left - 8, y + bore / 2, y - bore / 2, r"$d_в$", -11)
+    _across(
+        pen, below, x - s["eye_length"] * k / 2, x + s["eye_length"] * k / 2, _letter("eye_length")
+    )
+    _across(pen, below - 17, x - s["bosses"] * k / 2, x + s["bosses"] * k / 2, _letter("bosses"))
+    _across(pen, below - 34, left, left + length, _letter("pin_length"))
+    _down(pen, left + length + 12, y + outer / 2, y - outer / 2, _letter("pin"), 12)
+    _down(pen, left - 8, y + bore / 2, y - bore / 2, _letter("pin_bore"), -11)
 
 
 def _rod(pen: Pen, top: Point, k: float, s: Sizes) -> None:
@@ -107,10 +110,15 @@ def _rod(pen: Pen, top: Point, k: float, s: Sizes) -> None:
     pen.circle((x, y), outer, fill=_GREY, width=_BOLD, order=1.8)
     pen.circle((x, y), bush, fill="#ffffff", width=THIN, order=1.9)
     pen.circle((x, y), pin, fill="#ffffff", width=THIN, order=2.0)
-    _across(pen, y + outer + 10, x - outer, x + outer, r"$d_г$")
-    _across(pen, centre[1] - 1.6 * half - 10, x - big, x + big, r"$c_б$")
+    _across(pen, y + outer + 10, x - outer, x + outer, _letter("eye_outer"))
+    _across(pen, centre[1] - 1.6 * half - 10, x - big, x + big, _letter("bolts_apart"))
     pen.text((x + outer + 12, y + 0.3 * outer), "I", SMALL)
     pen.line([(x - outer - 7, y), (x + outer + 7, y)], HAIR, CENTRE)
+
+
+def _letter(key: str) -> str:
+    """Symbol of a size."""
+    return f"${quantity(f'st_{key}_mm').tex}$"
 
 
 def _across(pen: Pen, level: float, left: float, right: float, name: str) -> None:

@@ -103,12 +103,12 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
         "Температура масла перед подшипниками", "t_0", CELSIUS, -20, 150, USUAL
     )
     supply_mpa: float = number(
-        "Давление масла перед подшипниками", "p_м", MPA, 0.01, 5, USUAL, solver="pressure"
+        "Давление масла перед подшипниками", "p_вх", MPA, 0.01, 5, USUAL, solver="pressure"
     )
     density_kg_m3: float = number("Плотность масла", "ρ_м", KG_M3, 700, 1000, USUAL)
     heat_j_kg_k: float = number("Удельная теплоёмкость масла", "c_м", J_KG_K, 1000, 3000, USUAL)
-    journal_roughness_um: float = number("Высота неровностей шейки", "h_1", UM, 0, 50, 0.8)
-    shell_roughness_um: float = number("Высота неровностей вкладыша", "h_2", UM, 0, 50, 1.2)
+    journal_roughness_um: float = number("Высота неровностей шейки", "R_z1", UM, 0, 50, 0.8)
+    shell_roughness_um: float = number("Высота неровностей вкладыша", "R_z2", UM, 0, 50, 1.2)
     form_um: float = number("Изгиб вала и отклонение формы", "h_3", UM, 0, 100, 1.0)
     reserve_allowed: float = number("Допускаемый запас плёнки", "[K_h]", NONE, 1, 20, 1.5)
     material: Literal["40h2n2ma", "40h", "45", "vch60", "sch35"] = choice(
@@ -138,7 +138,7 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
     hole_torsion: float = number(
         "Концентрация у отверстия при кручении", "α_τо", NONE, 1, 10, USUAL
     )
-    sensitivity: float = number("Чувствительность к концентрации", "q", NONE, 0, 1, USUAL)
+    sensitivity: float = number("Чувствительность к концентрации", "q_σ", NONE, 0, 1, USUAL)
     size_factor: float = number(
         "Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2, USUAL, solver="size"
     )

@@ -103,10 +103,10 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
         "Температура остаточных газов", "T_r", KELVIN, "t_residual"
     )
     intake_factor: float = _limited(
-        "Коэффициент сопротивления впуска pa/pк", "C_1", NONE, "intake_factor"
+        "Коэффициент сопротивления впуска pa/pк", "C_a", NONE, "intake_factor"
     )
     exhaust_factor: float = _limited(
-        "Коэффициент сопротивления выпуска pr/pк", "C_2", NONE, "exhaust_factor"
+        "Коэффициент сопротивления выпуска pr/pк", "C_r", NONE, "exhaust_factor"
     )
     recharge: float = _limited("Коэффициент дозарядки", "φ_доз", NONE, "recharge", USUAL)
     scavenging: float = _limited("Коэффициент очистки", "φ_оч", NONE, "scavenging", USUAL)

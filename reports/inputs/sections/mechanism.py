@@ -47,7 +47,7 @@ class MassesSection(Strictly):
     )
     piston_group_kg: float | None = number(title_of("m_piston"), "m_п", KG, LEAST_KG, MOST_KG, None)
     rod_kg: float | None = number(title_of("m_rod"), "m_ш", KG, LEAST_KG, MOST_KG, None)
-    rod_centre_mm: float | None = number(title_of("rod_l1"), "l_1", MM, 1, 6000, None)
+    rod_centre_mm: float | None = number(title_of("rod_l1"), "l_ш1", MM, 1, 6000, None)
     rod_small_end_share: float | None = number(
         "Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8, None
     )
@@ -66,7 +66,7 @@ class MassesSection(Strictly):
         "Радиус отверстия поршневой головки", "r_1", MM, 0, 500, None, solver="bore_radius"
     )
     swing_edges_mm: float | None = number(
-        "Расстояние между осями качаний", "l_3", MM, 5, 6000, None, solver="distance"
+        "Расстояние между осями качаний", "l_ш3", MM, 5, 6000, None, solver="distance"
     )
     rod_inertia_kg_m2: float | None = number(title_of("I_sh"), "I_ш", KG_M2, 1e-7, 1e5, None)
     estimate_fuel: Literal["petrol", "diesel"] | None = choice(

@@ -127,6 +127,13 @@ def _refuse(node: ast.expr, text: str) -> None:
     )
 
 
+def scales(text: str) -> list[str]:
+    """Scale functions of an expression in their order, each once."""
+    calls = (node.func for node in ast.walk(parse(text)) if isinstance(node, ast.Call))
+    named = (func.id for func in calls if isinstance(func, ast.Name))
+    return list(dict.fromkeys(name for name in named if name in SCALE_FUNCTIONS))
+
+
 @lru_cache(maxsize=4096)
 def names(text: str) -> frozenset[str]:
     """All names an expression refers to; columns of other tables as ``table.column``."""

@@ -122,6 +122,12 @@ def input_symbol_tex(symbol: str) -> str:
     return f"{text}_{{{body}}}"
 
 
+def exponent_of(scale: str) -> int:
+    """Power of ten of a scale function: −6 of ``to_MPa``."""
+    way, unit = scale.split("_", 1)
+    return round(math.log10(SCALES[unit])) * (1 if way == "of" else -1)
+
+
 def _is_tolerance(node: ast.expr) -> bool:
     return (
         isinstance(node, ast.Constant)
@@ -322,11 +328,9 @@ class _Printer:
     def _scale(self, name: str, arg: ast.expr) -> tuple[str, int]:
         if self.numbers is None:
             return self._emit(arg)
-        way, unit = name.split("_", 1)
-        exponent = round(math.log10(SCALES[unit])) * (1 if way == "of" else -1)
         text, level = self._emit(arg)
         factor = text if level >= _PRODUCT else rf"\left({text}\right)"
-        return rf"{factor} \cdot 10^{{{exponent}}}", _PRODUCT
+        return rf"{factor} \cdot 10^{{{exponent_of(name)}}}", _PRODUCT
 
     def _aggregate(self, name: str, arg: ast.expr) -> str:
         symbol = _Printer(self.symbols, None).text(arg)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from markupsafe import Markup
 
+from kshm.nomenclature.quantity import UNITS
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.numbering import Figure, Kind, TablePlan, Writer
 from reports.document.page.style import Style
-from reports.document.text.terms import Terms, with_unit
+from reports.document.text.symbols import inline_html
+from reports.document.text.terms import Terms, WhereItem, with_unit
 from reports.document.text.texts import of_digits
+from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
 from reports.inputs.solve_input import FINE, GridError, refined, solved
@@ -165,6 +168,7 @@ BOOK = "gots"
 ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
 # Signs of a place in the textbook that stays with the word before it; that stays in one line.
 _SHORT_PLACE, _ONE_FORMULA = 8, 14
+_PLAIN = {"MPa": "Па", "kN": "Н", "mm": "м", "kW": "Вт", "dm3": "м³"}  # units of SI
 FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
@@ -190,6 +194,7 @@ class Chapter:
     environment: Environment
     prototype: Prototype | None = None
     figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
+    scales: dict[str, bool] = field(default_factory=dict)  # factors of the chapter → explained
 
     @property
     def model(self) -> Model:
@@ -255,17 +260,23 @@ class Chapter:
             "t": self.terms,
             "w": self.writer,
             "n": self.writer.n,
-            "h": self.writer.heading,
+            "h": self.heading,
             "figure": self.writer.figure,
             "table": self.writer.table,
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "printed_step",
-               "whole", "named", "by_fine")  # fmt: skip
+               "whole", "named", "by_fine", "where")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
+
+    def heading(self, level: int, title: str, **manner: bool) -> Markup:
+        """A heading; with a chapter the factors of its formulas are to be explained anew."""
+        if level == 1:
+            self.scales.clear()
+        return self.writer.heading(level, title, **manner)
 
     def eq(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """The formula of a node in symbols, numbered."""
@@ -278,13 +289,40 @@ class Chapter:
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
-        return self.writer.formula(tex, FORMULA + name, end)
+        shown = self.writer.formula(tex, FORMULA + name, end)
+        return shown + self._explained(name, None, end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """The formula with numbers and its result, not numbered."""
         if self.writer.draft:
             return Markup("")
-        return self.writer.formula(self.terms.substitution(name, at), None, end)
+        shown = self.writer.formula(self.terms.substitution(name, at), None, end)
+        return shown + self._explained(name, at, end)
+
+    def where(self, *names: str) -> Markup:
+        """The «где» list under a formula, with the factors that are not explained yet."""
+        factors = [WhereItem(power, words) for power, words in self._factors()]
+        return self.writer.where([*self.terms.where(*names), *factors])
+
+    def _explained(self, name: str, at: float | None, end: str) -> Markup:
+        """Words on the factors of formulas whose sentence ends here."""
+        for scale in self.terms.scales(name, at):
+            self.scales.setdefault(scale, False)
+        factors = list(self._factors()) if end == "." else []
+        if not factors:
+            return Markup("")
+        said = joined([f"{inline_html(power)} — {words}" for power, words in factors])
+        return Markup('<p class="flush">Здесь {}.</p>').format(Markup(said))
+
+    def _factors(self) -> Iterator[tuple[str, str]]:
+        """Powers of ten that wait for their words, with these."""
+        for scale, explained in self.scales.items():
+            if not explained:
+                self.scales[scale] = True
+                way, unit = scale.split("_", 1)
+                pair = (_PLAIN[unit], UNITS[unit].label)
+                first, last = pair if way == "to" else reversed(pair)
+                yield f"10^{{{exponent_of(scale)}}}", f"перевод {first} в {last}"
 
     def ref(self, name: str) -> Markup:
         """Number of a node's formula as a link, in brackets."""

@@ -162,12 +162,20 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
     return scalar is not None and any(sign in scalar.expr for sign in "+-*/")
 
 
+_BY_FORMULA = ("geometry", "masses")  # lists whose values stand behind their formulas
+
+
 def _mass_notes(chapter: Chapter) -> Markup:
     """How the masses and the rod were found, Gots 2.2, with their table."""
     given, scalars = chapter.input.masses, chapter.terms.values.scalars
     lists = [block for block in chapter.model.blocks if isinstance(block, ScalarTable)]
     sheet = next(block.sheet for block in lists if block.id == "specific_masses")
-    listed = [scalar for block in lists if block.sheet == sheet for scalar in block.scalars]
+    listed = [
+        scalar
+        for block in lists
+        if block.sheet == sheet and block.id not in _BY_FORMULA
+        for scalar in block.scalars
+    ]
     keys = [scalar.key for scalar in listed if scalar.of != "verdict"]
     verdicts = [
         scalar

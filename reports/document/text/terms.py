@@ -17,6 +17,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.texts import of_digits, of_digits_tex, powers, rich, to_tex
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
+from reports.formula.parse import scales
 from reports.inputs.fields import Field
 from reports.inputs.solve_input import GridError, grid_errors
 from reports.inputs.to_si.engine import smallness_of
@@ -209,6 +210,15 @@ class Terms:
         parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
         parts.append(self.result_tex(name, at))
         return " = ".join(parts)
+
+    def scales(self, name: str, at: float | None = None) -> list[str]:
+        """Scale functions whose factors the substitution shows."""
+        shown = self.substitution(name, at)
+        return [
+            scale
+            for scale in scales(self._expr(name, at))
+            if rf"10^{{{formulas.exponent_of(scale)}}}" in shown
+        ]
 
     def result_tex(self, name: str, at: float | None = None) -> str:
         """Result with unit for TeX."""

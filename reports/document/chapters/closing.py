@@ -28,6 +28,7 @@ from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
+from reports.inputs.solve_input import GridError
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
 from reports.shared.russian import NBSP, capital, fixed, short
@@ -99,7 +100,7 @@ def checks(chapter: Chapter) -> Markup:
         verdict=verdict(terms),
         accepted=_accepted(chapter),
         reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
-        grid=bool(chapter.terms.grid_errors),
+        grid=bool(_grid_errors(chapter)),
         errors=TablePlan(
             partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик", size="tiny"
         ),
@@ -117,13 +118,25 @@ def _accepted(chapter: Chapter) -> list[tuple[Markup, Markup]]:
     ]
 
 
+# Chapters that alone tell results of these names.
+_TELLERS = {"Malpha": "bearings", "B_": "bearings", "dM_": "running", "I_flywheel": "balance",
+            "W_range": "balance"}  # fmt: skip
+
+
+def _grid_errors(chapter: Chapter) -> list[GridError]:
+    """Errors of the step of results that the report tells."""
+    written = relevant_chapters(chapter.input)
+    absent = tuple(start for start, name in _TELLERS.items() if name not in written)
+    return [error for error in chapter.terms.grid_errors if not error.key.startswith(absent)]
+
+
 def _grid_table(chapter: Chapter) -> TableBlock:
     """Results on the grid of the tables beside those of the fine step."""
     step = fixed(chapter.input.calculation.step_deg, 0)
     heads = (f"Шаг {step}°", "Шаг 1°", "Разность, %")
     columns = [TableColumn("Величина", 5, text=True), *(TableColumn(head, 1.5) for head in heads)]
     rows = []
-    for error in chapter.terms.grid_errors:
+    for error in _grid_errors(chapter):
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]

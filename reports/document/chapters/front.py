@@ -83,7 +83,7 @@ def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
     return words | {
         "department": _department(words["department"]),
         "named": chapter.named,
-        "data": [(present[k].title, chapter.terms.val(k)) for k in _TASK if k in present],
+        "data": [(chapter.terms.title(k), chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),
         "sheet": sheet.size if with_sheet else "",

@@ -28,6 +28,7 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms
+from reports.formula.parse import names
 from reports.model.shape import pin_figure, pin_table, rays_table
 from reports.shared.russian import capital, fixed, instrumental, joined
 
@@ -142,7 +143,7 @@ def journals(chapter: Chapter) -> Markup:
             "Схема коленчатого вала: вид сбоку и с носка" + _HALVES * chapter.shape.split,
         ),
         throws_text=instrumental(throws, "коленом", "коленами"),
-        arms=[name for name in (*_ARMS, *_OUTER) if terms.has(name)],
+        arms=[name for name in (*_ARMS, *_OUTER) if name in _read_by_first(chapter)],
         numbers=numbers,
         tables=[f"P4_3_{n}" for n in numbers],
         drawn=drawn,
@@ -162,6 +163,13 @@ def journals(chapter: Chapter) -> Markup:
         sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )
+
+
+def _read_by_first(chapter: Chapter) -> set[str]:
+    """What the reactions of the first throw are found from."""
+    scalars = chapter.model.scalars
+    formulas = (scalars[f"throw1_{key}"].expr for key in ("RKCL", "RTCL", "RKCP", "RTCP"))
+    return {name for expr in formulas if expr is not None for name in names(expr)}
 
 
 def _throws(chapter: Chapter, keys: Iterable[str], caption: str, size: str) -> TablePlan:

@@ -22,7 +22,7 @@ from reports.document.page.blocks import (
 from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import input_text, plain_number
+from reports.document.text.terms import field_title, input_text, plain_number
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
@@ -118,7 +118,7 @@ def input_data(chapter: Chapter) -> Markup:
     shown, step = printed(model, chapter.printed_step or model.calculation.step_deg)
     plans = {
         "inputs": TablePlan(
-            partial(_general, fields, unused(model) | _elsewhere(chapter)),
+            partial(_general, model, fields, unused(model) | _elsewhere(chapter)),
             "Исходные данные для расчёта",
             size="dense",
         ),
@@ -161,7 +161,7 @@ def _is_listed(field: Field) -> bool:
     return field.name.startswith(_LISTS) or field.name.startswith("throw_")
 
 
-def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:
+def _general(model: InputFile, fields: Sequence[Field], unused: set[str]) -> TableBlock:
     rows = []
     for field in fields:
         if field.name in unused:
@@ -171,7 +171,7 @@ def _general(fields: Sequence[Field], unused: set[str]) -> TableBlock:
         symbol = inline_html(input_symbol_tex(field.symbol)) if field.symbol else "—"
         value, degrees, _ = input_text(field).partition("°" if field.choices is not None else "\0")
         unit = degrees or ("—" if field.choices is not None else unit_cell(field.unit))
-        rows.append([field.title, symbol, value, unit])
+        rows.append([field_title(field, model), symbol, value, unit])
     return list_block(rows)
 
 

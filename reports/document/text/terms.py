@@ -18,12 +18,14 @@ from reports.document.text.texts import of_digits, of_digits_tex, powers, rich, 
 from reports.formula import tex as formulas
 from reports.formula.numeric import evaluate
 from reports.formula.parse import scales
+from reports.inputs.checks.bands import stated_kind
 from reports.inputs.fields import Field
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import GridError, grid_errors
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model, Node
 from reports.model.evaluation import Values
-from reports.model.shape import TIMING
+from reports.model.shape import TIMING, Shape
 from reports.shared.russian import NBSP, fixed
 
 # Symbols that would be ambiguous within a formula.
@@ -67,6 +69,22 @@ def plain_number(value: float) -> str:
     value = float(f"{value:.{_GIVEN}g}")
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
+
+
+# Words of a field's title for who fills it in, which a note does not repeat.
+_HINTS = re.compile(r",? (если|0 —) .*|,? PL\d| \((двухтактный двигатель|сдвинутой — [^)]*)\)")
+_ADVANCE = {"diesel": "впрыска", "petrol": "зажигания"}
+
+
+def field_title(given: Field, model: InputFile) -> str:
+    """Title of a field of the input as a note has it, of the engine at hand."""
+    title = _HINTS.sub("", given.title)
+    advance = _ADVANCE.get(stated_kind(model), "")
+    if advance:
+        title = title.replace("впрыска (зажигания)", advance)
+    if given.path[-1] == "pin_length_mm" and Shape.of(model).split:
+        title = title.replace("всей", "каждой половины")
+    return title
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +147,7 @@ class Terms:
     def title(self, name: str) -> str:
         """Russian name of a node, for the «где» list."""
         if name in self.model.fields:
-            title = self.model.fields[name].title
+            title = field_title(self.model.fields[name], self.model.input)
             return title[:1].lower() + title[1:]
         return self.quantity(name).title
 

@@ -51,7 +51,7 @@ DIESEL = [
         "двигатель не даёт мощности",
     ),
     ({"mechanical": FrictionLaw(0.9e6, 0.01e6)}, "mechanical.a", "уменьшите A"),
-    ({"intake_factor": 0.2}, "intake_factor", "увеличьте C_1"),
+    ({"intake_factor": 0.2}, "intake_factor", "увеличьте C_a"),
     ({"t_residual": 100.0}, "t_residual", "увеличьте T_r"),
     ({"kind": "gas"}, "kind", "diesel или petrol"),
     ({"fuel": replace(FUELS["diesel"], carbon=0.5)}, "fuel", r"C \+ H \+ O = 0,63"),

@@ -121,7 +121,7 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told_in_every_chapter(
     text = text_of(in_line([1, 3, 2], calculation={"step_deg": 30.0}))
     assert "αм = 270° (при шаге 1° — 300°) от колена" in text
     assert "угол отверстия взят по диаграмме износа:" in text  # all moments are of 270°
-    assert "под углом 270° (при шаге 1° — 300°) от колена" in text
+    assert "под углом 270…300° от колена" in text
 
 
 def test_a_lean_gas_engine_leaves_nothing_unburnt():
@@ -279,12 +279,6 @@ def test_units_of_torsion_are_written_as_everywhere():
     page = bare_page(in_line([1, 3, 2], torsion={}))
     assert "⁻" not in re.sub(r"<[^>]*>|<title>.*?</title>", "", page)
     assert re.search(r"\d\u00a0мин<sup>−1</sup>", page)
-
-
-def test_the_abstract_invites_to_what_the_report_has_not_done():
-    done = text_of(in_line([1, 3, 2], bearings={}))
-    assert "приложены в электронном виде. " in done
-    assert "по ним можно проверить прочность вала и подшипники" in text_of(in_line([1, 3, 2]))
 
 
 def test_sums_of_many_journals_stand_in_tables_of_alike_widths():

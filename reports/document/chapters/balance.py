@@ -45,7 +45,7 @@ _LISTS = {
     ),
 }  # fmt: skip
 _ZERO = f"0,{NBSP}{MINUS}"  # signs of a number that is printed as zero
-_MASSES = "возвратно движущиеся массы"
+_MASSES = "возвратно-поступательно движущиеся массы"
 _DEVICES = {
     "counterweight": "противовесов",
     "first_shafts": "грузов валов первого порядка",

@@ -82,13 +82,14 @@ _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мот
 def after_noun(name: str) -> str:
     """An engine's name to stand after «двигателя»: the noun is not said twice.
 
-    «Судовой дизель 6Ч 30/38» gives « 6Ч 30/38», «Дизель: рядный» gives « (рядный)».
+    «Судовой дизель 6Ч 30/38» gives « 6Ч 30/38», «Дизель: рядный» gives « (рядного)».
     """
     noun = _NOUN.match(name)
     if noun is None:
         return f" «{name}»"
     head, colon, rest = name[noun.end() :].strip().partition(":")
-    words = f"{head.strip()} ({rest.strip()})" if colon else head
+    of = re.sub(r"(?<=\w)ый\b", "ого", rest.strip())  # «рядный, четырёхтактный»
+    words = f"{head.strip()} ({of})" if colon else head
     return f" {words.strip()}" if words.strip() else ""
 
 
@@ -301,7 +302,7 @@ class Chapter:
 
     def where(self, *names: str) -> Markup:
         """The «где» list under a formula, with the factors that are not explained yet."""
-        factors = [WhereItem(power, words) for power, words in self._factors()]
+        factors = [WhereItem(power, f"перевод {words}") for power, words in self._factors()]
         return self.writer.where([*self.terms.where(*names), *factors])
 
     def _explained(self, name: str, at: float | None, end: str) -> Markup:
@@ -311,8 +312,8 @@ class Chapter:
         factors = list(self._factors()) if end == "." else []
         if not factors:
             return Markup("")
-        said = joined([f"{inline_html(power)} — {words}" for power, words in factors])
-        return Markup('<p class="flush">Здесь {}.</p>').format(Markup(said))
+        said = joined([f"{inline_html(power)} переводит {words}" for power, words in factors])
+        return Markup('<p class="flush">Здесь множитель {}.</p>').format(Markup(said))
 
     def _factors(self) -> Iterator[tuple[str, str]]:
         """Powers of ten that wait for their words, with these."""
@@ -322,7 +323,7 @@ class Chapter:
                 way, unit = scale.split("_", 1)
                 pair = (_PLAIN[unit], UNITS[unit].label)
                 first, last = pair if way == "to" else reversed(pair)
-                yield f"10^{{{exponent_of(scale)}}}", f"перевод {first} в {last}"
+                yield f"10^{{{exponent_of(scale)}}}", f"{first} в {last}"
 
     def ref(self, name: str) -> Markup:
         """Number of a node's formula as a link, in brackets."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 
@@ -147,13 +148,13 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
 
 
 def _coefficients(terms: Terms) -> TableBlock:
-    """Coefficients of a heat capacity: the small ones in millionths."""
+    """Coefficients of a heat capacity: the small ones with a power of ten."""
     rows = []
     for name in _HEAT:
         value = terms.value(name)
-        small = abs(value) < 1
-        number = fixed(value * 1e6 if small else value, 4, group=False)
-        text = Markup("{}·10<sup>−6</sup>" if small else "{}").format(number)
+        power = math.floor(math.log10(abs(value))) if 0 < abs(value) < 1 else 0
+        number = fixed(value / 10.0**power, 4)
+        text = Markup("{}·10<sup>{}</sup>").format(number, fixed(power, 0)) if power else number
         unit = unit_cell(terms.unit(name))
         rows.append([capital(terms.title(name)), inline_html(terms.tex(name)), text, unit])
     return list_block(rows)

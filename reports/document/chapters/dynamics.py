@@ -14,6 +14,7 @@ from reports.document.chapters.chapter import (
     half_torque_gap,
     pin_swing,
     pin_torque,
+    relevant_chapters,
     worst_running,
 )
 from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
@@ -191,7 +192,10 @@ def _mass_notes(chapter: Chapter) -> Markup:
         estimated=given.estimate_fuel is not None,
         weighed=given.rod_weighed_small_end_kg is not None,
         swung=given.swing_edges_mm is not None,
-        outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in verdicts],
+        # The chapter on the data judges the same ratios.
+        outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in verdicts]
+        if "rationale" not in relevant_chapters(chapter.input)
+        else [],
     )
 
 

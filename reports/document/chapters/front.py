@@ -43,8 +43,6 @@ _AIMS = (
     ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
 )
 _MOST_AIMS = 4  # of the first that a sentence names
-# What a further calculation finds, by the chapter that does it.
-_FURTHER = (("oil", "прочность вала"), ("oil", "подшипники"), ("balance", "маховик"))
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.
@@ -102,7 +100,6 @@ def abstract(chapter: Chapter) -> Words:
         "appendices": sum(item.title.startswith("Приложение") for item in n.contents),
         "names": names,
         "keywords": [word.upper() for word in words],
-        "further": _further(names),
         "aim": _aim(names),
     }
 
@@ -115,12 +112,6 @@ def _aim(names: set[str]) -> str:
         return joined(aims, ", а также ")
     # A turn of speech has a comma at its end.
     return joined(aims, ", и " if len(aims) > 1 and "," in aims[-2] else " и ")
-
-
-def _further(names: set[str]) -> str:
-    """Further work that the workbook offers."""
-    left = [word for name, word in _FURTHER if name not in names]
-    return f"проверить {joined(left)}" if left else ""
 
 
 _READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks

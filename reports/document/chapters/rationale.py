@@ -9,7 +9,7 @@ from functools import partial
 from markupsafe import Markup
 
 from kshm.engine.arrangement import rods_beside
-from reports.document.chapters.chapter import Chapter, Prototype, after_noun
+from reports.document.chapters.chapter import Chapter, Prototype
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
@@ -42,6 +42,13 @@ class Judged:
         if self.value < self.low * (1 - _NEAR):
             return "ниже"
         return "выше" if self.value > self.high * (1 + _NEAR) else "в пределах"
+
+    @property
+    def place(self) -> str:
+        """Where the span is from; that of a large bore is no longer the printed one."""
+        span = self.reason.petrol[0], self.reason.diesel[0]
+        grown = ", с ростом D" if self.reason.by_size and self.low not in span else ""
+        return f"{self.reason.place}{grown}" or "принято"
 
     @property
     def shown(self) -> str:
@@ -102,7 +109,7 @@ def rationale(chapter: Chapter) -> Markup:
                        "Принятые данные и обычные пределы", size="dense", lined=True),
         outside=[each.line for each in judged if each.verdict != "в пределах"],
         compared=prototype is not None,
-        prototype=after_noun(prototype.name) if prototype and prototype.name else "",
+        prototype=prototype.name if prototype else "",
         pairs=TablePlan(partial(_main_table, pairs), "Двигатель и прототип") if pairs else None,
         denser=_denser(pairs),
     )  # fmt: skip
@@ -225,6 +232,6 @@ def _table(judged: list[Judged], compared: bool) -> TableBlock:
         rows.append([
             rich(each.reason.title + unit), inline_html(each.reason.tex), each.shown,
             *([other] if compared else []), each.usual, each.verdict,
-            each.reason.place or "принято",
+            each.place,
         ])  # fmt: skip
     return table_block(columns, rows)

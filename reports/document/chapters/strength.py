@@ -16,27 +16,27 @@ from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.model.blocks import Scalar, ScalarTable
-from reports.shared.russian import joined, uncapital
+from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
 
 _LISTS = {
     "loads": ("strength_loads", "Силы, по которым рассчитана прочность"),
-    "piston": ("strength_piston", "Поршень"),
-    "ring": ("strength_ring", "Поршневое кольцо"),
-    "pin": ("strength_pin", "Поршневой палец"),
-    "eye": ("strength_eye", "Верхняя головка шатуна"),
-    "shank": ("strength_shank", "Стержень шатуна"),
-    "cap": ("strength_cap", "Крышка шатуна и болты"),
+    "piston": ("strength_piston", "Результаты расчёта поршня"),
+    "ring": ("strength_ring", "Результаты расчёта поршневого кольца"),
+    "pin": ("strength_pin", "Результаты расчёта поршневого пальца"),
+    "eye": ("strength_eye", "Результаты расчёта верхней головки шатуна"),
+    "shank": ("strength_shank", "Результаты расчёта стержня шатуна"),
+    "cap": ("strength_cap", "Результаты расчёта крышки шатуна и болтов"),
 }
 # What mends a value above its usual limits, by the check of ``strength.book``.
 _MENDS = {
-    "crown": "увеличить толщину днища δ",
-    "press": "увеличить толщину стенки головки s",
-    "pull": "увеличить толщину стенки головки s",
-    "land": "увеличить высоту перемычки hп",
+    "crown": "увеличить толщину днища",
+    "press": "увеличить толщину стенки головки поршня",
+    "pull": "увеличить толщину стенки головки поршня",
+    "land": "увеличить высоту перемычки",
     "q1": "удлинить юбку",
     "q2": "увеличить высоту поршня",
-    "ring": "уменьшить разность зазоров замка A0",
-    "ring_work": "уменьшить разность зазоров замка A0",
+    "ring": "уменьшить разность зазоров замка",
+    "ring_work": "уменьшить разность зазоров замка",
     "pin_eye": "удлинить втулку шатуна или увеличить диаметр пальца",
     "pin_boss": "удлинить палец или увеличить его диаметр",
     "pin_bend": "увеличить диаметр пальца или толщину его стенки",
@@ -51,6 +51,7 @@ _MENDS = {
     "bolt": "увеличить диаметр болта",
     "web": "увеличить ширину или толщину щеки, взять сталь прочнее",
 }
+_RANGED = 2  # decimals of values beside their usual limits
 _SPARE = "взято с запасом"  # of a value below the usual
 _USUAL_BORE_MM = 160  # of cars, lorries and tractors, which the usual limits are of
 
@@ -77,7 +78,7 @@ def strength(chapter: Chapter) -> Markup:
         section=section,
         tables=tables,
         sketch=Figure(partial(parts_sketch, _drawn(chapter)),
-                      "Размеры частей: а) поршень; б) палец; в) шатун"),
+                      f"Размеры частей: а{NBSP}— поршень; б{NBSP}— палец; в{NBSP}— шатун"),
         estimated=any(getattr(section, f"{key}_mm") is None for key in PART_SHARES),
         cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
         outside=_outside(chapter),
@@ -96,11 +97,17 @@ def concluded(chapter: Chapter) -> Markup:
     """The chapter's result in a line of the conclusion."""
     if chapter.input.strength is None:
         return Markup("")
-    weak = [name for name, _ in _weak(chapter)]
-    allowed = chapter.terms.num("strength_safety_allowed")
-    if weak:
-        return Markup("запас прочности меньше допускаемого {}: {}").format(allowed, joined(weak))
-    return Markup("запасы прочности шатуна, болтов и щёк не меньше допускаемого {}").format(allowed)
+    terms, block = chapter.terms, _block(chapter, "strength_allowed")
+    allowed = terms.num("strength_safety_allowed")
+    least = min((value for value, _ in _pairs(block)), key=lambda each: terms.value(each.key))
+    side = "меньше" if _weak(chapter) else "не меньше"
+    line = Markup("наименьший запас прочности деталей {} — {}, он {} допускаемого {}").format(
+        fixed(terms.value(least.key), 2), titled_html(uncapital(least.note)), side, allowed
+    )
+    outside = [name for name, mend in _outside(chapter) if mend != _SPARE]
+    if outside:
+        line += Markup("; больше обычных пределов: {}").format(joined(outside))
+    return line
 
 
 def _block(chapter: Chapter, name: str) -> ScalarTable:
@@ -137,24 +144,25 @@ def _weak(chapter: Chapter) -> list[tuple[str, str]]:
 def _sizes(terms: Terms, block: ScalarTable) -> TableBlock:
     """Sizes with where each is from."""
     rows = [
-        [titled_html(scalar.quantity.title), terms.sym(scalar.key), terms.num(scalar.key),
+        [titled_html(capital(scalar.quantity.title)), terms.sym(scalar.key), terms.num(scalar.key),
          titled_html(scalar.source.partition(" (")[0])]
         for scalar in block.scalars
     ]  # fmt: skip
     return table_block(
         [TableColumn("Размер, мм", 4.2, text=True), TableColumn("Обозначение", 1.6),
-         TableColumn("Значение", 1.4), TableColumn("Откуда", 2.4, text=True)], rows,
+         TableColumn("Значение", 1.4), TableColumn("Основание", 2.4, text=True)], rows,
     )  # fmt: skip
 
 
 def _ranges(terms: Terms, block: ScalarTable) -> TableBlock:
-    rows = [
-        [titled_html(value.note), terms.num(value.key), str(terms.values.scalars[verdict.key])]
-        for value, verdict in _pairs(block)
-    ]
+    rows = []
+    for value, verdict in _pairs(block):
+        title, _, usual = value.note.partition(": обычно ")
+        shown = fixed(terms.value(value.key), _RANGED)
+        rows.append([titled_html(title), shown, usual, str(terms.values.scalars[verdict.key])])
     return table_block(
-        [TableColumn("Величина", 5.0, text=True), TableColumn("Значение", 1.4),
-         TableColumn("Вывод", 1.8)], rows,
+        [TableColumn("Величина", 4.2, text=True), TableColumn("Значение", 1.4),
+         TableColumn("Обычно", 1.8), TableColumn("Вывод", 1.8)], rows,
     )  # fmt: skip
 
 

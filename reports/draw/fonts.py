@@ -164,6 +164,7 @@ def text_box(text: str) -> tuple[float, float, float]:
     return width / unit, height / unit, font.get_descent() / unit
 
 
+_STROKE_FILES = ("gost-b.lff", "kazakh.lff")
 Strokes = tuple[tuple[tuple[float, float], ...], ...]
 
 
@@ -171,7 +172,8 @@ Strokes = tuple[tuple[tuple[float, float], ...], ...]
 def glyphs() -> dict[str, Strokes]:
     """Strokes of every letter of the face of ГОСТ 2.304, type Б, in its units, upright."""
     letters: dict[str, Strokes] = {}
-    text = (templates_dir() / "fonts" / "gost-b.lff").read_text(encoding="utf-8")
+    folder = templates_dir() / "fonts"
+    text = "\n".join((folder / name).read_text(encoding="utf-8") for name in _STROKE_FILES)
     for block in text.split("\n[")[1:]:
         head, _, body = block.partition("\n")
         strokes: list[tuple[tuple[float, float], ...]] = []

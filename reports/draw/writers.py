@@ -205,8 +205,7 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
             if isinstance(item, Dimension):
                 _dxf_dimension(space, item, looks)
             elif isinstance(item, Line):
-                if item.dash:
-                    looks["linetype"] = _linetype(document, item.dash)
+                looks |= _dashes(document, item)
                 space.add_lwpolyline(item.points, close=item.closed, dxfattribs=looks)
             elif isinstance(item, Circle):
                 space.add_circle(item.centre, item.radius, dxfattribs=looks)
@@ -232,6 +231,17 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         return stream.getvalue().encode(document.output_encoding, "dxfreplace")
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+_PLINEGEN = 128  # a pattern runs on over the corners: the pieces of a curve are shorter than it
+
+
+def _dashes(document: object, item: Line) -> dict[str, object]:
+    """Attributes of a dashed polyline."""
+    if not (item.dash or item.layer.dash):
+        return {}
+    own = {"linetype": _linetype(document, item.dash)} if item.dash else {}
+    return {"flags": _PLINEGEN, **own}
 
 
 def _dxf_fill(space: object, item: Line | Circle) -> None:

@@ -170,6 +170,9 @@ def test_layers_texts_and_closed_lines():
     space = document.modelspace()
     texts = {text.dxf.text for text in space.query("TEXT")}
     assert {"Разраб.", "Схема уравновешивания", "Порядок работы 1–3–4–2"} <= texts
+    dashed = [line for line in space.query('LWPOLYLINE[layer=="Кривые"]')
+              if line.dxf.linetype not in ("BYLAYER", "Continuous")]  # fmt: skip
+    assert dashed and all(line.dxf.flags & 128 for line in dashed)  # else their pieces are solid
     closed = [line for line in space.query("LWPOLYLINE") if line.closed]
     assert len(closed) > 10
     assert {e.dxf.layer for e in space} <= {layer.name for layer in LAYERS}

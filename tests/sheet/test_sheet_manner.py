@@ -19,6 +19,7 @@ NAMES = ["gots-diesel", "yamz-236", "two-stroke"]
 
 
 def test_every_letter_of_russian_and_of_symbols_is_drawn():
+    assert is_drawn("ӘәҒғҚқҢңӨөҰұҮүҺһІі")  # of Kazakh names
     assert is_drawn(RUSSIAN + RUSSIAN.upper() + "αβγθλμνπρφψωΔΣ0123456789.,;:()°′×·±−–—«»№Ø%/")
     assert len(glyphs()) > 600
 

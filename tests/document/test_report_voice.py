@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from kshm.nomenclature.digits import Digits
 from reports.document.chapters.chapter import Chapter, after_noun
-from reports.document.chapters.closing import tolerance
+from reports.document.chapters.closing import SOURCES, tolerance
 from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
 from reports.document.text.symbols import inline_html
@@ -396,6 +396,7 @@ def _assert_defined(model, monkeypatch):
     text = _bare(re.sub(r'<div class="eq.*?</div>', "", page, flags=re.DOTALL))
     formulas = [(c.terms.tex(n), c, n, at) for c, n, at in placed if not c.writer.draft]
     left = {tex for tex, *_ in formulas}
+    assert (r"\Delta p/\Delta\varphi" in left) == any(n == "p_start" for _, _, n, _ in formulas)
     for _, chapter, name, at in formulas:
         terms, symbol = chapter.terms, chapter.terms._symbols(name)
         for node in ast.walk(parse(terms._expr(name, at))):
@@ -405,3 +406,13 @@ def _assert_defined(model, monkeypatch):
             if not tex or tex in left or re.search(r"dfrac|\\(sin|cos)|\+", tex):
                 continue
             assert _bare(str(inline_html(tex))) in text, (name, tex)
+
+
+@pytest.mark.parametrize("key", SOURCES)
+def test_a_source_is_complete(key):
+    """Place, publisher, year and extent of a book; journal, year and pages of an article."""
+    book = r" — (Москва|Ленинград|Владимир) : [^,]+, \d{4}\. — \d+ с\."
+    article = r" — Текст : непосредственный // [^—]+ — \d{4}\. — [^—]*(№ \d+)\. — [СP]\. \d+–\d+\."
+    thesis = r" : Dissertation / .* — Karlsruhe, \d{4}\."
+    assert re.search(f"{book}|{article}|{thesis}", SOURCES[key]), SOURCES[key]
+    assert "Текст : непосредственный" in SOURCES[key]

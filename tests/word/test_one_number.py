@@ -17,6 +17,7 @@ from reports.document.text.texts import of_digits
 from reports.sheet.write import sheet_files
 from tests.cover import ALL, chapters, samples_with, sparse
 from tests.document.report_samples import shipped_pdf
+from tests.document.test_report_sentences import PROGRAM
 from tests.word.docx_samples import docx_of, model_of, page_of, part, root_of, text_of
 from tests.workbook.made import book as own_book
 
@@ -63,6 +64,9 @@ def test_the_same_number_everywhere(name, tmp_path):
     texts["Word"] = text_of(part(docx_of(name)))
     texts["page"] = root_of(page_of(name)).body.text_content()
     texts["sheet DXF"] = " \n".join(t.dxf.text for t in document.modelspace().query("TEXT"))
+    for place, text in texts.items():  # nor does a word of the program stand in any of them
+        said = [text[m.start() - 40 : m.end() + 40] for m in PROGRAM.finditer(text)]
+        assert said == [], place
     told = {place: shown(text) for place, text in texts.items()}
     for key, value in of_workbook(book).items():
         number = of_digits(value, terms.quantity(key).digits)

@@ -89,7 +89,7 @@ CHAPTERS: dict[str, Write] = {
     "sources": closing.sources,
     "appendices": closing.appendices,
 }
-_RUN_ON = 0.3  # of a page that is left for the next chapter outside of the full report
+_RUN_ON = 0.25  # of a page that is left for the next chapter outside of the full report
 
 
 @dataclass(frozen=True)

@@ -107,7 +107,8 @@ def _with_prototype(source: Path, loaded: Loaded) -> Loaded:
     """Check the prototype's file and keep it from being written over."""
     if loaded.model.prototype is None:
         return loaded
-    from reports.inputs.load import load_toml, prototype_file
+    from reports.inputs.load import load_toml
+    from reports.inputs.reasons import prototype_file
 
     other = prototype_file(loaded.model, source.parent)
     if other is None:

@@ -47,7 +47,8 @@ from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
 from reports.document.text import texts
 from reports.document.text.terms import Terms
-from reports.inputs.load import load_toml, prototype_file
+from reports.inputs.load import load_toml
+from reports.inputs.reasons import prototype_file
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection

@@ -43,6 +43,7 @@ from reports.inputs.own_books import (
     with_books,
 )
 from reports.inputs.ranges import read_ranges, split_ranges
+from reports.inputs.reasons import PROTOTYPE_KEY
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.gas import SOURCES, CycleGasSection, PolytropicGasSection
 from reports.inputs.sections.input_file import (
@@ -233,26 +234,6 @@ def load_remote(raw: Mapping[str, Any]) -> Loaded:
         what, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
         raise InputError([Problem(key, what, hint) for key in named])
     return loaded
-
-
-PROTOTYPE_KEY = "prototype.file"
-
-
-def prototype_file(model: InputFile, beside: FilePath) -> FilePath | None:
-    """The file of the prototype that an input names, if it names one.
-
-    Raises:
-        InputError: There is no such file, or it is no TOML.
-    """
-    name = "" if model.prototype is None else model.prototype.file.strip()
-    if not name:
-        return None
-    path = beside / name
-    if path.suffix.lower() != ".toml":
-        raise refused(PROTOTYPE_KEY, f"{name} — не файл .toml", "укажите файл исходных данных")
-    if not path.is_file():
-        raise refused(PROTOTYPE_KEY, f"нет файла {path}", "укажите файл от файла исходных данных")
-    return path
 
 
 class _SectionReader:

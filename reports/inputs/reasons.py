@@ -1,4 +1,4 @@
-"""Usual values of an engine's main data and what follows outside of them: one place for all.
+"""What an engine's main data are held against: usual values, with what follows, and a prototype.
 
 Comments of `new`, the note's chapter on the data and its conclusion take them from here.  A
 range comes from the textbook where ``place`` names its section; the others are accepted.
@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
 from kshm.mechanics.masses import PISTON, ROD, THROW
+from reports.inputs.sections.input_file import InputFile
+from reports.shared.errors import InputError, Problem
 from reports.shared.russian import short
 
 Span = tuple[float, float]
@@ -136,3 +139,25 @@ def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:
         else words
         for key, words in notes.items()
     }
+
+
+PROTOTYPE_KEY = "prototype.file"
+
+
+def prototype_file(model: InputFile, beside: Path) -> Path | None:
+    """The file of the prototype that an input names, if it names one.
+
+    Raises:
+        InputError: There is no such file, or it is no TOML.
+    """
+    name = "" if model.prototype is None else model.prototype.file.strip()
+    if not name:
+        return None
+    path = beside / name
+    if path.suffix.lower() != ".toml":
+        what, hint = f"{name} — не файл .toml", "укажите файл исходных данных"
+        raise InputError(Problem(PROTOTYPE_KEY, what, hint))
+    if not path.is_file():
+        what, hint = f"нет файла {path}", "укажите файл от файла исходных данных"
+        raise InputError(Problem(PROTOTYPE_KEY, what, hint))
+    return path

@@ -20,8 +20,8 @@ from reports.document.text.texts import of_digits, of_digits_tex
 from reports.formula.parse import parse
 from reports.formula.tex import input_symbol_tex, to_tex, to_tex_numbers
 from reports.inputs.fields import to_mapping
-from reports.inputs.load import load_mapping, load_remote, prototype_file
-from reports.inputs.reasons import REASONS
+from reports.inputs.load import load_mapping, load_remote
+from reports.inputs.reasons import REASONS, prototype_file
 from reports.inputs.solve_input import refined, solved
 from reports.model.evaluation import evaluate_model
 from reports.new.generate import file_text, generate_engine

@@ -9,7 +9,7 @@ from functools import partial
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
-from reports.document.figures.curves import Band, Mark, PlotCurve, bands_figure
+from reports.document.figures.curves import Mark, PlotCurve, ScaledCurve, bands_figure
 from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
@@ -95,7 +95,7 @@ def _characteristic_plan(terms: Terms) -> Figure:
         )
     ]
     bands = [
-        Band(
+        ScaledCurve(
             PlotCurve(f"${terms.tex(f'speed.{name}')}$", terms.column(f"speed.{name}")),
             axis_name(terms, f"speed.{name}"), rows, right=right, zero=zero,
             marks=marks if name == "speed_Me" else (),

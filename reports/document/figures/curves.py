@@ -241,7 +241,7 @@ def _mark(axes: Axes, room: LabelField, point: tuple[float, float], name: str) -
 
 
 @dataclass(frozen=True, slots=True)
-class Band:
+class ScaledCurve:
     """A curve with a scale of its own over some rows of a common grid.
 
     Attributes:
@@ -268,7 +268,7 @@ _THIN = LineStyle(0.6, (5, 2.5))
 
 def bands_figure(
     x: ArrayLike,
-    bands: Sequence[Band],
+    bands: Sequence[ScaledCurve],
     x_title: str,
     *,
     height: float = 110.0,
@@ -332,7 +332,7 @@ def _scale(y: NDArray[np.float64], count: int, *, zero: bool) -> Ticks:
     return at_steps(math.floor(low / (100 * power)), count + 1, 100 * power)
 
 
-def _points(axes: Axes, room: LabelField, band: Band, foot: float) -> None:
+def _points(axes: Axes, room: LabelField, band: ScaledCurve, foot: float) -> None:
     """Marked points of a band with thin lines to its scale and to the abscissa."""
     places = [tuple(axes.at(mark.x, mark.y).tolist()) for mark in band.marks]
     for x, y in places:

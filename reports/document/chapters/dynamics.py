@@ -17,6 +17,7 @@ from reports.document.chapters.chapter import (
     relevant_chapters,
     worst_running,
 )
+from reports.document.chapters.rationale import judge
 from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.charts import Row
@@ -163,6 +164,9 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
     return scalar is not None and any(sign in scalar.expr for sign in "+-*/")
 
 
+# Ratios of table 4 as the chapter on the data calls them.
+_RATIOS = {"area_piston": "piston_mass", "area_rod": "rod_mass", "area_throw": "throw_mass",
+           "rod_share": "rod_share"}  # fmt: skip
 _BY_FORMULA = ("geometry", "masses")  # lists whose values stand behind their formulas
 
 
@@ -185,6 +189,9 @@ def _mass_notes(chapter: Chapter) -> Markup:
         for scalar in block.scalars
         if scalar.of == "verdict" and scalars[scalar.key] == NO
     ]
+    # What the chapter on the data judges is not judged twice.
+    written = "rationale" in relevant_chapters(chapter.input)
+    told = {each.reason.key for each in judge(chapter)} if written else set()
     return chapter.page(
         "masses",
         plan=chapter.scalars("Массы и шатун", keys, size="dense"),
@@ -192,10 +199,11 @@ def _mass_notes(chapter: Chapter) -> Markup:
         estimated=given.estimate_fuel is not None,
         weighed=given.rod_weighed_small_end_kg is not None,
         swung=given.swing_edges_mm is not None,
-        # The chapter on the data judges the same ratios.
-        outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in verdicts]
-        if "rationale" not in relevant_chapters(chapter.input)
-        else [],
+        outside=[
+            _outside(chapter.terms, verdict.key, verdict.note)
+            for verdict in verdicts
+            if _RATIOS[verdict.key.removesuffix("_fits")] not in told
+        ],
     )
 
 

@@ -34,6 +34,7 @@ from reports.web.doors import Shown, ask, body, post, public_words, shown, visit
 from reports.web.shares import address_of, fair
 
 _LINES = 40  # of what a command said
+_NO_ROOM = "на сервере не удаётся записать файл; сообщите тому, кто его держит"
 # The command with little memory. When its stdin ends, the server is gone, however it ended: the
 # command goes with all that it has started. Who waits for a number comes before a file.
 _KSHM = """
@@ -143,6 +144,7 @@ class Queue:
         self.waiting: dict[str, str] = {}  # job → visitor, in the order of coming
         self.running: dict[str, tuple[str, float]] = {}  # job → visitor, beginning
         self.tasks: dict[str, asyncio.Task[dict[str, Any]]] = {}
+        self.unwritten: dict[str, dict[str, Any]] = {}  # ends for which the disk has no room
         self.took = 10.0  # seconds of a job, a moving mean
         self._ready = asyncio.Semaphore(0)  # as many as wait
 
@@ -173,6 +175,7 @@ class Queue:
             write_text(folder / file, text)
         write_json(folder / "order.json", {"visitor": visitor, "command": command})
         self.waiting[name] = visitor
+        self.unwritten.pop(name, None)
         self._ready.release()
 
     def line(self) -> list[str]:
@@ -187,7 +190,8 @@ class Queue:
                     "wait": round(self.took * place / self.at_once)}  # fmt: skip
         if name in self.running:
             return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
-        return read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path
+        done = read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path
+        return done or self.unwritten.get(name, {})
 
     async def _work(self) -> None:
         while await self._ready.acquire():
@@ -207,11 +211,13 @@ class Queue:
                 del self.running[name], self.tasks[name]
                 continue
             except OSError:
-                done = failed("на сервере не удаётся записать файл; сообщите кафедре")
+                done = failed(_NO_ROOM)
             except Exception:  # a bug must cost one job, never the queue
                 done = failed("внутренняя ошибка: повторите")
-            with contextlib.suppress(OSError, KshmError):  # a full disk must not end the queue
+            try:
                 write_json(self.folder / name / "done.json", done)
+            except (OSError, KshmError):  # a full disk must not end the queue
+                self.unwritten[name] = failed(_NO_ROOM)
             del self.running[name], self.tasks[name]
 
     def cancel(self, name: str) -> None:

@@ -52,6 +52,10 @@ def is_phone(page: Any) -> bool:
 def test_the_mechanism_is_the_first_thing_and_stays_above_or_beside_the_fields(page: Any) -> None:
     box = page.locator("#mechanism").bounding_box()
     assert box["y"] >= 0 and box["y"] + box["height"] < 400
+    loaded = page.evaluate("""Object.fromEntries(performance.getEntriesByType("resource")
+        .map(each => [each.name.split("/").pop(), each.startTime]).reverse())""")
+    assert loaded["chart.umd.min.js"] > loaded["solve"]  # charts come behind the mechanism
+    assert ("hammer.min.js" in loaded) == is_phone(page)
     page.locator("[data-key=geometry] summary").scroll_into_view_if_needed()
     page.locator("[data-key=masses] summary").evaluate("e => e.scrollIntoView({block: 'center'})")
     stage, field = (page.locator(each).bounding_box()
@@ -68,6 +72,7 @@ def test_all_cylinders_are_seen_at_once(page: Any, sample: str, cylinders: int) 
     until(page, f"kshm.last.moves.each.length === {cylinders} && !kshm.running")
     for where in ("#mechanism", "#strip"):
         assert page.locator(f"{where} .piston").count() == cylinders
+        assert page.locator(f"{where} .piston").first.bounding_box()["width"] > 12
     places = (
         """() => [...document.querySelectorAll("#strip .rod")].map(e => e.getAttribute("points"))"""
     )
@@ -222,8 +227,7 @@ def test_an_engine_from_a_task_sheet(page: Any) -> None:
     until(page, "kshm.raw.geometry.bore_mm === 110 && !kshm.running")
     assert page.evaluate("kshm.raw.regime.speed_rpm") == 2200
     assert page.evaluate("kshm.errors.length + kshm.wrong.length") == 0
-    for key in task:
-        page.fill(f"#task [name={key}]", "")
+    page.evaluate("document.getElementById('task').reset()")
 
 
 # --- forms ---

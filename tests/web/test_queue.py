@@ -169,6 +169,14 @@ def test_a_bug_in_a_job_stops_no_other(tmp_path: Path, monkeypatch: pytest.Monke
     told = {"state": "failed", "lines": ["внутренняя ошибка: повторите"]}
     assert finished(work()) == [told, told]
 
+    def full(*_: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    names = added(jobs, "c")
+    monkeypatch.setattr(room, "write_json", full)  # its end finds no room: it is told all the same
+    ((done),) = finished(work())
+    assert done["state"] == "failed" and "не удаётся записать" in done["lines"][0]
+
 
 def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(room, "MOST_BYTES", 2500)

@@ -125,7 +125,7 @@ def test_the_cookie_stays_under_the_public_path(tmp_path: Path, public: str, pat
     assert f"path={path};" in said
 
 
-def test_a_full_disk_is_one_sentence_without_folders(
+def test_a_full_disk_and_a_bug_are_one_sentence_without_folders(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     app = create_app(Settings(tmp_path, per_s=1e6, workers=1))
@@ -140,3 +140,12 @@ def test_a_full_disk_is_one_sentence_without_folders(
         said = page.client.post("/api/files", json={"raw": raw, "kind": "json"}, headers=MARK)
         assert said.status_code == 507 and "не удаётся записать" in said.text
         assert str(tmp_path) not in said.text and "Errno" not in said.text
+
+        def broken(*_: Any) -> None:
+            raise ZeroDivisionError(str(tmp_path))
+
+        monkeypatch.setattr(app.app.state.jobs, "add", broken)
+        said = page.client.post("/api/files", json={"raw": raw, "kind": "json"}, headers=MARK)
+        assert said.status_code == 500 and len(said.json()["errors"]) == 1
+        assert "внутренняя ошибка" in said.text
+        assert not any(word in said.text for word in (str(tmp_path), "Zero", "Traceback"))

@@ -1,9 +1,10 @@
-"""The pictures of ``docs/``: sheets as LibreOffice prints them, pages of the report."""
+"""The pictures of ``docs/``: printed sheets, pages of the report, the page in a browser."""
 
 from __future__ import annotations
 
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from reports.shared.resources import samples_dir
 SAMPLE = "gots-diesel"
 _COLOURS = 64
 _BEGINNING = 30  # words of a page: its header, the title of the sheet and of the table
+_BROWSERS, _PORT = ("chromium-headless-shell", "chromium", "chromium-browser"), "8399"
 _MARGIN = 12  # white pixels kept around what is printed
 
 
@@ -26,13 +28,15 @@ class Picture:
     document: str
     text: str
     dots_per_inch: int = 80
-    share: float = 1.0  # of its height, from the top
+    part: tuple[float, float, float, float] = (0, 0, 1, 1)  # left, top, right, bottom: shares
 
 
 PICTURES = (
-    Picture("inputs", "xlsx", "Исходные данные ← Содержание", dots_per_inch=150, share=0.5),
+    Picture(
+        "inputs", "xlsx", "Исходные данные ← Содержание", dots_per_inch=150, part=(0, 0, 1, 0.5)
+    ),
     Picture("forces", "xlsx", "Удельные силы и крутящий момент"),
-    Picture("forces-chart", "xlsx", "Удельные силы p′г"),
+    Picture("forces-chart", "xlsx", "Удельные силы p′г", 200, (0.588, 0.095, 0.93, 0.255)),
     Picture("report-title", "pdf", "курсовому проекту"),
     Picture("report-torque", "pdf", "Крутящий момент двигателя"),
 )
@@ -56,7 +60,36 @@ def write_pictures(folder: Path) -> list[Path]:
         build(source, load_input(source), temporary, ("xlsx", "pdf"))
         documents = {"pdf": temporary / f"{SAMPLE}.pdf", "xlsx": temporary / "book.pdf"}
         documents["xlsx"].write_bytes(_printed(temporary / f"{SAMPLE}.xlsx"))
-        return [_write(picture, documents, folder) for picture in PICTURES]
+        written = [_write(picture, documents, folder) for picture in PICTURES]
+    return [*written, _web_page(folder / "page.png")]
+
+
+def _web_page(target: Path) -> Path:
+    """The page of an engine as a browser shows it, at an angle with large forces."""
+    from PIL import Image
+    from playwright.sync_api import sync_playwright
+
+    shell = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    with tempfile.TemporaryDirectory() as data, sync_playwright() as driver:
+        command = [sys.executable, "-m", "reports", "serve", "--port", _PORT, "--data", data]
+        server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        try:
+            assert server.stdout is not None
+            address = server.stdout.readline().partition(": ")[2].strip()
+            browser = driver.chromium.launch(executable_path=shell, args=["--no-sandbox"])
+            size = {"width": 1280, "height": 760}
+            page = browser.new_page(viewport=size, reduced_motion="reduce")  # type: ignore[arg-type]
+            page.goto(address)
+            page.wait_for_selector("#checks table")
+            page.evaluate("document.getElementById('new').open = false")
+            page.evaluate("turn(390)")
+            page.screenshot(path=target)
+            browser.close()
+        finally:
+            server.terminate()
+            server.wait()
+    Image.open(target).convert("RGB").quantize(_COLOURS).save(target, optimize=True)
+    return target
 
 
 def _printed(workbook: Path) -> bytes:
@@ -78,8 +111,12 @@ def _write(picture: Picture, documents: dict[str, Path], folder: Path) -> Path:
     image = Image.open(stem.with_suffix(".png")).convert("RGB")
     box = ImageChops.difference(image, Image.new("RGB", image.size, "white")).getbbox()
     left, top, right, bottom = box or (0, 0, *image.size)
-    bottom = top + round((bottom - top) * picture.share)
-    cut = image.crop((left - _MARGIN, top - _MARGIN, right + _MARGIN, bottom + _MARGIN))
+    across, down = right - left, bottom - top
+    sides = [begin + round(share * size) for share, begin, size in zip(
+        picture.part, (left, top) * 2, (across, down) * 2, strict=True)]  # fmt: skip
+    cut = image.crop(
+        (*(side - _MARGIN for side in sides[:2]), *(side + _MARGIN for side in sides[2:]))
+    )
     path = folder / f"{picture.name}.png"
     cut.quantize(_COLOURS).save(path, optimize=True)
     return path

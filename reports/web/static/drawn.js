@@ -43,9 +43,24 @@ function roundAngles(axis) { // round angles, however near one looks
     .filter(({value}) => value <= axis.max);
 }
 
+// It comes when the mechanism is there already; what feels two fingers, only where there are fingers.
+let isThere = false;
+async function library() {
+  await import("./vendor/chart.umd.min.js");
+  if (navigator.maxTouchPoints) await import("./vendor/hammer.min.js");
+  await import("./vendor/chartjs-plugin-zoom.min.js");
+  isThere = true;
+}
+
+async function drawLater(canvas, ...given) {
+  await library();
+  if (canvas.isConnected) draw(canvas, ...given);
+  state.follow();
+}
+
 function draw(canvas, own, datasets, color) {
-  const chart = Chart.getChart(canvas), isLine = own.kind === "line"; // else both axes have one scale
   if (canvas.datasets === datasets) return;
+  const chart = Chart.getChart(canvas), isLine = own.kind === "line"; // else both axes have one scale
   canvas.datasets = datasets;
   const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key]).filter(v => v !== null)));
   const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
@@ -93,7 +108,7 @@ function whole(figure) {
 function drag(event, own) {
   if (event.type === "pointerdown") event.currentTarget.setPointerCapture(event.pointerId);
   else if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
-  if (!event.isPrimary || event.button > 0) return;
+  if (!event.isPrimary || event.button > 0 || !isThere) return;
   const canvas = event.currentTarget.querySelector("canvas"), {scales} = Chart.getChart(canvas), box = canvas.getBoundingClientRect();
   const [x, y] = [scales.x.getValueForPixel(event.clientX - box.left), scales.y.getValueForPixel(event.clientY - box.top)];
   if (own.x_is_angle) return state.turn(Math.min(Math.max(x, 0), state.last.moves.phi.at(-1)));
@@ -120,7 +135,7 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
           <svg viewBox="0 0 16 16" aria-hidden="true"><path d="M1 6V1h5M10 1h5v5M15 10v5h-5M6 15H1v-5" /></svg></button></span></figcaption>
       <div class="plot" style=${`aspect-ratio: ${own.kind === "line" ? 1.6 : 1}`} title="потяните: угол φ; Ctrl и колесо, два пальца: масштаб"
         onPointerDown=${onPointer} onPointerMove=${onPointer}>
-        <canvas ref=${canvas => canvas && draw(canvas, own, curves, color)} role="img" aria-label=${own.title} />
+        <canvas ref=${canvas => canvas && (isThere ? draw : drawLater)(canvas, own, curves, color)} role="img" aria-label=${own.title} />
         <i class="cursor" /><span>${curves.map(({borderColor}) => html`<i class="dot" style=${`--ink: ${borderColor}`} />`)}</span>
         <div class="tip" hidden /></div>
       <ul class="legend">${curves.map(curve => html`
@@ -133,7 +148,7 @@ const put = (node, x, y) => { node.style.transform = `translate(${x}px, ${y}px)`
 
 // The cursor of a chart: a line at φ with a point on each curve, or a point of the path.
 export function follow(node, own, phi, isTold) {
-  const canvas = node.querySelector("canvas"), chart = canvas && Chart.getChart(canvas);
+  const canvas = node.querySelector("canvas"), chart = canvas && isThere && Chart.getChart(canvas);
   if (!chart) return;
   const {chartArea: area, scales: {x, y}} = chart, line = node.querySelector(".cursor");
   const dots = node.querySelectorAll(".dot"), values = node.querySelectorAll("output");

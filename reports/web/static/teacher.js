@@ -29,7 +29,7 @@ async function issue(event) {
 }
 
 async function forget() {
-  const {title, students} = state.own, count = students.filter(each => each.handed).length;
+  const {title, students} = state.own, count = students.filter(came).length;
   if (!confirm(`Удалить группу «${title}» со всеми работами (сдали: ${count})? Вернуть её будет нельзя.`)) return;
   if (await send(door("delete"), {})) await look({chosen: "", own: null});
 }
@@ -83,12 +83,15 @@ html`<thead><tr>${["Группа", "Что и почему", "Формула", "
 const rules = changes => act(door("rules"), Object.assign(state.own, changes) && {
   open: state.own.open, late: state.own.late, deadline: state.own.deadline});
 
+// A work has come here, or with an archive of Moodle.
+const came = ({number, handed}) => handed || state.own.rows.some(row => row.number === number && row.file);
+
 const student = each => {
   const work = (file, title) => link(`works/${file}`, title, {download: file.split("/").at(-1)});
   const before = each.earlier.map(one => html` ${work(one.file, moment(one.when))}`);
   return row([[each.number, "n"], [html`<a class="own" href=${`s/${each.link}/`}>${each.name}</a>${each.group && `, ${each.group}`}`],
     [each.handed ? html`${work(each.file, `сдал здесь ${moment(each.when)}`)}${each.late && html` <b class="bad">после срока</b>`}
-      ${before.length > 0 && html`<br /><small>раньше ещё ${before.length}:${before}</small>`}` : "—"],
+      ${before.length > 0 && html`<br /><small>раньше ещё ${before.length}:${before}</small>`}` : came(each) ? "в архиве" : "—"],
     [html`<details class="qr"><summary aria-label=${`QR-код: ${each.name}`}>QR</summary>
       <img loading="lazy" width="180" height="180" alt=${`QR-код ссылки: ${each.name}`} src=${door(`qr/${each.number}.svg`)} /></details>`]],
     {key: each.number});
@@ -107,7 +110,7 @@ const issued = ({open, late, deadline, students, rows, groups, files, address}) 
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${groups.length > 0 && many(groups)}
   ${rows.length > 0 && gradebook(rows)}
-  <details id="links" open><summary>${students.filter(each => each.handed).length} из ${students.length} сдали</summary>
+  <details id="links" open><summary>${students.filter(came).length} из ${students.length} сдали</summary>
     <p class="bar"><a class="button" id="list" href=${door("links.csv")} download="links.csv">Все ссылки .csv</a>
       <small>Ссылки открываются по адресу ${address}</small></p>
     ${table("Ссылки студентов", students.map(student))}</details>

@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
     from openpyxl.cell import ReadOnlyCell
     from openpyxl.workbook import Workbook
 
+MOST_CELLS = 500_000  # of a sheet of inputs; thousands are usual
 _ALWAYS = "engine_cylinders"  # every book has this input
 _SUM = re.compile(r"=[0-9.()+\-*/\s]{1,200}")
 _SIGNS: dict[type[ast.operator], Callable[[float, float], float]] = {
@@ -116,20 +117,9 @@ def _input_cells(
     data: bytes, source: str
 ) -> tuple[dict[str, Any], dict[str, str], dict[str, str], dict[str, str]]:
     """Values of all named input cells, their places as ``лист!ячейка``, units, own books."""
-    from openpyxl import load_workbook
     from openpyxl.utils.cell import coordinate_to_tuple
 
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of parts that are not read
-            book = load_workbook(io.BytesIO(data), read_only=True)  # charts take half of the time
-            title = _input_sheet(book)
-            sheet = _cells_of(book, title)
-            books = _books_of(_cells_of(book, OWN_SHEET))
-    except Exception as error:  # openpyxl raises anything on a damaged book
-        what = "книга повреждена и не читается"
-        problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
-        raise InputError(problem) from error
+    book, title, sheet, books = _sheets(data, source)
     if _ALWAYS in book.defined_names and title not in book.sheetnames:
         what = "в книге нет листа исходных данных, на который указывают имена её ячеек"
         problem = Problem(source, what, "верните лист или возьмите книгу, какой её сделала kshm")
@@ -167,6 +157,25 @@ def _input_cells(
         what = "это не книга, созданная командой kshm build"
         raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
     return cells, places, units, books
+
+
+def _sheets(
+    data: bytes, source: str
+) -> tuple[Workbook, str, dict[tuple[int, int], ReadOnlyCell], dict[str, str]]:
+    """A book, the title and cells of its sheet of inputs, own books."""
+    from openpyxl import load_workbook
+
+    try:
+        with warnings.catch_warnings(action="ignore"):  # of parts that are not read
+            book = load_workbook(io.BytesIO(data), read_only=True)  # charts take half of the time
+            title = _input_sheet(book)
+            return book, title, _cells_of(book, title), _books_of(_cells_of(book, OWN_SHEET))
+    except InputError:
+        raise
+    except Exception as error:  # openpyxl raises anything on a damaged book
+        what = "книга повреждена и не читается"
+        problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
+        raise InputError(problem) from error
 
 
 def _typed(cell: ReadOnlyCell | None) -> Any:  # noqa: ANN401
@@ -229,8 +238,15 @@ def _cells_of(book: Workbook, title: str) -> dict[tuple[int, int], ReadOnlyCell]
         return {}
     sheet = book[title]
     sheet.reset_dimensions()  # what a file says of its size may be wrong
-    return {(cell.row, cell.column): cell
-            for row in sheet.iter_rows() for cell in row if cell.value is not None}  # fmt: skip
+    cells: dict[tuple[int, int], ReadOnlyCell] = {}
+    seen = 0
+    for row in sheet.iter_rows():
+        seen += len(row)
+        if seen > MOST_CELLS:
+            hint = "удалите лишнее или возьмите книгу, какой её сделала kshm"
+            raise InputError(Problem(title, "на листе слишком много ячеек", hint))
+        cells |= {(cell.row, cell.column): cell for cell in row if cell.value is not None}
+    return cells
 
 
 def _input_sheet(book: Workbook) -> str:

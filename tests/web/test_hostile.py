@@ -16,11 +16,12 @@ from starlette.testclient import TestClient
 
 from reports.grading.issuing.register import SECRET, kept_secret
 from reports.shared.errors import InputError
-from reports.web import doors
+from reports.web import doors, engine
 from reports.web.app import STATIC, Settings, create_app
 from reports.web.classes import token_of
 from reports.web.doors import MOST_JSON, Rate
 from reports.web.shares import Turns, Unfinished
+from reports.workbook import read
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
 from tests.web.conftest import MARK, Page, finished
@@ -239,6 +240,15 @@ def test_a_book_that_costs_too_much_is_refused_in_a_sentence(
     answer = client.post("/api/book", content=book, headers=FILE)
     is_refused(answer, 422)
     assert "считается дольше" in answer.text
+
+
+def test_a_sheet_with_too_many_cells_is_refused_before_it_costs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "book.xlsx").write_bytes(classroom.handout())
+    monkeypatch.setattr(read, "MOST_CELLS", 100)
+    with pytest.raises(InputError, match="слишком много ячеек"):
+        engine.read_book(str(tmp_path / "book.xlsx"))
 
 
 def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:

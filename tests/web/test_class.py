@@ -255,6 +255,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert float(found["Кузнецов"].replace(",", ".")) < 100
     waiting = teacher.locator("tr.odd").all_inner_texts()
     assert [row.split()[:2] for row in waiting] == [["4.", "Кузнецов"]]  # a person has to look
+    assert teacher.inner_text("#links summary").startswith("4 из 5 сдали")  # three by the archive
     assert axe.faults(teacher) == []
     photo(teacher, "teacher")
     tall = heights(teacher)

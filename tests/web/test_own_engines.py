@@ -146,20 +146,6 @@ def test_an_engine_goes_only_when_asked(first: Any) -> None:
     assert first.evaluate(STORED) == []
 
 
-def test_what_an_earlier_page_has_stored_is_taken_over(first: Any) -> None:
-    first.evaluate("""() => {
-        const raw = structuredClone(kshm.raw);
-        raw.geometry.bore_mm = 95;
-        localStorage.clear();
-        sessionStorage.clear();
-        localStorage.kshm = JSON.stringify({raw});
-    }""")
-    first.reload()
-    ready(first)
-    assert first.evaluate("kshm.raw.geometry.bore_mm") == 95
-    assert first.evaluate(STORED) == [95]
-
-
 @pytest.mark.parametrize("hash_", ["broken", "%E0%A4%A"])
 def test_a_damaged_link_is_told_and_nothing_is_lost(first: Any, hash_: str) -> None:
     first.evaluate("hash => { location.hash = hash; }", hash_)

@@ -1,5 +1,5 @@
 // Own engines in this browser, each under a key of its own: no tab writes over what another has written.
-const KEY = "kshm:", OLD = "kshm";
+const KEY = "kshm:", PLACE = "kshm";
 
 function read(id) {
   try {
@@ -18,19 +18,11 @@ export function engines() { // the last one first
 }
 
 export function last() { // of this tab, else of this browser; what only came by a link comes behind
-  try { adopt(); } catch { /* a private window, or a damaged store */ }
   try {
-    if (sessionStorage[OLD] && read(sessionStorage[OLD])) return read(sessionStorage[OLD]);
-  } catch { /* the same */ }
+    if (sessionStorage[PLACE] && read(sessionStorage[PLACE])) return read(sessionStorage[PLACE]);
+  } catch { /* a private window */ }
   const all = engines();
   return all.find(each => !each.link) ?? all[0];
-}
-
-function adopt() { // what an earlier version of the page has left
-  const {[OLD]: left} = localStorage;
-  if (!left) return;
-  localStorage[`${KEY}${fresh()}`] = JSON.stringify({...JSON.parse(left), date: Date.now(), stamp: fresh()});
-  delete localStorage[OLD];
 }
 
 const fresh = () => Date.now().toString(36) + Math.random().toString(36).slice(2, 10);
@@ -50,7 +42,7 @@ export function keep({id, stamp, link}, engine) {
 }
 
 export function seen({id, stamp, link}) { // the place of this tab, also after it is loaded again
-  try { sessionStorage[OLD] = id ?? ""; } catch { /* a private window */ }
+  try { sessionStorage[PLACE] = id ?? ""; } catch { /* a private window */ }
   return {id, stamp, link};
 }
 

@@ -46,39 +46,37 @@ const status = ({state: now, students, rows, graded}) => // how many wait for a 
 const loaded = name => file => act(door(`file/${name}`), file, `${file.name}: загружено`);
 const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${more}>${title}</a>`;
 
+const heads = (...titles) => html`<thead><tr>${titles.map(title => html`<th scope="col">${title}</th>`)}</tr></thead>`;
+
+// Points and a remark of a student or of a group, for the whole work unless `chosen` says for what.
+const judge = (who, name, hint, chosen) => html`
+  <form onSubmit=${e => {
+    act(door("grade"), {who: String(who), what: "всё", ...given(e)}, "Решение принято.");
+    e.target.reset();
+  }}>
+    ${chosen}
+    <input name="points" aria-label=${`Баллы: ${name}`} size="12" placeholder=${hint} required />
+    <input name="remark" aria-label=${`Примечание: ${name}`} placeholder="примечание" maxlength="300" />
+    <button>Решить</button></form>`;
+
 const gradebook = rows => table("Ведомость", rows.map(each => {
   const {number, student, page} = each, points = each.points ?? each.provisional;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   const who = number ? `${number}. ${student}` : student; // there are namesakes
   return row([[page ? link(page, who, {target: "_blank"}) : who], [each.status],
     [shown, "n"], [each.remark], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn" : ""});
-}), html`<thead><tr>${["Студент", "Состояние", "Баллы", "Примечание", "Решение"].map(title =>
-  html`<th scope="col">${title}</th>`)}</tr></thead>`);
+}), heads("Студент", "Состояние", "Баллы", "Примечание", "Решение"));
 
 // What waits for a person stands open; the rest is a click away.
 const decision = ({number, student, manual, unknown}) => html`
   <details open=${manual}><summary aria-label=${`Решить: ${student}`}>Решить</summary>
-    <form onSubmit=${e => {
-      act(door("grade"), {who: String(number), ...given(e)}, "Решение принято.");
-      e.target.reset();
-    }}>
-      <select name="what" aria-label=${`Что решить: ${student}`}>
-        ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>
-      <input name="points" aria-label=${`Баллы: ${student}`} size="12" placeholder="баллы, + или -" required />
-      <input name="remark" aria-label=${`Примечание: ${student}`} placeholder="примечание" maxlength="300" />
-      <button>Решить</button></form></details>`;
+    ${judge(number, student, "баллы, + или -", html`<select name="what" aria-label=${`Что решить: ${student}`}>
+      ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>`)}</details>`;
 
 // One decision for all works that wait for the same reason.
 const many = groups => table("Решить сразу для многих", groups.map(({name, what, why, formula, students}) =>
-  row([[name], [`${what}: ${why}`], [formula], [students.join(", ")], [html`<form onSubmit=${e => {
-    act(door("grade"), {who: name, what: "всё", ...given(e)}, "Решение принято.");
-    e.target.reset();
-  }}>
-    <input name="points" aria-label=${`Баллы: ${name}`} size="12" placeholder="баллы, 50% или +" required />
-    <input name="remark" aria-label=${`Примечание: ${name}`} placeholder="примечание" maxlength="300" />
-    <button>Решить</button></form>`]], {key: name})),
-html`<thead><tr>${["Группа", "Что и почему", "Формула", "Студенты", "Решение"].map(title =>
-  html`<th scope="col">${title}</th>`)}</tr></thead>`);
+  row([[name], [`${what}: ${why}`], [formula], [students.join(", ")], [judge(name, name, "баллы, 50% или +")]], {key: name})),
+heads("Группа", "Что и почему", "Формула", "Студенты", "Решение"));
 
 const rules = changes => act(door("rules"), Object.assign(state.own, changes) && {
   open: state.own.open, late: state.own.late, deadline: state.own.deadline});

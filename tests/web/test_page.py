@@ -136,6 +136,7 @@ def test_wheel_and_fingers_zoom_and_the_legend_switches_curves(page: Any) -> Non
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.wait_for_selector("#chart-fig46 .tip sub")  # symbols with their subscripts
+    assert page.locator("#chart-fig46 figcaption sub").all_inner_texts() == ["г", "j", "s"]
     page.keyboard.down("Control")
     page.mouse.wheel(0, -400)
     page.keyboard.up("Control")

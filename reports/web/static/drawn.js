@@ -117,6 +117,9 @@ function drag(event, own) {
   state.turn(own.path.phi[far.indexOf(Math.min(...far))]);
 }
 
+// A title with the symbols of its curves as symbols.
+const titled = ({title, curves}) => symbol(curves.reduce((text, {name}) => text.replace(name.replace("_", ""), name), title));
+
 // A chart with its legend, which says the values at φ and switches curves.
 export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, other, dark.matches, isPrinted, state.switched], () => {
   const colours = inks(), curves = curvesOf(own, other, colours), {color} = getComputedStyle(document.body);
@@ -128,7 +131,7 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
   };
   return html`
     <figure key=${own.id} id=${`chart-${own.id}`}>
-      <figcaption>${own.title}
+      <figcaption><span>${titled(own)}</span>
         <span class="tools"><button class="whole" onClick=${e => whole(e.currentTarget.closest("figure"))}>Весь график</button>
         <button aria-label=${`${own.title}: на весь экран`} title="на весь экран"
           onClick=${e => document.fullscreenElement ? document.exitFullscreen() : e.currentTarget.closest("figure").requestFullscreen()}>

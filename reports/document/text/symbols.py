@@ -65,6 +65,7 @@ _MARKUP = re.compile(r"(<sub>)|<[^>]+>")
 _NO_TEXT = ("<sup>", "<span")  # raised, with a bar
 
 
+@functools.lru_cache(maxsize=4096)
 def indexed(symbol_tex: str, plain: str) -> str:
     """A symbol as text with «_» before its index, «R_ш.ш»; ``plain`` where it is no simple one."""
     try:
@@ -78,6 +79,7 @@ def indexed(symbol_tex: str, plain: str) -> str:
 _INDEXED = re.compile(r"_([^\s_·/=,;.()²³⁴]+(?:[.\u00a0][^\s_·/=,;.()²³⁴]+)*(?:\([i\d\s+]+\))?)")
 
 
+@functools.lru_cache(maxsize=4096)
 def with_indices(text: str) -> Markup:
     """A text with the symbols of ``indexed`` in it, their indices lowered."""
     parts = _INDEXED.split(text)

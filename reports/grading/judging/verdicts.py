@@ -175,30 +175,27 @@ class ItemEvidence:
         """The evidence of each cell."""
         # A nought typed in among formulas is one; a column typed in is numbers throughout.
         among = len(self.formulas) >= _ENOUGH * len(self.letters)
-        return CellEvidence(np.array(list(self.kinds)), np.array(list(self.letters)), self.good,
-                            self.still & among, unlinked, self.plain)  # fmt: skip
+        letters = np.array(list(self.letters))
+        follows = (letters == say.RIGHT) | (letters == say.ROUNDED) | (letters == say.IDLE)
+        return CellEvidence(np.array(list(self.kinds)), letters, letters == say.NOTHING, follows,
+                            self.good, self.still & among, unlinked, self.plain)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class CellEvidence:
-    """Evidence on the cells of an item, a value for each."""
+    """Evidence on the cells of an item, a value for each.
+
+    ``typed`` are cells without a formula, ``follows`` formulas that follow their precedents.
+    """
 
     kind: NDArray[np.str_]
     letter: NDArray[np.str_]
+    typed: NDArray[np.bool_]
+    follows: NDArray[np.bool_]
     good: NDArray[np.bool_]
     fixed: NDArray[np.bool_]
     unlinked: bool
     plain: bool
-
-    @property
-    def typed(self) -> NDArray[np.bool_]:
-        """Mask of cells without a formula."""
-        return np.asarray(self.letter == say.NOTHING)
-
-    @property
-    def follows(self) -> NDArray[np.bool_]:
-        """Mask of formulas that follow their precedents."""
-        return np.isin(self.letter, (say.RIGHT, say.ROUNDED, say.IDLE))
 
     @property
     def rounds(self) -> NDArray[np.bool_]:

@@ -55,10 +55,10 @@ def along(
         for far in (beyond, -beyond):  # past its end, or past the circle on the other side
             places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
                            start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
-    found = canvas.words_where_free(
+    label = canvas.words_where_free(
         places, text, letters, align=0.5, angle=round(turn, 3), name=size
     )
-    if heads and found:
+    if heads and label:
         canvas.dimension(start, end, cast(Words, canvas.items[-1]))
 
 
@@ -106,9 +106,9 @@ def chain(
         else:
             below.append((middle, text, (start, end)))
     half = -(-len(below) // 2)
-    for place, (middle, text, (start, end)) in enumerate(below):
-        left = place < half
-        level = y - 1.6 * letters * (1 + (place if left else len(below) - 1 - place))
+    for index, (middle, text, (start, end)) in enumerate(below):
+        left = index < half
+        level = y - 1.6 * letters * (1 + (index if left else len(below) - 1 - index))
         canvas.line((middle, y), (middle, level - 0.2 * letters), layer=SIZES)
         beside = (middle + (-0.4 if left else 0.4) * letters, level)
         words = canvas.words(beside, text, letters, align=1.0 if left else 0.0, name=SIZE)

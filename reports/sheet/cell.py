@@ -135,11 +135,11 @@ def grid(canvas: Canvas, room: CellArea, rows: Sequence[Sequence[str]]) -> None:
             ends = (xs[0], y), (xs[-1], y)
             canvas.line(*ends, layer=THIN if number else TABLES)
         middle = y + (tall - height) / 2
-        for place, text in enumerate(row):
-            if place or not number:
-                canvas.words((xs[place] + wides[place] / 2, middle), text, height, align=0.5)
+        for index, text in enumerate(row):
+            if index or not number:
+                canvas.words((xs[index] + wides[index] / 2, middle), text, height, align=0.5)
             else:
-                canvas.words((xs[place] + _PADDING, middle), text, height)
+                canvas.words((xs[index] + _PADDING, middle), text, height)
 
 
 def running(canvas: Canvas, room: CellArea, terms: Terms) -> None:

@@ -120,12 +120,12 @@ def corner(canvas: Canvas, report: ReportSection, width: float, height: float) -
     left, top = MARGINS[0], height - MARGINS[2]
     if width < height:  # along the upright edge where the sheet stands
         canvas.box(left, top - _BOX_26[0], left + _BOX_26[1], top, FRAME)
-        place, turn = (left + _BOX_26[1] / 2 + 2.5, top - _BOX_26[0] / 2), 90.0
+        middle, turn = (left + _BOX_26[1] / 2 + 2.5, top - _BOX_26[0] / 2), 90.0
     else:
         canvas.box(left, top - _BOX_26[1], left + _BOX_26[0], top, FRAME)
-        place, turn = (left + _BOX_26[0] / 2, top - _BOX_26[1] / 2 + 2.5), 180.0
+        middle, turn = (left + _BOX_26[0] / 2, top - _BOX_26[1] / 2 + 2.5), 180.0
     text = designation(report)
-    canvas.words(place, text, fitted(text, _BOX_26[0] - 2, 5.0), align=0.5, angle=turn)
+    canvas.words(middle, text, fitted(text, _BOX_26[0] - 2, 5.0), align=0.5, angle=turn)
 
 
 _BOX_26 = (70.0, 14.0)  # [mm]

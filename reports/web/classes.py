@@ -102,8 +102,8 @@ class Classes(Queue):
     async def _issue(self, request: Request) -> Data:
         folder, data = self._inside(request), await body(request)
         files = {file: _bytes(data.get(key)) for key, file in _FILES.items()}
-        with tempfile.TemporaryDirectory(prefix="book-", dir=folder.parent) as place:
-            path = Path(place, "base.toml")
+        with tempfile.TemporaryDirectory(prefix="book-", dir=folder.parent) as scratch:
+            path = Path(scratch, "base.toml")
             path.write_bytes(files["base.toml"])
             base = await ask(request, engine.read_toml, str(path))
         await ask(request, engine.as_toml, base["raw"])  # without its ranges it is an input too

@@ -358,21 +358,21 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
 
     async def taken(request: Request) -> Data:
         job = find(request)
-        if (place := job.takes.get(request.path_params["file"])) is None:
+        if (target := job.takes.get(request.path_params["file"])) is None:
             raise HTTPException(404, "такого файла здесь не ждут")
         if job.closed:
             raise HTTPException(409, job.closed)
-        is_book, data = place.suffix == ".xlsx", Data()
-        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, place.name) as file:
+        is_book, data = target.suffix == ".xlsx", Data()
+        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, target.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
                     own = str(job.gives["book"])
                     await ask(request, refuse_foreign, str(file), own, seconds=BOOK_S)
                     data = await ask(request, remarks, str(file), own, seconds=BOOK_S)
-                keep_earlier(place, file)
+                keep_earlier(target, file)
             else:
-                check_upload(file, place.suffix)
-            file.replace(place)
+                check_upload(file, target.suffix)
+            file.replace(target)
         return data
 
     return [get(path, data), get(f"{path}{files}", given), post(f"{path}{files}", taken)]

@@ -185,9 +185,9 @@ class Queue:
     def about(self, name: str) -> dict[str, Any]:
         """How far a job is; nothing if there is no such job."""
         if name in self.waiting:
-            place = self.line().index(name) + len(self.running)
-            return {"state": "waiting", "place": place,
-                    "wait": round(self.took * place / self.at_once)}  # fmt: skip
+            position = self.line().index(name) + len(self.running)
+            return {"state": "waiting", "place": position,
+                    "wait": round(self.took * position / self.at_once)}  # fmt: skip
         if name in self.running:
             return {"state": "running", "seconds": round(time.monotonic() - self.running[name][1])}
         done = read_json(self.folder / name / "done.json") if name.isalnum() else {}  # never a path

@@ -39,10 +39,10 @@ def fair(
     own, near = Counter(busy), Counter(map(address_of, busy))
     rank = {}
     for each, who in waiting.items():
-        place = address_of(who)
-        rank[each] = own[who], had.get(who, 0), had.get(place, 0), near[place]
+        address = address_of(who)
+        rank[each] = own[who], had.get(who, 0), had.get(address, 0), near[address]
         own[who] += 1
-        near[place] += 1
+        near[address] += 1
     return sorted(waiting, key=lambda each: rank[each])
 
 

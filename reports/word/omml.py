@@ -251,11 +251,11 @@ def _text(node: TexNode, upright: bool) -> Iterator[etree._Element]:
     elif name == "prime":
         sign = "′"
     elif name:
-        found = SIGNS.get(name) or _MORE_SIGNS.get(name)
-        if found is None:
+        sign_text = SIGNS.get(name) or _MORE_SIGNS.get(name)
+        if sign_text is None:
             msg = f"no equation for \\{name}"
             raise ValueError(msg)
-        sign = found
+        sign = sign_text
     else:
         sign = MINUS if token == "-" else "\u2009" if token == "~" else token
     if sign:

@@ -102,12 +102,12 @@ def checks(chapter: Chapter) -> Markup:
 
 def _accepted(chapter: Chapter) -> list[tuple[Markup, Markup]]:
     """Failed checks that the author explains, with the reason; that of power has its chapter."""
-    told = {"power"} if "torque" in chosen(chapter.input) else set()
+    stated = {"power"} if "torque" in chosen(chapter.input) else set()
     titles = {key: scalar.note for key, scalar in chapter.model.scalars.items()}
     return [
         (titled_html(titles[f"check_{key}"]), remark_html(reason.rstrip(".")))
         for key, reason in reasons_of(chapter.input).items()
-        if f"check_{key}" in titles and key not in told
+        if f"check_{key}" in titles and key not in stated
     ]
 
 

@@ -106,8 +106,8 @@ def abstract(chapter: Chapter) -> Words:
 
 def _aim(names: set[str]) -> str:
     """Aim of the work from its chapters; by default the whole mechanism."""
-    found = [words for chapters, words in _AIMS if chapters & names]
-    aims = (found or [words for _, words in _AIMS[1:4]])[:_MOST_AIMS]
+    fitting = [words for chapters, words in _AIMS if chapters & names]
+    aims = (fitting or [words for _, words in _AIMS[1:4]])[:_MOST_AIMS]
     if " и " in aims[-1]:
         return joined(aims, ", а также ")
     # A turn of speech has a comma at its end.
@@ -162,7 +162,7 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         "checked": report.supervisor,
         "controlled": report.controller,
         "approved": report.approver or report.head,
-        "organisation": [place for place in places if place],
+        "organisation": [unit for unit in places if unit],
     }
     for cell in _PERSONS:
         name = str(words[cell])
@@ -170,7 +170,7 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         words[cell] = surname(name) if small else name
     shown = words | {
         "name": f"{report.title} {model.engine.name}",
-        "organisation": ", ".join(place for place in places if place),
+        "organisation": ", ".join(unit for unit in places if unit),
     }
     types = {cell: type_pt(str(shown[cell]), *sizes) for cell, (_, *sizes) in _CELLS.items()}
     return words | {"type": types}

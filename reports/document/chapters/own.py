@@ -82,8 +82,8 @@ def _value(chapter: Chapter, key: str) -> float | str:
 def _said(chapter: Chapter, text: str) -> Markup:
     """A paragraph with its keys replaced by what they stand for."""
 
-    def put(found: re.Match[str]) -> str:
-        word, key = found.groups()
+    def put(match: re.Match[str]) -> str:
+        word, key = match.groups()
         if word in _KINDS:
             return str(chapter.writer.n.refer(_KINDS[word], key))  # type: ignore[arg-type]
         value = chapter.terms.values.scalars.get(key)

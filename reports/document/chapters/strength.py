@@ -122,15 +122,15 @@ def _pairs(block: ScalarTable) -> list[tuple[Scalar, Scalar]]:
 
 def _outside(chapter: Chapter) -> list[tuple[str, str]]:
     """Values outside of their usual limits, each with what mends it."""
-    found = []
+    parts = []
     for value, verdict in _pairs(_block(chapter, "strength_ranges")):
         if chapter.terms.values.scalars[verdict.key] == "в пределах":
             continue
         low = value.note.partition("обычно ")[2].partition("…")[0].replace(",", ".")
         is_low = abs(chapter.terms.value(value.key)) < abs(float(low.replace("−", "-")))
         mend = _SPARE if is_low else _MENDS[value.key.removeprefix("value_range_")]
-        found.append((uncapital(value.note.partition(":")[0]), mend))
-    return found
+        parts.append((uncapital(value.note.partition(":")[0]), mend))
+    return parts
 
 
 def _weak(chapter: Chapter) -> list[tuple[str, str]]:

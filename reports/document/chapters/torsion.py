@@ -169,8 +169,8 @@ def _peak(terms: Terms, which: str) -> Peak:
 def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
     """The order that gives most of the greatest stress, if it has no resonance in the range."""
     c, r = "torsion_critical", "torsion_response"
-    place = int(terms.column(f"{r}.tor_tau_MPa").argmax())
-    order = float(terms.column(f"{r}.tor_lead_order")[place])
+    index = int(terms.column(f"{r}.tor_tau_MPa").argmax())
+    order = float(terms.column(f"{r}.tor_lead_order")[index])
     row = int(np.abs(terms.column(f"{c}.tor_order") - order).argmin())
     critical = {m: float(terms.column(f"{c}.tor_n{m}_rpm")[row]) for m in modes}
     least, most = terms.value("tor_n_min"), terms.value("tor_n_max")

@@ -115,7 +115,7 @@ class Sheet:
 
     def text(
         self,
-        place: tuple[float, float],
+        at: tuple[float, float],
         text: str,
         size: float = FONT_SIZE,
         *,
@@ -127,7 +127,7 @@ class Sheet:
         """A text; ``$…$`` is set as a formula.
 
         Args:
-            place: Where it stands [pt].
+            at: Where it stands [pt].
             text: The text.
             size: Of the type [pt].
             align: Share of the text left of the place.
@@ -138,7 +138,7 @@ class Sheet:
         words = shown(text)
         width, above, below = line_box(words, size)
         # Not text-anchor, for which WeasyPrint makes a drawing of its own.
-        left, y = place[0] - align * width, self.height - place[1]
+        left, y = at[0] - align * width, self.height - at[1]
         if middle:
             y += (above - below) / 2
         if halo:
@@ -257,9 +257,9 @@ class Pen:
         self._head(end, direction(start, end), 5.5)
         self._head(start, direction(end, start), 5.5)
 
-    def text(self, place: Point, text: str, size: float = FONT_SIZE, *, halo: bool = True) -> None:
+    def text(self, at: Point, text: str, size: float = FONT_SIZE, *, halo: bool = True) -> None:
         """Text centred at a place, on white unless ``halo`` is off."""
-        self.page.text(place, text, size, halo=halo, layer=self.layer + 3)
+        self.page.text(at, text, size, halo=halo, layer=self.layer + 3)
 
     def throws(
         self,

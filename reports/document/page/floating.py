@@ -147,15 +147,19 @@ def arranged(
 
 
 def _fuller(
-    chapter: Sequence[Block], spot: Spot, found: tuple[list[str], Spot], room: float, line: float
+    chapter: Sequence[Block],
+    spot: Spot,
+    filled_pages: tuple[list[str], Spot],
+    room: float,
+    line: float,
 ) -> tuple[list[str], Spot]:
     """Move a chapter that leaves few lines on a page to the next page."""
-    _, end = found
+    _, end = filled_pages
     if not spot.used or end.page == spot.page or end.used > _SCANT * room:
-        return found
+        return filled_pages
     heading = replace(chapter[0], html=chapter[0].html.replace(_RUN_ON, 'class="', 1), above=0.0)
     other = filled([heading, *chapter[1:]], Spot(0.0, page=spot.page + 1), room, line)
-    return other if other[1].page == end.page else found
+    return other if other[1].page == end.page else filled_pages
 
 
 def _number(chapter: Block) -> str:

@@ -161,10 +161,10 @@ def template_errors(folder: Path | None) -> Iterator[None]:
             raise
         raise _problem(Path(str(file)), error.lineno, in_russian(error)) from error
     except Exception as error:
-        place = _place(error, folder) if folder is not None else None
-        if place is None:
+        where = _place(error, folder) if folder is not None else None
+        if where is None:
             raise
-        raise _problem(*place, in_russian(error)) from error
+        raise _problem(*where, in_russian(error)) from error
 
 
 def style_error(folder: Path, warnings: str) -> InputError:

@@ -56,10 +56,10 @@ class _Written:
 
     data = b""
 
-    def __init__(self, made: pydyf.Object) -> None:
+    def __init__(self, source: pydyf.Object) -> None:
         super().__init__()
-        self.number, self.generation, self.free = made.number, made.generation, made.free
-        self.data = made.data
+        self.number, self.generation, self.free = source.number, source.generation, source.free
+        self.data = source.data
 
 
 class _Object(_Written, pydyf.Object):  # type: ignore[misc]

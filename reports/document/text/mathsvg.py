@@ -349,7 +349,7 @@ def texts_of(
 
 def _list(run: list[tuple[str, str, str]], part: int) -> str:
     """Places along one axis; one number serves when all glyphs share it."""
-    places = [place[part] for place in run]
+    places = [corner[part] for corner in run]
     return places[0] if len(set(places)) == 1 else " ".join(places)
 
 

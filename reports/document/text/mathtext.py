@@ -197,9 +197,9 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         return self.sqrt({"value": self._part()})
 
 
-def _one(made: Any) -> Any:  # noqa: ANN401
+def _one(node: Any) -> Any:  # noqa: ANN401
     """Unwrap a list of one."""
-    return made[0] if isinstance(made, list) else made
+    return node[0] if isinstance(node, list) else node
 
 
 def _fraction(reader: Any, of: str) -> Any:  # noqa: ANN401

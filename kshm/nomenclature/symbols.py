@@ -3,9 +3,13 @@ r"""Plain text of a symbol follows from its TeX: ``R'_{\mathrm{ш.ш}\,\max}`` i
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import lru_cache
+from itertools import groupby
 
 NBSP = "\u00a0"
+BASE, LOWER, UPPER = "", "_", "^"  # levels of the letters of a symbol
+_ON_LINE = " "  # BASE, a letter of its own
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|'+|\S")
 _GREEK_NAMES = (
     "alpha beta gamma delta varepsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau "
@@ -32,7 +36,21 @@ _RELATIONS = {"=", "+", "-", "≈", "≠"}  # with blanks between what they join
 _SUM = re.compile(r" [+−] ")
 
 
-@lru_cache(maxsize=4096)
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """Text with the level of each letter."""
+
+    text: str = ""
+    levels: str = ""
+
+    def __add__(self, other: _Line) -> _Line:
+        return _Line(self.text + other.text, self.levels + other.levels)
+
+
+def _set(text: str, level: str) -> _Line:
+    return _Line(text, level * len(text))
+
+
 def plain_symbol(tex: str) -> str:
     """A symbol as one line of text, for headings, files and comments.
 
@@ -42,7 +60,33 @@ def plain_symbol(tex: str) -> str:
     Raises:
         ValueError: a command that no line of text can show.
     """
-    return _Reader(tex).line()
+    return _read(tex).text
+
+
+def symbol_runs(tex: str) -> tuple[tuple[str, str], ...]:
+    r"""Pieces of the plain text, each with its level: ``BASE``, ``LOWER`` or ``UPPER`` index.
+
+    Raises:
+        ValueError: a command that no line of text can show.
+
+    >>> symbol_runs(r"R'_{\mathrm{ш.ш}}")
+    (('R′', ''), ('ш.ш', '_'))
+    """
+    line = _read(tex)
+    pairs = zip(line.text, line.levels, strict=True)
+    pieces = (
+        (level, "".join(letter for letter, _ in run)) for level, run in groupby(pairs, _level)
+    )
+    return tuple((text, level.strip()) for level, text in pieces)
+
+
+def _level(pair: tuple[str, str]) -> str:
+    return pair[1]
+
+
+@lru_cache(maxsize=4096)
+def _read(tex: str) -> _Line:
+    return _Reader(tex).line(_ON_LINE)
 
 
 class _Reader:
@@ -53,55 +97,60 @@ class _Reader:
         self._tokens: list[str] = _TOKEN.findall(tex.replace(r"\ ", r"\,"))
         self._place = 0
 
-    def line(self, *, index: bool = False) -> str:
-        """Text up to the closing brace or the end."""
-        text, raised, indexed = "", "", False
+    def line(self, level: str) -> _Line:
+        """Text up to the closing brace or the end; within an index all is on its level."""
+        index = level != _ON_LINE
+        line, raised, indexed = _Line(), _Line(), False
         while self._place < len(self._tokens) and self._tokens[self._place] != "}":
             token = self._next()
-            if token in ("_", "^"):
-                part = self._argument(index=True)
-                if token == "_":
-                    text, indexed = text + part, True
-                elif re.fullmatch(r"−?\d+", part):
-                    text += part.replace("−", "-").translate(_RAISED)
-                elif part in ("°", "′"):
-                    text += part
+            if token in (LOWER, UPPER):
+                part = self._argument(level if index else token)
+                if token == LOWER:
+                    line, indexed = line + part, True
+                elif re.fullmatch(r"−?\d+", part.text):
+                    line += _set(part.text.replace("−", "-").translate(_RAISED), level)
+                elif part.text in ("°", "′"):
+                    line += _set(part.text, level)
                 else:
-                    raised = " " + part
+                    raised = _set(" ", token) + part
                 continue
-            piece = self._piece(token, index=index)
-            if raised and token[0] != "'":
-                text, raised = text + raised, ""
-            text += _joint(text, token, piece, index=index, indexed=indexed) + piece
-            if token in _RELATIONS and not index and text != piece:
-                text += " "
+            piece = self._piece(token, level)
+            if raised.text and token[0] != "'":
+                line, raised = line + raised, _Line()
+            joint = _joint(line.text, token, piece.text, index=index, indexed=indexed)
+            spaced = token in _RELATIONS and not index and bool(line.text)
+            line += _set(joint, level) + piece + _set(" " if spaced else "", level)
             indexed = indexed and token[0] == "'"
-        return text + raised
+        return line + raised
 
     def _next(self) -> str:
         self._place += 1
         return self._tokens[self._place - 1]
 
-    def _argument(self, *, index: bool) -> str:
-        return self._piece(self._next(), index=index)
+    def _argument(self, level: str) -> _Line:
+        return self._piece(self._next(), level)
 
-    def _piece(self, token: str, *, index: bool) -> str:
+    def _piece(self, token: str, level: str) -> _Line:
         if token == "{":
-            text = self.line(index=index)
+            line = self.line(level)
             self._place += 1  # the closing brace
-            return text
+            return line
+        name = token[1:] if token[0] == "\\" else ""
+        if name in ("frac", "dfrac", "tfrac"):
+            over, under = (_bracketed(self._argument(level), level) for _ in range(2))
+            return over + _set("/", level) + under
+        if name == "sqrt":
+            return _set("√(", level) + self._argument(level) + _set(")", level)
+        if name in _OVER:
+            under = self._argument(level)
+            return under + _set(_OVER[name], under.levels[-1:])
+        return _set(self._sign(token, name), level)
+
+    def _sign(self, token: str, name: str) -> str:
         if token[0] == "'":
             return _PRIMES[token]
         if token[0] != "\\":
             return "−" if token == "-" else token
-        name = token[1:]
-        if name in ("frac", "dfrac", "tfrac"):
-            over, under = (self._argument(index=index) for _ in range(2))
-            return f"{_bracketed(over)}/{_bracketed(under)}"
-        if name == "sqrt":
-            return f"√({self._argument(index=index)})"
-        if name in _OVER:
-            return self._argument(index=index) + _OVER[name]
         if name in _FUNCTIONS:
             return name
         if name in _GREEK or name in _SIGNS:
@@ -125,5 +174,5 @@ def _joint(text: str, token: str, piece: str, *, index: bool, indexed: bool) -> 
     return "·" if indexed and not index and piece[0].isalpha() else ""
 
 
-def _bracketed(text: str) -> str:
-    return f"({text})" if _SUM.search(text) else text
+def _bracketed(line: _Line, level: str) -> _Line:
+    return _set("(", level) + line + _set(")", level) if _SUM.search(line.text) else line

@@ -118,6 +118,7 @@ def input_symbol_tex(symbol: str) -> str:
     if not index:
         return text
     index = re.sub(r"^([A-Z])(\d)$", r"\\mathrm{\1_\2}", index)  # a substance: H2
+    index = index.replace(" ", r"\,")
     body = rf"\mathrm{{{index}}}" if re.search("[а-яА-Я.]", index) else index
     return f"{text}_{{{body}}}"
 

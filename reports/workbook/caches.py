@@ -11,6 +11,7 @@ import math
 import posixpath
 import zipfile
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from posixpath import join, normpath
 from typing import Protocol
@@ -20,7 +21,8 @@ from openpyxl import Workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.writer.excel import ExcelWriter
 
-from reports.workbook.sheets import CacheValues, FilledColumn
+from kshm.nomenclature.symbols import LOWER, UPPER
+from reports.workbook.sheets import CacheValues, FilledColumn, Runs
 from reports.workbook.styles import FONT, SIZE
 
 _A = "http://schemas.openxmlformats.org/drawingml/2006/main"
@@ -186,6 +188,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
         else:
             cell.attrib.pop("t", None)
             element.text = _number(value)
+    _set_symbols(root, caches.symbols.get(title, {}))
     _add_columns(root, title, caches.columns.get(title, []))
     return _written(root)
 
@@ -232,6 +235,29 @@ def _escaped(text: str) -> str:
     if "&" in text or "<" in text or ">" in text:
         return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     return text
+
+
+_LEVELS = {LOWER: "subscript", UPPER: "superscript"}
+
+
+def _set_symbols(root: etree._Element, symbols: Mapping[str, tuple[Runs, bool]]) -> None:
+    """Texts of symbols in pieces, with indices as such."""
+    for item in root.iter(f"{{{_MAIN}}}is") if symbols else ():
+        about = symbols.get(item.getparent().get("r"))
+        if about is not None:
+            item[:] = etree.fromstring(_pieces(*about))
+
+
+@cache
+def _pieces(runs: Runs, bold: bool) -> str:
+    """The first piece looks as its cell does, the others say all of their look."""
+    look = f'<rFont val="{FONT}"/>{"<b/>" if bold else ""}<sz val="{SIZE}"/>'
+    pieces = []
+    for number, (text, level) in enumerate(runs):
+        index = f'<vertAlign val="{_LEVELS[level]}"/>' if level else ""
+        own = f"<rPr>{look}{index}</rPr>" if number or level else ""
+        pieces.append(f'<r>{own}<t xml:space="preserve">{_escaped(text)}</t></r>')
+    return f'<is xmlns="{_MAIN}">{"".join(pieces)}</is>'
 
 
 def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:

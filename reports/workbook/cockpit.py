@@ -13,6 +13,8 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
+from kshm.nomenclature.quantity import Quantity
+from reports.inputs.fields import Field
 from reports.model.blocks import Model
 from reports.model.contents import Contents
 from reports.model.shape import Shape, pin_figure, pin_name
@@ -168,10 +170,11 @@ def _values(
 ) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, symbol, formula, value, unit, look in known(writer, keys):
+    for text, about, formula, value, unit, look in known(writer, keys):
         row += 1
         raise_row(sheet, row, {text: _WIDTHS["A"]})
-        for column, words in ((1, text), (2, symbol), (4, unit)):
+        writer.symbol(sheet, row, 2, about)
+        for column, words in ((1, text), (4, unit)):
             look_of = styles.UNIT if column == 4 else styles.TEXT
             sheet.cell(row, column, words or None).style = look_of
         key = formula.removeprefix("=")
@@ -186,15 +189,15 @@ def _values(
 
 def known(
     writer: BlockWriter, keys: Sequence[str]
-) -> Iterator[tuple[str, str, str, float | str, str, str]]:
-    """Title, symbol, formula, value, unit and number format of what the book has."""
+) -> Iterator[tuple[str, Field | Quantity, str, float | str, str, str]]:
+    """Title, whose symbol, formula, value, unit and number format of what the book has."""
     model, values = writer.layout.model, writer.values.scalars
     for key in keys:
         if key in model.fields:
             field = model.fields[key]
             yield (
                 field.title,
-                field.symbol.replace("_", ""),
+                field,
                 f"={key}",
                 shown(field),
                 field.unit,
@@ -208,7 +211,7 @@ def known(
             if formula != f"={key}":
                 for words, more in _WORST_PIN:
                     title = title.replace(words, f"{more} {words}")
-            yield title, quantity.symbol, formula, value, quantity.unit_label, look
+            yield title, quantity, formula, value, quantity.unit_label, look
 
 
 def _of_worst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
@@ -361,12 +364,13 @@ def _part(
 ) -> int:
     """Lines of some values; the row behind them."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, symbol, formula, value, unit, look in known(writer, keys):
+    for text, about, formula, value, unit, look in known(writer, keys):
         if isinstance(value, str):
             continue
         row += 1
         raise_row(sheet, row, {text: _STUDY_WIDTHS["A"]})
-        for column, words in ((1, text), (2, symbol), (7, unit)):
+        writer.symbol(sheet, row, 2, about)
+        for column, words in ((1, text), (7, unit)):
             look_of = styles.UNIT if column == 7 else styles.TEXT
             sheet.cell(row, column, words or None).style = look_of
         was, now = (Cell(SHEET, row, column).coordinate for column in (3, 4))

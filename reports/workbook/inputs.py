@@ -27,6 +27,7 @@ from reports.workbook.layout import (
     Layout,
     arranged,
 )
+from reports.workbook.sheets import BlockWriter
 
 LEGEND_ROW = 3
 _HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "Пределы")
@@ -36,8 +37,9 @@ _FOLDED = "свёрнуто: «+» слева от строк"
 _TITLE_LETTERS = 32  # of a message box, as much as Excel takes
 
 
-def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
+def write_inputs(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
     """All input fields of a model below a legend and headings; words about the work folded."""
+    layout = writer.layout
     _legend(sheet)
     for column, text in enumerate(_HEADINGS, 1):
         sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
@@ -48,7 +50,7 @@ def write_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
         top = layout.cells[items[0].name].row - (2 if items[0].listed else 1)
         sheet.cell(top, 1, section).style = styles.SUBTITLE
         for item in items:
-            _field(sheet, item, layout, top)
+            _field(sheet, item, writer, top)
         if items[0].path[0] == "report":
             sheet.cell(top, VALUE_COLUMN, _FOLDED).style = styles.NOTE
             for item in items:
@@ -70,13 +72,14 @@ def _legend(sheet: Worksheet) -> None:
         cell.alignment = Alignment(horizontal="center", vertical="center")
 
 
-def _field(sheet: Worksheet, item: Field, layout: Layout, top: int) -> None:
+def _field(sheet: Worksheet, item: Field, writer: BlockWriter, top: int) -> None:
     """One value with its labels; the headers of a list stand below the title at ``top``."""
-    cell = layout.cells[item.name]
+    cell = writer.layout.cells[item.name]
     if item.listed:
         _entry(sheet, item, cell.row, cell.column, top + 1)
     else:
         _labels(sheet, item, cell.row)
+        writer.symbol(sheet, cell.row, SYMBOL_COLUMN, item)
     target = styles.as_text(sheet.cell(cell.row, cell.column, shown(item)))
     target.style = styles.STRUCTURE if item.structural else styles.INPUT
     target.number_format = "@" if isinstance(item.value, str) else "General"
@@ -109,7 +112,6 @@ _LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT, SOURCE_COLUMN: styl
 def _labels(sheet: Worksheet, item: Field, row: int) -> None:
     texts = {
         TITLE_COLUMN: item.title,
-        SYMBOL_COLUMN: item.symbol.replace("_", ""),
         UNIT_COLUMN: item.unit,
         SOURCE_COLUMN: range_text(item),
         KEY_COLUMN: ".".join(

@@ -11,8 +11,11 @@ from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from kshm.nomenclature.quantity import Quantity
+from kshm.nomenclature.symbols import plain_symbol, symbol_runs
 from reports.formula.excel import compile_formula
 from reports.formula.plain import plain
+from reports.formula.tex import input_symbol_tex
+from reports.inputs.fields import Field
 from reports.model.blocks import Grid, Scalar, ScalarTable, TableSpec
 from reports.model.evaluation import Values
 from reports.shared.russian import capital
@@ -60,6 +63,9 @@ class FilledColumn:
     cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
 
 
+Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
+
+
 @dataclass
 class CacheValues:
     """What the finishing pass adds to each sheet."""
@@ -67,6 +73,7 @@ class CacheValues:
     values: dict[str, dict[str, float | str]] = field(default_factory=dict)  # by coordinate
     columns: dict[str, list[FilledColumn]] = field(default_factory=dict)
     ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
+    symbols: dict[str, dict[str, tuple[Runs, bool]]] = field(default_factory=dict)  # and if bold
 
 
 @dataclass
@@ -84,6 +91,23 @@ class BlockWriter:
         cell = sheet.cell(row, column, text)
         self.caches.values.setdefault(sheet.title, {})[cell.coordinate] = value
 
+    def symbol(
+        self, sheet: Worksheet, row: int, column: int, about: Quantity | Field,
+        look: str = styles.TEXT, *, unit: bool = False,
+    ) -> None:  # fmt: skip
+        """A symbol as the report has it, from the same TeX; with its unit as a heading."""
+        if isinstance(about, Quantity):
+            text, tex, label = about.symbol, "" if about.word else about.tex, about.unit_label
+        else:
+            text, tex, label = field_symbol(about), input_symbol_tex(about.symbol), about.unit
+        after = f", {label}" if unit and label else ""
+        cell = sheet.cell(row, column, text + after or None)
+        cell.style = look
+        runs = symbol_runs(tex) if tex else ()
+        if any(level for _, level in runs):
+            about_cell = (*runs, (after, "")) if after else runs, look == styles.HEADER
+            self.caches.symbols.setdefault(sheet.title, {})[cell.coordinate] = about_cell
+
     def table(self, sheet: Worksheet, table: TableSpec) -> None:
         """An angle table: titles, headers with comments, formulas row by row."""
         first_cell = self.layout.places[table.id]
@@ -93,8 +117,8 @@ class BlockWriter:
         last = rows[-1]
         for number, column in enumerate(table.columns, 1):
             index = first_cell.column + number - 1
-            header = sheet.cell(HEADER_ROW, index, column.quantity.header)
-            header.style = styles.HEADER
+            self.symbol(sheet, HEADER_ROW, index, column.quantity, styles.HEADER, unit=True)
+            header = sheet.cell(HEADER_ROW, index)
             formula = self.explained(column.quantity, column.expr, table.id)
             header.comment = note(column.quantity, column.source, formula)
             sheet.cell(NUMBER_ROW, index, number).style = styles.NUMBER
@@ -128,7 +152,7 @@ class BlockWriter:
         model = self.layout.model
         field = model.fields.get(name)
         if field is not None:
-            return field.symbol.replace("_", "") or f"[{field.title}]"
+            return field_symbol(field) or f"[{field.title}]"
         node = model.nodes.get(f"{table}.{name}") or model.nodes.get(name)
         if node is not None:
             return node.quantity.symbol
@@ -198,7 +222,10 @@ class BlockWriter:
                 }
                 for column, text in texts.items():
                     look = styles.UNIT if column == UNIT_COLUMN else styles.TEXT
-                    sheet.cell(row, shift + column, text or None).style = look
+                    if column == SYMBOL_COLUMN and text:
+                        self.symbol(sheet, row, shift + column, quantity)
+                    else:
+                        sheet.cell(row, shift + column, text or None).style = look
                 if first_cell.column == 1:  # beside a table the rows keep their height
                     raise_row(sheet, row, {
                         texts[TITLE_COLUMN]: TITLE_WIDTH, texts[SYMBOL_COLUMN]: SYMBOL_WIDTH,
@@ -223,21 +250,28 @@ class BlockWriter:
         for offset, row in enumerate(block.rows, 1):
             at, quantity = corner.row + offset, row.quantity
             wide = first > VALUE_COLUMN - 1
-            label = sheet.cell(at, 1, capital(quantity.title) if wide else quantity.header)
-            label.style = styles.HEADER if not wide else styles.TEXT
+            label = sheet.cell(at, 1, capital(quantity.title) if wide else None)
+            label.style = styles.TEXT
+            if not wide:
+                self.symbol(sheet, at, 1, quantity, styles.HEADER, unit=True)
             first_cell = next(cell for cell in row.cells if cell is not None)
             formula = self.explained(quantity, first_cell.expr)
             label.comment = note(quantity, first_cell.source, formula)
             if not wide:
                 raise_row(sheet, at, {quantity.header: NARROW})
             if wide:
-                sheet.cell(at, 2, quantity.header).style = styles.TEXT
+                self.symbol(sheet, at, 2, quantity, unit=True)
                 raise_row(sheet, at, {
                     capital(quantity.title): TITLE_WIDTH, quantity.header: SYMBOL_WIDTH,
                 })  # fmt: skip
             for scalar in row.cells:
                 if scalar is not None:
                     self.scalar(sheet, scalar)
+
+
+def field_symbol(item: Field) -> str:
+    """Symbol of an input as text."""
+    return plain_symbol(input_symbol_tex(item.symbol))
 
 
 def note(quantity: Quantity, source: str, formula: str = "") -> Comment:

@@ -77,7 +77,7 @@ def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
         first = layout.waves[grid]
         rows = range(FIRST_ROW, FIRST_ROW + len(angles))
         sheet.cell(HEADER_ROW - 1, first, table.sheet).style = styles.SUBTITLE
-        sheet.cell(HEADER_ROW, first, table.columns[0].quantity.header).style = styles.HEADER
+        writer.symbol(sheet, HEADER_ROW, first, table.columns[0].quantity, styles.HEADER, unit=True)
         letter, home = get_column_letter(first), quoted(table.sheet)
         copies = [f"={home}!{Cell('', row, column).coordinate}" for row in rows]
         writer.column(sheet, first, copies, angles, _ANGLE)
@@ -177,7 +177,7 @@ def assemble(
         book.create_sheet(title)
     inputs = book[INPUT_SHEET]
     _heading(inputs, heading(INPUT_SHEET))
-    write_inputs(inputs, model, layout)
+    write_inputs(inputs, model, writer)
     set_widths(inputs, model, layout, writer.values)
     for title in model.sheets:
         _blocks(book[title], model, writer)

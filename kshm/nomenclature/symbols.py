@@ -63,6 +63,7 @@ def plain_symbol(tex: str) -> str:
     return _read(tex).text
 
 
+@lru_cache(maxsize=4096)
 def symbol_runs(tex: str) -> tuple[tuple[str, str], ...]:
     r"""Pieces of the plain text, each with its level: ``BASE``, ``LOWER`` or ``UPPER`` index.
 

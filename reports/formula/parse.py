@@ -75,22 +75,13 @@ def parse(text: str) -> ast.expr:
         raise FormulaError(f"not an expression: {text!r} ({error.msg})", text) from error
     except (RecursionError, MemoryError, ValueError):
         raise FormulaError("an expression too deep", text) from None
-    if _depth(tree) > MOST_DEEP:
-        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text)
     _check(tree, text)
     return tree
 
 
-def _depth(tree: ast.AST) -> int:
-    """Levels of a tree."""
-    level, depth = [tree], 0
-    while level:
-        depth += 1
-        level = [child for node in level for child in ast.iter_child_nodes(node)]
-    return depth
-
-
-def _check(node: ast.expr, text: str) -> None:
+def _check(node: ast.expr, text: str, depth: int = 1) -> None:
+    if depth >= MOST_DEEP:  # below it the operators
+        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text)
     children: list[ast.expr] = []
     match node:
         case ast.Constant(value=bool()):
@@ -117,7 +108,7 @@ def _check(node: ast.expr, text: str) -> None:
         case _:
             _refuse(node, text)
     for child in children:
-        _check(child, text)
+        _check(child, text, depth + 1)
 
 
 def _refuse(node: ast.expr, text: str) -> None:

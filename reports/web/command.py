@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import socket
-import ssl
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -67,6 +66,8 @@ def _check_certificate(certificate: Path | None, key: Path | None) -> None:
         if key is not None:
             raise KshmError("--key: ключ без сертификата; добавьте --certificate")
         return
+    import ssl
+
     try:
         ssl.create_default_context(ssl.Purpose.CLIENT_AUTH).load_cert_chain(certificate, key)
     except OSError as error:

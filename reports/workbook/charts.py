@@ -141,7 +141,8 @@ def drawing(
     chart = _empty(title)
     for number, line in enumerate(lines):
         look = _look(number)
-        look.prstDash = "solid"
+        if shape:  # a picture, whose lines are told by their places
+            look.prstDash = "solid"
         series = _curve(
             number, CurveRanges(line.name, line.x, line.y),
             _hidden() if line.hidden or line.point else look,

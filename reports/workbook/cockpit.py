@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from math import isfinite
+from math import inf, isfinite
 
 from openpyxl.formatting.rule import FormulaRule
 from openpyxl.styles import Alignment, Border, PatternFill, Protection, Side
@@ -24,9 +24,20 @@ from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
 from reports.workbook.inputs import shown
-from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, NOTE_ROW, SOURCE_COLUMN, Cell
+from reports.workbook.layout import (
+    HEADER_ROW,
+    INPUT_SHEET,
+    NOTE_ROW,
+    SOURCE_COLUMN,
+    VALUE_COLUMN,
+    Cell,
+    area,
+)
 from reports.workbook.places import (
     GAP,
+    NOTE_LETTER,
+    SMALL,
+    TITLE_HEIGHT,
     Box,
     anchor,
     column_px,
@@ -60,14 +71,14 @@ _OF_PINS = {
 CHARTS = ("p_phi", "fig49", "fig50", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
 BESIDE = ("fig49", "fig50")
+_CHECKS = "Проверки расчёта"
 _WORST = "worst_pin_load"
 _WORST_PIN = (
     ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
 )  # fmt: skip
-_WIDTHS = {"A": 52, "B": 11, "C": 11, "D": 8, "E": 1.5}
+_WIDTHS = {"A": 51, "B": 10, "C": 13, "D": 8, "E": 1.5}
 _TOP = 2
-_LINKS, _ACROSS, _EACH = 6, 4, 3  # first column, chapters in a row, columns that each takes
-_CHARTS_TOP = 5  # row
+_LINKS, _ACROSS, _EACH = 6, 3, 3  # first column, chapters in a row, columns that each takes
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 
@@ -83,7 +94,7 @@ def write_cockpit(
     """Fill the first sheet; the places of its charts."""
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
-    sheet.row_dimensions[1].height = 21
+    sheet.row_dimensions[1].height = TITLE_HEIGHT
     title = model.input.report.title or "Кинематика и динамика КШМ"
     styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
     row = _people(sheet, model, _TOP)
@@ -91,8 +102,7 @@ def write_cockpit(
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
     row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
-    _chapters(sheet, titles, contents_for(model))
-    boxes = _charts(sheet, model, writer)
+    boxes = _charts(sheet, model, writer, _chapters(sheet, titles, contents_for(model)) + 1)
     row = _sheets(sheet, titles, model, row + 1)
     row = _left_out(sheet, writer, row)
     _legend(sheet, model, legend, row + 1)
@@ -130,8 +140,8 @@ def _samples(sheet: Worksheet, legend: Sequence[tuple[str, str]], row: int) -> i
     return row + 1
 
 
-def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> None:
-    """Links to the sheets of the first chapter and to the first ones of the others."""
+def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> int:
+    """Links to the sheets of the first chapter and to the first ones of the others; last row."""
     others = [title for title in titles if title != sheet.title]
     firsts = {title: chapter_of(title, contents) for title in others[:3]}
     for title in others[3:]:
@@ -148,6 +158,7 @@ def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> No
             sheet.cell(at.row, column).border = Border(bottom=under)
         sheet.merged_cells.add(CellRange(min_row=at.row, max_row=at.row, min_col=at.column,
                                          max_col=at.column + _EACH - 1))  # fmt: skip
+    return _TOP + (len(firsts) - 1) // _ACROSS
 
 
 def _verdict(
@@ -156,12 +167,21 @@ def _verdict(
     """Whether the numbers of the book hold; nothing where no checks are in it."""
     if verdict is None:
         return row
-    sheet.cell(row, 1, "Проверки расчёта").style = styles.TEXT
+    sheet.cell(row, 1, _CHECKS).style = styles.TEXT
     writer.formula(sheet, row, 2, *verdict)
     sheet.cell(row, 2).style = styles.LINE
     # Not bold: the longest verdict ends before the charts.
     wrong = FormulaRule([f'$B{row}<>"{GOOD}"'], fill=styles.wrong()["fill"])
     sheet.conditional_formatting.add(f"B{row}:D{row}", wrong)
+    # Beside what is changed as well.
+    inputs, at = sheet.parent[INPUT_SHEET], Cell(sheet.title, row, 2).absolute
+    here = Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
+    text, (_, value) = f"{_CHECKS}: ", verdict
+    writer.formula(inputs, here.row, here.column, f'="{text}"&{at}', f"{text}{value}")
+    inputs.cell(here.row, here.column).style = styles.LINE
+    mark = here.absolute.partition("!")[2]
+    wrong = FormulaRule([f'{mark}<>"{text}{GOOD}"'], fill=wrong.dxf.fill)
+    inputs.conditional_formatting.add(area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), wrong)
     return row + 1
 
 
@@ -192,6 +212,9 @@ def known(
 ) -> Iterator[tuple[str, Field | Quantity, str, float | str, str, str]]:
     """Title, whose symbol, formula, value, unit and number format of what the book has."""
     model, values = writer.layout.model, writer.values.scalars
+    known_keys = [key for key in keys if key in model.scalars and _finite(values.get(key, inf))]
+    typed = [model.fields[key].value for key in keys if key in model.fields]
+    decimals = styles.decimals_of([*typed, *(model.scalars[key].quantity for key in known_keys)])
     for key in keys:
         if key in model.fields:
             field = model.fields[key]
@@ -201,11 +224,11 @@ def known(
                 f"={key}",
                 shown(field),
                 field.unit,
-                "General",
+                styles.typed_format(field.value, decimals),
             )
-        elif key in model.scalars and key in values and _finite(values[key]):
+        elif key in known_keys:
             quantity = model.scalars[key].quantity
-            look = styles.excel_format(quantity)
+            look = styles.excel_format(quantity, decimals)
             formula, value = _of_worst_pin(writer, key)
             title = capital(quantity.title)
             if formula != f"={key}":
@@ -244,11 +267,11 @@ def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[B
     return _drawn(sheet, model, writer, charts, (left, top, left + WIDE))
 
 
-def _charts(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
+def _charts(sheet: Worksheet, model: Model, writer: BlockWriter, row: int) -> list[Box]:
     """The four that say most, two to a row and of one size."""
     left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP
     return _drawn(sheet, model, writer, CHARTS,
-                  (left, top_of(sheet, _CHARTS_TOP), left + 2 * WIDE + GAP))  # fmt: skip
+                  (left, top_of(sheet, row), left + 2 * WIDE + GAP))  # fmt: skip
 
 
 def _drawn(
@@ -344,7 +367,7 @@ def write_what_if(book: Workbook, model: Model, writer: BlockWriter) -> None:
     for letter, width in _STUDY_WIDTHS.items():
         sheet.column_dimensions[letter].width = width
     sheet.cell(NOTE_ROW, 2, _NOTE).style = styles.NOTE
-    wrap_across(sheet, NOTE_ROW, 2, len(_HEAD))
+    wrap_across(sheet, NOTE_ROW, 2, len(_HEAD), NOTE_LETTER, SMALL)
     sheet.freeze_panes = Cell(SHEET, HEADER_ROW + 1, 1).coordinate
     for column, text in enumerate(_HEAD, 1):
         sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
@@ -380,10 +403,12 @@ def _part(
         from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
         share = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
         # An angle and a journal's number have no share to tell: their difference itself.
-        whole = unit == "°" or (look == "0" and not unit)
+        own = look.partition("_")[0]
+        whole = unit == "°" or (own == "0" and not unit)
         writer.formula(sheet, row, 5, f"=ROUND({now}-{was},9)" if whole else share, 0.0)
         sheet.cell(row, 6, unit if whole else "%").style = styles.UNIT
-        for column, form in ((3, look), (4, look), (5, look if whole else "0.00")):
+        change = ("0_._0_0" if own == "0" else own) if whole else "0.00"
+        for column, form in ((3, look), (4, look), (5, change)):
             sheet.cell(row, column).style = styles.FORMULA
             sheet.cell(row, column).number_format = form
     return row + 2

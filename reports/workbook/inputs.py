@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from itertools import groupby
 from textwrap import shorten
 
+from openpyxl.comments import Comment
 from openpyxl.formatting.rule import CellIsRule
 from openpyxl.styles import Alignment, Protection
 from openpyxl.utils import get_column_letter
@@ -33,6 +35,7 @@ LEGEND_ROW = 3
 _HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "Пределы")
 _LEGEND = "Жёлтые меняют; после оранжевых нужна команда kshm build"
 _SAMPLES = ((styles.INPUT, "меняют"), (styles.STRUCTURE, "строение"))
+_KEY = "Ключ в файле .toml"
 _FOLDED = "свёрнуто: «+» слева от строк"
 _TITLE_LETTERS = 32  # of a message box, as much as Excel takes
 
@@ -43,22 +46,26 @@ def write_inputs(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
     _legend(sheet)
     for column, text in enumerate(_HEADINGS, 1):
         sheet.cell(HEADER_ROW, column, text).style = styles.HEADER
-    sheet.cell(HEADER_ROW, KEY_COLUMN, "Ключ в файле .toml").style = styles.HEADER
+    sheet.cell(HEADER_ROW, KEY_COLUMN, _KEY).style = styles.HEADER
     # A section may be interrupted by the lists that stand within it in the file.
     for section, run in groupby(arranged(model.inputs), lambda item: item.section):
         items = list(run)
         top = layout.cells[items[0].name].row - (2 if items[0].listed else 1)
         sheet.cell(top, 1, section).style = styles.SUBTITLE
+        decimals = {
+            column: styles.decimals_of(item.value for item in group)
+            for column, group in _by_column(items, layout).items()
+        }
         for item in items:
-            _field(sheet, item, writer, top)
+            _field(sheet, item, writer, top, decimals[layout.cells[item.name].column])
         if items[0].path[0] == "report":
             sheet.cell(top, VALUE_COLUMN, _FOLDED).style = styles.NOTE
             for item in items:
                 about = sheet.row_dimensions[layout.cells[item.name].row]
                 about.outlineLevel, about.hidden = 1, True
     sheet.sheet_properties.outlinePr.summaryBelow = False
-    key = sheet.column_dimensions[get_column_letter(KEY_COLUMN)]
-    key.outlineLevel, key.hidden = 1, True
+    # Told by the notes; without its names a book is graded by these.
+    sheet.column_dimensions[get_column_letter(KEY_COLUMN)].hidden = True
     _mark_wrong(sheet, model, layout)
 
 
@@ -72,7 +79,7 @@ def _legend(sheet: Worksheet) -> None:
         cell.alignment = Alignment(horizontal="center", vertical="center")
 
 
-def _field(sheet: Worksheet, item: Field, writer: BlockWriter, top: int) -> None:
+def _field(sheet: Worksheet, item: Field, writer: BlockWriter, top: int, decimals: int) -> None:
     """One value with its labels; the headers of a list stand below the title at ``top``."""
     cell = writer.layout.cells[item.name]
     if item.listed:
@@ -82,8 +89,16 @@ def _field(sheet: Worksheet, item: Field, writer: BlockWriter, top: int) -> None
         writer.symbol(sheet, cell.row, SYMBOL_COLUMN, item)
     target = styles.as_text(sheet.cell(cell.row, cell.column, shown(item)))
     target.style = styles.STRUCTURE if item.structural else styles.INPUT
-    target.number_format = "@" if isinstance(item.value, str) else "General"
+    text = isinstance(item.value, str)
+    target.number_format = "@" if text else styles.typed_format(item.value, decimals)
     _validate(sheet, item, cell.coordinate)
+
+
+def _by_column(items: Sequence[Field], layout: Layout) -> dict[int, list[Field]]:
+    columns: dict[int, list[Field]] = defaultdict(list)
+    for item in items:
+        columns[layout.cells[item.name].column].append(item)
+    return columns
 
 
 def shown(item: Field) -> float | int | str:
@@ -120,6 +135,9 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
     }
     for column, text in texts.items():
         sheet.cell(row, column, text or None).style = _LOOKS.get(column, styles.TEXT)
+    key = Comment(f"{_KEY}: {texts[KEY_COLUMN]}", "kshm")
+    key.width, key.height = 330, 40
+    sheet.cell(row, TITLE_COLUMN).comment = key
     sheet.cell(row, VALUE_COLUMN)
 
 

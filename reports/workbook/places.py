@@ -6,10 +6,10 @@ widths say for the standard font, its rows as high as is written or 15 points.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
-from textwrap import wrap
 
 from openpyxl.drawing.spreadsheet_drawing import AnchorMarker, OneCellAnchor
 from openpyxl.drawing.xdr import XDRPositiveSize2D
@@ -21,10 +21,23 @@ from openpyxl.worksheet.worksheet import Worksheet
 SCREEN = 1475  # px: 1600 less row numbers, bars, and what other programs' columns are wider
 FOLD = 640  # px: 900 less ribbon, formula bar, tabs
 GAP = 8
-LINE = 15  # pt of height
+LINE, SMALL = 15, 12  # pt of height, that of a line of notes
+TITLE_HEIGHT = 21  # pt
+NOTE_LETTER = 0.92  # width of a letter of a note, in those of the sheet
 _EMU = 9525  # in a pixel
 DIGIT, COLUMN, ROW = 7, 64, 20  # px
 _LETTERS = 0.93  # letters of a text in the room of a digit
+_SURE, _EDGES = 0.97, 0.7  # of a column's width, blank digits at its edges
+# Widths of letters in digits, those of Arial; most small letters are as wide as a digit.
+_CAPITALS = "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯABCDEFGHIJKLMNOPQRSTUVWXYZ"
+_WIDTH = defaultdict(lambda: 1.0, dict.fromkeys(_CAPITALS, 1.25)) | {
+    letter: width
+    for width, letters in (
+        (0.5, " .,:;/·Iftijl"), (0.66, "r()-г"), (0.82, "зтк"), (0.91, "сухэчьcksvxyz"),
+        (1.1, "ГТFTZ=+−×σΣъ"), (1.3, "жмыюwω"), (1.5, "шщфmОQ"), (1.7, "МЖШЩЫЮMW%—"),
+    )
+    for letter in letters
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +85,14 @@ def extent(sheet: Worksheet) -> tuple[int, int]:
 
 def lines_of(text: str, width: float) -> int:
     """Lines that a text takes in a column: no program measures them before the file is opened."""
-    return len(wrap(text, int(width * _LETTERS))) or 1
+    room, lines, filled = width * _SURE - _EDGES, 1, 0.0
+    for word in text.split():
+        size = sum(map(_WIDTH.__getitem__, word))
+        if filled and filled + _WIDTH[" "] + size > room:
+            lines, filled = lines + 1, 0.0
+        lines += int(size // room)  # broken where a line cannot hold it
+        filled += (_WIDTH[" "] if filled else 0) + size % room
+    return lines
 
 
 def room_of(letters: int) -> int:
@@ -80,10 +100,13 @@ def room_of(letters: int) -> int:
     return ceil(letters / _LETTERS) + 1
 
 
-def wrap_across(sheet: Worksheet, row: int, first: int, last: int, wider: float = 1.0) -> None:
+def wrap_across(
+    sheet: Worksheet, row: int, first: int, last: int, wider: float = 1.0, line: float = LINE
+) -> None:
     """Let the text of a cell wrap within its columns to the last, the row as high as it asks.
 
-    ``wider`` is how much wider its letters are than those of the sheet.
+    ``wider`` is how much wider its letters are than those of the sheet, ``line`` the height of
+    a line of them [pt].
     """
     cell = sheet.cell(row, first)
     cell.alignment = Alignment(wrap_text=True, vertical="top")
@@ -94,7 +117,7 @@ def wrap_across(sheet: Worksheet, row: int, first: int, last: int, wider: float 
     lines = lines_of(str(cell.value), width / DIGIT / wider)
     if lines > 1:
         height = sheet.row_dimensions[row].height or LINE
-        sheet.row_dimensions[row].height = max(height, LINE * lines)
+        sheet.row_dimensions[row].height = max(height, line * lines + LINE - line)
 
 
 def raise_row(sheet: Worksheet, row: int, texts: Mapping[str, float]) -> None:

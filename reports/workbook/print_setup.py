@@ -38,8 +38,14 @@ from reports.workbook.places import (
     row_px,
     wrap_across,
 )
-from reports.workbook.sheets import NARROW, SOURCE_WIDTH, SYMBOL_WIDTH, TITLE_WIDTH
-from reports.workbook.styles import HEADER, SUBTITLE
+from reports.workbook.sheets import (
+    NARROW,
+    SOURCE_WIDTH,
+    SYMBOL_WIDTH,
+    TITLE_WIDTH,
+    decimals_in,
+)
+from reports.workbook.styles import HEADER, SUBTITLE, blanks
 
 _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11,
@@ -50,7 +56,7 @@ _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of 
 _HEADER_LINE = 16  # pt
 _CORNER = 10.5  # width of «Величина»
 _NAME = 34  # of a text among the numbers of a record at most
-_TABLE_LINES = 3  # of a table's header at least
+_TABLE_LINES = 2  # of a table's header at least
 _THIN_LETTERS, _EDGES = frozenset(" ()ijlt1/·.,'"), 1.5
 _BESIDE, _WIDEST = (34, 10, 11, 8, 20), 64  # of a list beside a table
 _CYCLE_WIDTHS = {2: 20, 4: 17, SOURCE_COLUMN: 28, 6: 17, 7: 17, 8: 17}
@@ -70,7 +76,6 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
     """Widths of columns, frozen headers, folded columns that only serve formulas."""
     blocks = [block for block in model.blocks if block.sheet == sheet.title]
     tables = [block for block in blocks if isinstance(block, TableSpec)]
-    sheet.row_dimensions[1].height = 21
     last = sheet.max_column
     if not tables:
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
@@ -135,9 +140,9 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
     """Room for the longest numbers of each column, which else are crosses."""
     longest: dict[int, int] = {}
 
-    def hold(column: int, number: float, quantity: Quantity) -> None:
+    def hold(column: int, number: float, quantity: Quantity, decimals: int = 0) -> None:
         letters = len(written(number, quantity.digits, more=0)) if isfinite(number) else 0
-        longest[column] = max(longest.get(column, 0), letters)
+        longest[column] = max(longest.get(column, 0), letters + blanks(quantity, decimals))
 
     for block in blocks:
         if isinstance(block, TableSpec):
@@ -146,10 +151,12 @@ def _widen(sheet: Worksheet, blocks: Sequence[Block], layout: Layout, values: Va
                 for end in (numbers.min(), numbers.max()):
                     hold(index, float(end), column.quantity)
                 _hold(sheet, index, max(map(_word, column.quantity.header.split())))
+            continue
+        decimals = decimals_in(block)
         for scalar in scalars_of(block):
             value = values.scalars[scalar.key]
             if not isinstance(value, str):
-                hold(layout.cells[scalar.key].column, float(value), scalar.quantity)
+                hold(layout.cells[scalar.key].column, float(value), scalar.quantity, decimals)
     for index, letters in longest.items():
         _hold(sheet, index, room_of(letters))
 

@@ -16,7 +16,7 @@ from reports.formula.excel import compile_formula
 from reports.formula.plain import plain
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
-from reports.model.blocks import Grid, Scalar, ScalarTable, TableSpec
+from reports.model.blocks import Grid, Scalar, ScalarTable, TableSpec, scalars_of
 from reports.model.evaluation import Values
 from reports.shared.russian import capital
 from reports.workbook import styles
@@ -49,7 +49,7 @@ def link(
 
 
 # Widths of the columns of titles, symbols and sources in a list.
-TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 58, 14, 24
+TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 
@@ -196,20 +196,21 @@ class BlockWriter:
             cell = sheet.cell(row, index)
             cell.style, cell.number_format = look
 
-    def scalar(self, sheet: Worksheet, scalar: Scalar) -> None:
-        """The value cell of a scalar."""
+    def scalar(self, sheet: Worksheet, scalar: Scalar, decimals: int) -> None:
+        """The value cell of a scalar, its point below that of others."""
         at = self.layout.cells[scalar.key]
         text = compile_formula(scalar.expr, RowReferences(self.layout, None, sheet.title))
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
-        cell.number_format = styles.excel_format(scalar.quantity)
+        cell.number_format = styles.excel_format(scalar.quantity, decimals)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
         """A list of scalars: title, symbol, value, unit, source."""
         first_cell = self.layout.places[block.id]
         shift = first_cell.column - 1
         sheet.cell(first_cell.row, first_cell.column, block.title).style = styles.SUBTITLE
+        decimals = decimals_in(block)
         for scalar in block.scalars:
             row = self.layout.cells[scalar.key].row
             quantity = scalar.quantity
@@ -231,7 +232,7 @@ class BlockWriter:
                         texts[TITLE_COLUMN]: TITLE_WIDTH, texts[SYMBOL_COLUMN]: SYMBOL_WIDTH,
                         texts[SOURCE_COLUMN]: SOURCE_WIDTH,
                     })  # fmt: skip
-            self.scalar(sheet, scalar)
+            self.scalar(sheet, scalar, decimals)
 
     def grid(self, sheet: Worksheet, block: Grid) -> None:
         """Scalars as quantity × instance."""
@@ -247,6 +248,7 @@ class BlockWriter:
             styles.as_text(sheet.cell(corner.row, first + offset, label)).style = styles.HEADER
         if first == VALUE_COLUMN - 1:  # below a table
             raise_row(sheet, corner.row, dict.fromkeys(("Величина", *block.labels), NARROW))
+        decimals = decimals_in(block)
         for offset, row in enumerate(block.rows, 1):
             at, quantity = corner.row + offset, row.quantity
             wide = first > VALUE_COLUMN - 1
@@ -266,7 +268,12 @@ class BlockWriter:
                 })  # fmt: skip
             for scalar in row.cells:
                 if scalar is not None:
-                    self.scalar(sheet, scalar)
+                    self.scalar(sheet, scalar, decimals)
+
+
+def decimals_in(block: ScalarTable | Grid) -> int:
+    """Most decimals of a block."""
+    return styles.decimals_of(scalar.quantity for scalar in scalars_of(block))
 
 
 def field_symbol(item: Field) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from openpyxl.cell.cell import Cell
@@ -32,6 +33,7 @@ LEGEND = (
     (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )  # fmt: skip
 
+_MOST = 6  # significant digits of a typed number that count for its decimals
 _TITLES_ROW = 3  # of tables side by side
 _SIZES = {TITLE: 14, SUBTITLE: 11}
 _COLOURS = {
@@ -53,13 +55,42 @@ def odd() -> dict[str, Any]:
     return {"font": Font(color="7F6000"), "fill": PatternFill(bgColor="FFEB9C")}
 
 
-def excel_format(quantity: Quantity) -> str:
-    """Number format of the cells of a quantity."""
+def excel_format(quantity: Quantity, decimals: int = 0) -> str:
+    """Number format of the cells of a quantity; ``decimals`` are those of others above it."""
     digits = quantity.digits
     plain = "0." + "0" * digits.decimals if digits.decimals else "0"
     if digits.kind != "fixed":
         return {"scientific": plain + "E+00", "text": "@"}[digits.kind]
+    plain += _blank(digits.decimals, decimals)
     return {"": plain, "zeros": f"{plain};-{plain};", "unused": plain}[digits.hides]
+
+
+def typed_format(value: object, decimals: int) -> str:
+    """Number format of a cell that a person changes: all digits, the point below that of others."""
+    return "General" + _blank(decimals_of([value]), decimals)
+
+
+def _blank(own: int, decimals: int) -> str:
+    """Blank space as wide as the point and the decimals that a number has not."""
+    return ("" if own else "_.") + "_0" * (decimals - own) if decimals > own else ""
+
+
+def decimals_of(numbers: Iterable[object]) -> int:
+    """Most decimals of quantities and values one above another, whose points stand in a line."""
+    return max(map(_decimals, numbers), default=0)
+
+
+def _decimals(number: object) -> int:
+    if isinstance(number, Quantity):
+        return number.digits.decimals if number.digits.kind == "fixed" else 0
+    text = f"{number:.{_MOST}g}" if isinstance(number, float) else ""
+    return 0 if "e" in text else len(text.partition(".")[2])
+
+
+def blanks(quantity: Quantity, decimals: int) -> int:
+    """Letters of blank space behind a number that has fewer decimals than others above it."""
+    own = quantity.digits.decimals
+    return len(_blank(own, decimals)) // 2 if quantity.digits.kind == "fixed" else 0
 
 
 def as_text(cell: Cell) -> Cell:
@@ -106,8 +137,10 @@ def add_styles(book: Workbook) -> None:
         alignment=Alignment(horizontal="left", vertical="center", indent=1),
         font=Font(name=FONT, size=SIZE, color="7F7F7F"),
     )
-    style(LINE)
-    style(LINK, font=Font(name=FONT, size=SIZE, color="0563C1", underline="single"))
+    style(LINE, alignment=middle)
+    style(
+        LINK, alignment=middle, font=Font(name=FONT, size=SIZE, color="0563C1", underline="single")
+    )
     style(CHECK, border=rule, alignment=centre, font=Font(name=FONT, size=SIZE, bold=True))
 
 

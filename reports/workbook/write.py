@@ -45,7 +45,10 @@ from reports.workbook.orders import Waves
 from reports.workbook.places import (
     FOLD,
     GAP,
+    NOTE_LETTER,
     SCREEN,
+    SMALL,
+    TITLE_HEIGHT,
     Box,
     anchor,
     column_px,
@@ -247,6 +250,7 @@ def saved(book: Workbook, caches: CacheValues) -> bytes:
 
 def _heading(sheet: Worksheet, title: str) -> None:
     styles.as_text(sheet.cell(TITLE_ROW, 1, title)).style = styles.TITLE
+    sheet.row_dimensions[TITLE_ROW].height = TITLE_HEIGHT
     link(sheet, Cell(sheet.title, NOTE_ROW, 1), f"← {CONTENTS_SHEET}", CONTENTS_SHEET)
 
 
@@ -352,4 +356,4 @@ def _note(sheet: Worksheet, text: str) -> None:
         width += column_px(sheet, last)
         last += 1
     sheet.cell(NOTE_ROW, NOTE_COLUMN, text).style = styles.NOTE
-    wrap_across(sheet, NOTE_ROW, NOTE_COLUMN, last - 1)
+    wrap_across(sheet, NOTE_ROW, NOTE_COLUMN, last - 1, NOTE_LETTER, SMALL)

@@ -12,14 +12,16 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from kshm.nomenclature.symbols import LOWER, UPPER, symbol_runs
 from reports.inputs.fields import to_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.model.blocks import ScalarTable
+from reports.model.blocks import Model, ScalarTable
 from reports.tables.registry import build_model
 from reports.workbook import cockpit, motion
 from reports.workbook.caches import sheet_parts
-from reports.workbook.layout import INPUT_SHEET
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET
 from reports.workbook.read import load_workbook_input
+from reports.workbook.sheets import Runs
 from tests.conftest import sample_names
 from tests.cover import charts, formulas, samples_with, sparse
 from tests.referee.changes import Change, free_fields, with_values
@@ -36,6 +38,7 @@ from tests.workbook.lint import (
 )
 from tests.workbook.made import MOVING, coarse_book, coarse_model, drawn
 
+LEVELS = {"subscript": LOWER, "superscript": UPPER}
 ADDRESS = re.compile(r"(?<=[A-Z])\d+(?![\d(A-Za-z_.])")
 
 
@@ -49,9 +52,13 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
         assert len(charts) == len(drawn(model)) + MOVING
         found = {part: chart_problems(etree.fromstring(archive.read(part))) for part in charts}
         assert {part: problems for part, problems in found.items() if problems} == {}
-        known = constants(model) | COMPILED
+        known, indexed, shown = constants(model) | COMPILED, symbols(model), set()
         for title, part in sheet_parts(archive).items():
-            cells = [f.getparent() for f in etree.fromstring(archive.read(part)).iter(f"{MAIN}f")]
+            root = etree.fromstring(archive.read(part))
+            for text, runs in pieces(root):
+                assert indexed.get(text, runs) == runs, (title, text)
+                shown |= {text} & indexed.keys()
+            cells = [f.getparent() for f in root.iter(f"{MAIN}f")]
             assert [cell.get("r") for cell in cells if not has_value(cell)] == [], title
             for cell in kinds(cells):
                 formula = cell.findtext(f"{MAIN}f")
@@ -60,9 +67,34 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
                 drawn_or_beside = title in (motion.SHEET, cockpit.SHEET)  # shapes, percents
                 allowed = limits(model) if title == INPUT_SHEET else known
                 assert drawn_or_beside or literals(formula) <= allowed, where
+    assert indexed.keys() - shown == set()
     path = tmp_path / "book.xlsx"
     path.write_bytes(book)
     assert to_mapping(load_workbook_input(path).model) == to_mapping(model.input)
+
+
+def symbols(model: Model) -> dict[str, Runs]:
+    """Headings of tables with an index, with the levels of their letters."""
+    columns = [column.quantity for table in model.tables.values() for column in table.columns]
+    runs = {about.header: symbol_runs(about.tex) for about in columns if not about.word}
+    unit = {about.header: f", {about.unit_label}" for about in columns if about.unit_label}
+    return {
+        text: (*pieces, (unit[text], "")) if text in unit else pieces
+        for text, pieces in runs.items()
+        if any(level for _, level in pieces)
+    }
+
+
+def pieces(root: etree._Element) -> Iterable[tuple[str, Runs]]:
+    """Headings of a sheet's tables with the levels of their letters."""
+    for item in root.iterfind(f"{MAIN}sheetData/{MAIN}row[@r='{HEADER_ROW}']/{MAIN}c/{MAIN}is"):
+        runs = tuple(
+            (run.findtext(f"{MAIN}t"), LEVELS.get(look.get("val"), "") if look is not None else "")
+            for run in item.iter(f"{MAIN}r")
+            for look in [run.find(f"{MAIN}rPr/{MAIN}vertAlign")]
+        )
+        text = "".join(item.itertext())
+        yield text, runs or ((text, ""),)
 
 
 def kinds(cells: list[etree._Element]) -> Iterable[etree._Element]:

@@ -1,15 +1,22 @@
-"""No formula is longer than a person reads, whatever the engine."""
+"""No formula is longer than a person reads, every symbol is the report's, whatever the engine."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
 from functools import cache
+from html import unescape
+from unicodedata import normalize
 
 import pytest
 
+from kshm.nomenclature.symbols import BASE, LOWER, UPPER, symbol_runs
+from reports.document.text.symbols import SymbolError, inline_html
 from reports.formula.excel import compile_formula
+from reports.formula.tex import input_symbol_tex
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
-from reports.model.blocks import TableSpec, nodes_in
+from reports.model.blocks import Model, TableSpec, nodes_in
 from reports.new.generate import generate_engine
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout, RowReferences, at_row
@@ -33,9 +40,14 @@ ENGINES = {
 
 
 @cache
+def model_of(name: str) -> Model:
+    return build_model(ENGINES[name]())
+
+
+@cache
 def lengths(name: str) -> dict[str, int]:
     """Characters of each formula, of a column in its last row."""
-    model = build_model(ENGINES[name]())
+    model = model_of(name)
     layout = Layout.of(model)
     found = {}
     for block in model.blocks:
@@ -51,3 +63,48 @@ def lengths(name: str) -> dict[str, int]:
 @pytest.mark.parametrize("name", sparse(ENGINES))
 def test_no_formula_is_longer_than_a_person_reads(name: str) -> None:
     assert {key: size for key, size in lengths(name).items() if size > LONGEST} == {}
+
+
+_TAG = re.compile("<(/?)(sub|sup)>|<[^>]+>")
+_UPPER = re.compile("[⁰¹²³⁴-⁹⁻]+")
+_SPACING = re.compile("[\\s·\u0300-\u036f\u20d7]")  # and bars, which a page draws otherwise
+
+
+def levels(pieces: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Letters on the line and of lower and upper indices, each in their order."""
+    found = {BASE: "", LOWER: "", UPPER: ""}
+    for text, level in pieces:
+        above = "".join(_UPPER.findall(text))
+        found[level or (UPPER if above else BASE)] += above
+        found[level] += _UPPER.sub("", text)
+    return {k: _SPACING.sub("", normalize("NFKC", text)) for k, text in found.items()}
+
+
+def of_page(html: str) -> Iterator[tuple[str, str]]:
+    """Pieces of the report's symbol; within an index all is one."""
+    at, open_ = 0, []
+    for tag in _TAG.finditer(html):
+        yield unescape(html[at : tag.start()]), open_[0] if open_ else BASE
+        at = tag.end()
+        if tag[2]:
+            open_ = open_[:-1] if tag[1] else [*open_, LOWER if tag[2] == "sub" else UPPER]
+    yield unescape(html[at:]), BASE
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_every_symbol_of_a_heading_is_the_reports(name: str) -> None:
+    model = model_of(name)
+    abouts = [node.quantity for block in model.blocks for _, node in nodes_in(block)]
+    symbols = {about.tex for about in abouts if about.tex and not about.word}
+    symbols |= {input_symbol_tex(item.symbol) for item in model.inputs if item.symbol}
+    other, drawn = {}, set()
+    for tex in symbols:
+        try:
+            page = levels(of_page(inline_html(tex)))
+        except SymbolError:  # set as a formula, from the same TeX
+            drawn.add(tex)
+            continue
+        if page != levels(symbol_runs(tex)):
+            other[tex] = page, symbol_runs(tex)
+    assert other == {}
+    assert len(drawn) < len(symbols) / 10

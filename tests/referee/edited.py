@@ -11,8 +11,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from office import desktop, prop
 
 
-def edit(office, source, sheet, cell, value):
-    """Rows of values by sheet after the first edit."""
+def edit(office, source, sheet, cell, value, target):
+    """Rows of values by sheet after the first edit; the document is saved as ``target``."""
     address = Path(source).resolve().as_uri()
     document = office.loadComponentFromURL(address, "_blank", 0, (prop("Hidden", True),))
     sheets = document.getSheets()
@@ -25,6 +25,8 @@ def edit(office, source, sheet, cell, value):
         last = cursor.getRangeAddress()
         used = page.getCellRangeByPosition(0, 0, last.EndColumn, last.EndRow)
         values[name] = used.getDataArray()
+    form = prop("FilterName", "Calc MS Excel 2007 XML")
+    document.storeToURL(Path(target).resolve().as_uri(), (form,))
     document.close(True)
     return values
 

@@ -1,4 +1,4 @@
-"""The first edit after opening a book in LibreOffice reaches every cell that depends on it.
+"""The first edit in LibreOffice reaches every cell that depends on it, and is read back as saved.
 
 The book keeps its saved values, as a person's does: LibreOffice believes them on loading, and a
 cell that it loads dirty stops what is edited before it from reaching what stands behind it.
@@ -16,11 +16,12 @@ from pathlib import Path
 import pytest
 from openpyxl.utils.cell import column_index_from_string, coordinate_from_string
 
-from reports.inputs.fields import iter_fields
+from reports.inputs.fields import iter_fields, to_mapping
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.cockpit import SHEET as WHAT_IF
 from reports.workbook.layout import Layout
+from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes
 from tests.cover import ALL
 from tests.referee.changes import Change, type_into, with_values, without_charts
@@ -63,7 +64,7 @@ def edited(name: str, folder: Path) -> list[dict[str, list[list[float | str]]]]:
     source.write_bytes(without_charts(coarse_book(name)))
     cells = Layout.of(coarse_model(name)).cells
     jobs = [
-        (str(source), cell.sheet, cell.coordinate, change.value)
+        (str(source), cell.sheet, cell.coordinate, change.value, str(saved(folder, change)))
         for change in changes_of(name)
         for cell in (cells[change.field.name],)
     ]
@@ -74,6 +75,11 @@ def edited(name: str, folder: Path) -> list[dict[str, list[list[float | str]]]]:
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-2000:]
     return json.loads(done.stdout)
+
+
+def saved(folder: Path, change: Change) -> Path:
+    """Where LibreOffice saves the edited book."""
+    return folder / f"{change.field.name}.xlsx"
 
 
 def at(rows: list[list[float | str]], coordinate: str) -> float | str | None:
@@ -110,6 +116,8 @@ def test_the_first_edit_reaches_every_cell(name: str, tmp_path: Path) -> None:
         compared, wrong = stale(wanted, found)
         assert wrong == [], (change.field.name, compared, len(wrong))
         assert compared > 5000
+        back = load_workbook_input(saved(tmp_path, change)).model
+        assert to_mapping(back) == to_mapping(with_values(coarse(name), [change]))
 
 
 def test_no_cell_is_an_array_formula() -> None:

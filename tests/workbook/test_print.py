@@ -9,12 +9,12 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from openpyxl import load_workbook
+from openpyxl import Workbook, load_workbook
 
 from reports.workbook.course import short_model
-from reports.workbook.layout import HEADER_ROW, NUMBER_ROW
+from reports.workbook.layout import HEADER_ROW, NUMBER_ROW, WAVES_SHEET
 from reports.workbook.places import column_px, extent, top_of
-from reports.workbook.print_setup import PAPER
+from reports.workbook.print_setup import PAPER, print_beginning
 from reports.workbook.styles import SUBTITLE
 from reports.workbook.write import workbook_bytes
 from tests.cover import charts, quantities, samples_with
@@ -27,9 +27,8 @@ MOST_PAGES = {"full": 60, "course": 35}
 
 def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path: Path) -> None:
     short = workbook_bytes(short_model(model()))
-    for most, data in zip(
-        MOST_PAGES.values(), libreoffice.converted([book(), short], "pdf"), strict=True
-    ):
+    printed = zip(MOST_PAGES.items(), libreoffice.converted([book(), short], "pdf"), strict=True)
+    for (kind, most), data in printed:
         path = tmp_path / "book.pdf"
         path.write_bytes(data)
         done = subprocess.run(
@@ -38,6 +37,23 @@ def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path
         pages = done.stdout.split("\f")[:-1]
         assert len(pages) <= most
         assert all(re.search(r". — лист \d+ из \d+", page) for page in pages)
+        of_waves = [page for page in pages if f"{WAVES_SHEET} — лист" in page]
+        assert len(of_waves) == (kind == "full")  # a page of it is enough, and its rows have waves
+        assert all(re.search(r"k\s*φ.*\n.*\d", page, re.DOTALL) for page in of_waves)
+
+
+@pytest.mark.parametrize(("first", "area"), [(4, "A1:D40"), (60, "A60:D99")])
+def test_the_print_of_waves_begins_where_their_rows_do(first: int, area: str) -> None:
+    """Of a work-book that has lists only the rows stand far below the title."""
+    sheet = Workbook().create_sheet(WAVES_SHEET)
+    sheet["A1"] = "Синусы и косинусы порядков"
+    for row in range(first, first + 60):
+        sheet.cell(row + 1, 1, row)
+    sheet.cell(first, 4, "cos kφ")
+    print_beginning(sheet)
+    assert sheet.print_area.replace("$", "").endswith(area)
+    assert sheet.print_title_rows == ("$1:$1" if first > HEADER_ROW else None)
+    assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) == (1, 1)
 
 
 @pytest.mark.parametrize("name", ["d-240-bearings", "yamz-238"])

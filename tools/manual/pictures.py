@@ -28,7 +28,7 @@ class Picture:
     document: str
     text: str
     dots_per_inch: int = 80
-    part: tuple[float, float, float, float] = (0, 0, 1, 1)  # left, top, right, bottom: shares
+    part: tuple[float, float, float, float] = (0, 0, 1, 1)  # left, top, right, bottom
 
 
 PICTURES = (
@@ -36,7 +36,7 @@ PICTURES = (
         "inputs", "xlsx", "Исходные данные ← Содержание", dots_per_inch=150, part=(0, 0, 1, 0.5)
     ),
     Picture("forces", "xlsx", "Удельные силы и крутящий момент"),
-    Picture("forces-chart", "xlsx", "Удельные силы p′г", 200, (0.588, 0.095, 0.93, 0.255)),
+    Picture("forces-chart", "xlsx", "Удельные силы p′г", 150, (0.578, 0.092, 0.919, 0.243)),
     Picture("report-title", "pdf", "курсовому проекту"),
     Picture("report-torque", "pdf", "Крутящий момент двигателя"),
 )
@@ -111,12 +111,13 @@ def _write(picture: Picture, documents: dict[str, Path], folder: Path) -> Path:
     image = Image.open(stem.with_suffix(".png")).convert("RGB")
     box = ImageChops.difference(image, Image.new("RGB", image.size, "white")).getbbox()
     left, top, right, bottom = box or (0, 0, *image.size)
-    across, down = right - left, bottom - top
-    sides = [begin + round(share * size) for share, begin, size in zip(
-        picture.part, (left, top) * 2, (across, down) * 2, strict=True)]  # fmt: skip
-    cut = image.crop(
-        (*(side - _MARGIN for side in sides[:2]), *(side + _MARGIN for side in sides[2:]))
+    ends = [left, top, left, top]
+    sizes = (right - left, bottom - top) * 2
+    left, top, right, bottom = (
+        round(end + size * share)
+        for end, size, share in zip(ends, sizes, picture.part, strict=True)
     )
+    cut = image.crop((left - _MARGIN, top - _MARGIN, right + _MARGIN, bottom + _MARGIN))
     path = folder / f"{picture.name}.png"
     cut.quantize(_COLOURS).save(path, optimize=True)
     return path

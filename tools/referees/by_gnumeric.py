@@ -7,7 +7,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tools.referees.by_libreoffice import taken
@@ -35,6 +35,14 @@ class Gnumeric:
                 sheet: taken(folder / f"{number}.csv", cells)
                 for number, (sheet, cells) in enumerate(formula_cells(book).items())
             }
+
+    def edited(self, book: bytes, values: Mapping[str, float]) -> bytes:
+        """The workbook as it saves it after an edit of cells of the first sheet."""
+        typed = [word for at, value in values.items() for word in ("--set", f"{at}={value}")]
+        with tempfile.TemporaryDirectory(prefix="kshm-gnumeric-") as name:
+            saved = Path(name) / "saved.xlsx"
+            _convert(book, Path(name), *typed, "--recalc", str(saved))
+            return saved.read_bytes()
 
     def drawn(self, book: bytes) -> tuple[int, int, set[str]]:
         """Charts and curves that it keeps of a workbook, and the targets of its links."""

@@ -33,8 +33,9 @@ _CAPITALS = "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯA
 _WIDTH = defaultdict(lambda: 1.0, dict.fromkeys(_CAPITALS, 1.25)) | {
     letter: width
     for width, letters in (
-        (0.5, " .,:;/·Iftijl"), (0.66, "r()-г"), (0.82, "зтк"), (0.91, "сухэчьcksvxyz"),
-        (1.1, "ГТFTZ=+−×σΣъ"), (1.3, "жмыюwω"), (1.5, "шщфmОQ"), (1.7, "МЖШЩЫЮMW%—"),
+        (0.66, "r()-г"), (0.82, "з т к"), (0.91, "с у х э ч ь cksvxyz"), (1.1, "ГТFTZ=+−×σΣъ"),
+        (1.3, "ж м ы ю wω"), (1.5, "ш щ ф mОQ"), (1.7, "М Ж Ш Щ Ы Ю MW%—"),
+        (0.5, " .,:;/·Iftijl"),
     )
     for letter in letters
 }  # fmt: skip

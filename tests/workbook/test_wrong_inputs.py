@@ -113,10 +113,11 @@ def red_rows(data: bytes) -> int:
     """The column by which rows of the input sheet turn red."""
     sheet = openpyxl.load_workbook(io.BytesIO(without_charts(data)))[INPUT_SHEET]
     (column,) = {
-        re.fullmatch(r"\$([A-Z]+)\d+=[12]", rule.formula[0])[1]
+        mark[1]
         for places in sheet.conditional_formatting
         for rule in places.rules
         if rule.type == "expression"
+        and (mark := re.fullmatch(r"\$([A-Z]+)\d+=[12]", rule.formula[0]))
     }
     return row_and_column(f"{column}1")[1]
 

@@ -26,6 +26,7 @@ from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, SOURCE_COLUMN, Layo
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from reports.workbook.print_setup import set_widths
+from reports.workbook.sheets import BlockWriter
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.cover import charts, quantities, samples_with
@@ -235,7 +236,7 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     layout, book = Layout.of(made), Workbook()
     styles.add_styles(book)
     sheet = book.create_sheet(INPUT_SHEET)
-    write_inputs(sheet, made, layout)
+    write_inputs(sheet, made, BlockWriter(layout, Values({}, {})))
     set_widths(sheet, made, layout, Values({}, {}))
     title = layout.cells["report_title"]
     (across,) = sheet.merged_cells.ranges

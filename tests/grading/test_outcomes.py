@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import shutil
 from collections.abc import Iterator
@@ -144,6 +145,12 @@ def test_a_marked_copy_has_colours_and_comments_and_the_book_stays(handed):
     assert "неверно" in sheet["E6"].comment.text and "обратный знак" in sheet["E6"].comment.text
     assert path.read_bytes() == data
     assert sheet["E7"].value == load_workbook(path)["П3.1"]["E7"].value
+
+
+def test_symbols_of_a_marked_copy_keep_their_indices(handed):
+    copy = marked_copy(classroom.handout(1), {"items": []}, handed.register.rubric)
+    heads = load_workbook(io.BytesIO(copy), rich_text=True)["П3.1"]
+    assert any(isinstance(cell.value, CellRichText) for row in heads["A1:Z5"] for cell in row)
 
 
 def test_questions_are_about_the_students_own_numbers():

@@ -28,7 +28,7 @@ _SIDE = (320, 170)  # px of a comment
 def marked_copy(data: bytes, result: dict[str, Any], rubric: Rubric) -> bytes:
     """The book with its cells coloured by verdict and a comment at each column."""
     with warnings.catch_warnings(action="ignore"):  # of what a copy does not need
-        book = load_workbook(io.BytesIO(data))
+        book = load_workbook(io.BytesIO(data), rich_text=True)
     left = _MOST_CELLS
     for line in result["items"]:
         colour = _COLOURS.get(line["verdict"], _WRONG)

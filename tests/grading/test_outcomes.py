@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from openpyxl import Workbook, load_workbook
+from openpyxl.cell.rich_text import CellRichText
 
 from reports.grading.batch import grade as grading
 from reports.grading.batch.grade import GradeSetup, decide, grade

@@ -346,11 +346,13 @@ def _ends(boxes: Sequence[Box], tops: Sequence[int], room: float, repeated: int)
     """Last rows of pages of some height, of which all but the first repeat headers."""
     top, rows = 0, list[int]()
     while (end := top + room - (repeated if top else 0)) < max(box.bottom for box in boxes):
-        row = bisect_right(tops, end) - 1
+        row = full = bisect_right(tops, end) - 1
         while cut := [
             box.y for box in boxes if top < box.y < tops[row] < box.bottom and box.height <= room
         ]:
             row = bisect_right(tops, min(cut)) - 1
+        if tops[row] <= top:  # no row ends between them: one is cut
+            row = max(full, bisect_right(tops, top))
         rows.append(row)
         top = tops[row]
     return rows

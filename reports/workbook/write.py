@@ -134,7 +134,7 @@ _MOST_CHECKS = 40
 _TEXT_WIDTH = 110
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
 _REMARK_WIDTH = 115  # of the columns of a list
-_ROWS_PX = 64  # height of the rows above the charts of a sheet of diagrams
+_CHARTS_ROW = 4  # of a sheet of diagrams
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
@@ -309,7 +309,7 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
         sheet = book.create_sheet(title, _index(book, title, contents))
         _heading(sheet, heading(title, contents))
         boxes_by_sheet[title] = flow(
-            [pixels(spec, wide=True) for spec in specs], GAP, _ROWS_PX, SCREEN
+            [pixels(spec, wide=True) for spec in specs], GAP, top_of(sheet, _CHARTS_ROW), SCREEN
         )
         _draw(sheet, specs, boxes_by_sheet[title], writer)
     return boxes_by_sheet

@@ -13,8 +13,8 @@ from openpyxl import Workbook, load_workbook
 
 from reports.workbook.course import short_model
 from reports.workbook.layout import HEADER_ROW, NUMBER_ROW, WAVES_SHEET
-from reports.workbook.places import column_px, extent, top_of
-from reports.workbook.print_setup import PAPER, print_beginning
+from reports.workbook.places import Box, column_px, extent, top_of
+from reports.workbook.print_setup import PAPER, _ends, print_beginning
 from reports.workbook.styles import SUBTITLE
 from reports.workbook.write import workbook_bytes
 from tests.cover import charts, quantities, samples_with
@@ -135,3 +135,10 @@ def test_no_chart_is_cut_by_the_end_of_a_page(name: str) -> None:
         for box in boxes:
             assert any(top <= box.y and box.bottom <= low for top, low in pairwise(edges)), box
     assert "Диаграммы, шейки и подшипники" in ended
+
+
+def test_pages_end_though_no_row_ends_between_the_charts() -> None:
+    """Charts 8 px apart on rows of 20 px, of which none ends in a gap."""
+    charts = [Box(0, 64 + 280 * n, 900, 272) for n in range(8)]
+    rows = _ends(charts, [0, *range(28, 2400, 20)], 958.0, 0)
+    assert rows == sorted(set(rows)) and len(rows) < 5

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from markupsafe import Markup
 
 from kshm.engine.arrangement import rods_beside
-from reports.document.chapters.chapter import Chapter, Prototype
+from reports.document.chapters.chapter import Chapter, Prototype, pin_stems, worst_pin
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
@@ -190,10 +190,20 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     kind, times = stated_kind(model), sizes.heavier
     several = rods_beside(arrangement_of(model), 0) > 1
     for reason in REASONS:
-        value = _value(reason.value, number)
+        own = _of_worst_pin(reason, chapter)
+        value = _value(own.value, number)
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
-            yield Judged(reason, value, other, *reason.span(kind, times))
+            yield Judged(own, value, other, *reason.span(kind, times))
+
+
+def _of_worst_pin(reason: Reason, chapter: Chapter) -> Reason:
+    """A reason on the pressure of a crankpin: of the most loaded one, as its chapter is."""
+    if not reason.value[0].startswith("q_pin_"):
+        return reason
+    stem = pin_stems(chapter.shape)[worst_pin(chapter.terms) - 1]
+    key = reason.value[0].replace("q_pin_", f"q_{stem}_")
+    return replace(reason, value=(key,), tex=chapter.terms.quantity(key).tex)
 
 
 def _value(formulas: Sequence[str], number: Callable[[str], float]) -> float | None:

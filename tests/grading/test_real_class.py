@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 
 import pytest
@@ -61,8 +62,9 @@ def test_a_typed_book_is_what_openpyxl_writes(name):
 
 
 def parts(book: bytes) -> dict[str, bytes]:
+    """Parts without the looks of cells: blanks after an input's number are as its decimals."""
     with zipfile.ZipFile(io.BytesIO(book)) as source:
-        return {name: source.read(name) for name in source.namelist()}
+        return {name: re.sub(rb' s="\d+"', b"", source.read(name)) for name in source.namelist()}
 
 
 def test_formulas_by_hand_are_not_the_programs():

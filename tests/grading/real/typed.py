@@ -1,7 +1,7 @@
 """Books of the class without a program that holds them: typed into the parts of the first one.
 
-Of two books of the class only the input data and their owner differ.  What is made here is, byte
-for byte, what openpyxl writes (tests/grading/test_real_class.py).
+Of two books of the class only the input data and their owner differ.  What is made here is, but
+for the looks of input data, what openpyxl writes (tests/grading/test_real_class.py).
 """
 
 from __future__ import annotations

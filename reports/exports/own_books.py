@@ -19,7 +19,15 @@ from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.own_books import declared, read_text
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Block, Column, Grid, Model, nodes_in
-from reports.model.book_text import BookError, BookLine, Shelf, at_fragment, book_faults, shelf_of
+from reports.model.book_text import (
+    BookError,
+    BookLine,
+    Shelf,
+    at_fragment,
+    book_faults,
+    cause_of,
+    shelf_of,
+)
 from reports.model.contents import contents_of
 from reports.model.context import MARK
 from reports.model.evaluation import Evaluation
@@ -206,7 +214,7 @@ def _unfit(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterat
             table = model.tables.get(key.partition(".")[0])
             formula = compile_formula(node.expr, RowReferences(layout, table))
         except Exception as error:
-            yield at_fragment(line, shelf, f"формула «{short}» не для ячейки: {_reason(error)}",
+            yield at_fragment(line, shelf, f"формула «{short}» не для ячейки: {cause_of(error)}",
                               "проверьте, где имя столбца, а где число", short)  # fmt: skip
             continue
         if len(formula) > MOST_FORMULA or _nested(parse(node.expr)) > MOST_NESTED:
@@ -234,29 +242,13 @@ def _infinite(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Ite
             else:
                 fine = isinstance(value, str) or bool(np.isfinite(float(value)))
         except Exception as error:
-            yield at_fragment(line, shelf, f"«{short}» не вычисляется: {_reason(error)}",
+            yield at_fragment(line, shelf, f"«{short}» не вычисляется: {cause_of(error)}",
                               "проверьте формулу и то, от чего она зависит", short)  # fmt: skip
             return
         if not fine:
             yield at_fragment(line, shelf, f"«{short}» — не число",
                               "проверьте деление на нуль, корни и логарифмы", short)  # fmt: skip
             return
-
-
-_REASONS: dict[type[Exception], str] = {
-    ZeroDivisionError: "деление на ноль",
-    OverflowError: "число слишком большое",
-    KeyError: "нет такого имени",
-}
-
-
-def _reason(error: Exception) -> str:
-    """What went wrong: in Russian as it was said, or by the kind of the error."""
-    text = str(error)
-    if re.search("[а-яё]", text):
-        return one_line(text, 80)
-    return next((said for kind, said in _REASONS.items() if isinstance(error, kind)),
-                "действие не для этих значений")  # fmt: skip
 
 
 # Engines of every kind that a book alone is tried on.

@@ -201,18 +201,30 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
         ) from error  # fmt: skip
 
 
-def _cause(error: Exception) -> str:
-    """Why, after a colon, where it can be said in Russian."""
+_CAUSES: dict[type[Exception], str] = {
+    ZeroDivisionError: "деление на ноль",
+    OverflowError: "число слишком большое",
+    KeyError: "нет такого имени",
+}
+
+
+def cause_of(error: Exception) -> str:
+    """What went wrong in a book: in Russian as it was said, or by the kind of the error."""
     text = str(error)
     if re.search("[а-яё]", text):
-        return f": {text}"
-    names = re.findall(r"'([^']*)'", text)
-    if isinstance(error, jinja2.TemplateError) and names:
+        return one_line(text, 80)
+    if isinstance(error, jinja2.TemplateError):
+        names = re.findall(r"'([^']*)'", text)
         undefined = isinstance(error, jinja2.UndefinedError)
-        return f": {'нет имени' if undefined else 'непонятно'} «{names[-1]}»"
-    if isinstance(error, ZeroDivisionError):
-        return ": деление на ноль"
-    return "" if isinstance(error, jinja2.TemplateError) else ": действие не для этих значений"
+        return f"{'нет имени' if undefined else 'непонятно'} «{names[-1]}»" if names else ""
+    said = (words for kind, words in _CAUSES.items() if isinstance(error, kind))
+    return next(said, "действие не для этих значений")
+
+
+def _cause(error: Exception) -> str:
+    """The same after a colon, where there is any."""
+    cause = cause_of(error)
+    return f": {cause}" if cause else ""
 
 
 def _raised_at(error: Exception, name: str) -> tuple[str, int]:

@@ -5,6 +5,7 @@ import html
 import re
 from collections import defaultdict
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -79,6 +80,54 @@ def test_statics_leads_where_the_rule_of_half_a_torque_is_off():
     assert said, "no range of crankpins"
     assert float(re.sub(r"\D", "", said[1])) == pytest.approx(max(swings), abs=0.6)
     assert f"— {said[1].strip()} Н·м" in text[text.index("Рассчитаны кинематика") :]
+
+
+def test_the_step_error_of_a_torque_is_of_statics_where_it_leads():
+    """The row and the words «при шаге 1°» hold the range that the conclusion tells."""
+    model = engine("split", report__detail="course")
+    page = bare_page(model)
+    rows = printed_rows(page, "Результаты, для которых шаг таблиц велик")
+    shown = {row[0].split(", Н·м")[0][-1]: row[1:3] for row in rows if "шатунную шейку" in row[0]
+             and "момента" in row[0]}  # fmt: skip
+    assert shown
+    for pin, numbers in shown.items():
+        for number, each in zip(numbers, (model, refined(model)), strict=True):
+            swing = np.ptp(solved(each).columns["P4_5s"][f"Mpins{pin}_Nm"])
+            assert float(re.sub(r"\D", "", number)) == pytest.approx(swing, abs=0.6)
+
+
+def test_a_vector_that_turns_with_the_shaft_can_be_balanced_on_it():
+    """Of the right-angled V six wholly; in line a part of it turns against the shaft."""
+    said = "вращается вместе с валом и не изменяется по величине"
+    assert f"Вектор момента первого порядка {said}" in text_of(engine("v_six"))
+    assert said not in text_of(engine()) and said not in text_of(engine("v_apart"))
+
+
+def test_the_hole_lies_opposite_the_rays_of_the_least_sums():
+    """On the ray of its own angle the sum may be the greatest: forces press on the other side."""
+    text = text_of(engine("v_six", report__detail="course"))
+    assert "где суммы сил" not in text
+
+
+@pytest.mark.parametrize(
+    ("genitive", "words"),
+    [(True, " (рядного, четырёхтактного)"), (False, " (рядный, четырёхтактный)")],
+)
+def test_the_name_of_an_engine_is_declined(genitive, words):
+    assert after_noun("Дизель: рядный, четырёхтактный", genitive=genitive) == words
+
+
+def test_the_assignment_names_the_engine_in_the_nominative():
+    text = text_of(engine(engine__name="Дизель: рядный, четырёхтактный"))
+    assert "Исходные данные: двигатель (рядный, четырёхтактный);" in text
+    assert "механизм двигателя (рядного, четырёхтактного)" in text
+
+
+def test_factors_that_are_told_together_share_their_verb():
+    text = text_of(engine())
+    assert re.search(r"Здесь множители [^.]* переводят Н в кН и Па в МПа", text)
+    assert re.search(r"Здесь множитель \S+ переводит", text)
+    assert not re.search(r"переводит [^.]*переводит", text)
 
 
 def test_the_flywheel_is_that_of_the_fine_step_wherever_it_is_told():

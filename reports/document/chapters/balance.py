@@ -94,6 +94,7 @@ def balance(chapter: Chapter) -> Markup:
         shafts_second="second_shafts" in busy,
         devices=joined([word for key, word in _DEVICES.items() if key in busy] or [""]),
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
+        turning=[] if after or not banks else _turning(terms),
         over_turn=_over_turn(terms, after=after),
         flywheel_needed=is_flywheel_needed(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
@@ -206,6 +207,19 @@ def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
             keys += of
     caption = "Вращающиеся массы и векторы первого порядка"
     return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+
+
+def _turning(terms: Terms) -> list[str]:
+    """Vectors of the first order, in words, that turn with the shaft and keep their size."""
+    parts = {"силы": "order_{}", "момента": "arm_{}_mm"}
+    pairs = {
+        word: [
+            terms.value("balance_orders." + key.format(way), 1.0) for way in ("along", "against")
+        ]
+        for word, key in parts.items()
+    }
+    most = 1e-6  # of the vector that turns with the shaft
+    return [word for word, (along, against) in pairs.items() if against < most * along]
 
 
 def _is_round(terms: Terms, first: str) -> bool:

@@ -22,7 +22,7 @@ from reports.document.text.texts import of_digits
 from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
-from reports.inputs.solve_input import FINE, GridError, refined, solved
+from reports.inputs.solve_input import FINE, MOST_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
@@ -32,6 +32,7 @@ from reports.tables.cycle_members import section_of
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+STATICS = "P4_5s"  # table of the crankpins' torques by statics
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
 _COURSE = _SHORT | {
@@ -79,8 +80,8 @@ _NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
 
 
-def after_noun(name: str) -> str:
-    """An engine's name to stand after «двигателя»: the noun is not said twice.
+def after_noun(name: str, *, genitive: bool = True) -> str:
+    """An engine's name to stand after «двигателя» or «двигатель»: the noun is not said twice.
 
     «Судовой дизель 6Ч 30/38» gives « 6Ч 30/38», «Дизель: рядный» gives « (рядного)».
     """
@@ -88,7 +89,8 @@ def after_noun(name: str) -> str:
     if noun is None:
         return f" «{name}»"
     head, colon, rest = name[noun.end() :].strip().partition(":")
-    of = re.sub(r"(?<=\w)ый\b", "ого", rest.strip())  # «рядный, четырёхтактный»
+    ending = "ого" if genitive else "ый"  # «рядный, четырёхтактный»
+    of = re.sub(r"(?<=\w)ый\b", ending, rest.strip())
     words = f"{head.strip()} ({of})" if colon else head
     return f" {words.strip()}" if words.strip() else ""
 
@@ -132,9 +134,9 @@ def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
 
 def half_torque_gap(terms: Terms, throws: int) -> float:
     """How far the rule of half a throw's torque is from statics at most [N·m]."""
+    pairs = [(f"{STATICS}.Mpins{i}_Nm", f"P4_5.Mpin{i}_Nm") for i in range(1, throws + 1)]
     return max(
-        float(np.abs(terms.column(f"P4_5s.Mpins{i}_Nm") - terms.column(f"P4_5.Mpin{i}_Nm")).max())
-        for i in range(1, throws + 1)
+        float(np.abs(terms.column(statics) - terms.column(rule)).max()) for statics, rule in pairs
     )
 
 
@@ -142,7 +144,7 @@ def pin_torque(terms: Terms, throws: int, number: int) -> str:
     """Column of the torque in a crankpin: by statics where the rule of half a torque is off."""
     digits = terms.quantity("dM_pin1").digits
     if half_torque_gap(terms, throws) > 0.5 * 10.0**-digits.decimals:
-        return f"P4_5s.Mpins{number}_Nm"
+        return f"{STATICS}.Mpins{number}_Nm"
     return f"P4_5.Mpin{number}_Nm"
 
 
@@ -150,6 +152,17 @@ def pin_swing(terms: Terms, throws: int, number: int) -> str:
     """Range of the torque in a crankpin, as printed [N·m]."""
     values = terms.column(pin_torque(terms, throws, number))
     return of_digits(float(np.ptp(values)), terms.quantity("dM_pin1").digits)
+
+
+def swing_errors(model: InputFile, throws: int) -> list[GridError]:
+    """Errors of the tables' step in the ranges of the crankpins' torques by statics."""
+    coarse, fine = (solved(each).columns[STATICS] for each in (model, refined(model)))
+    keys = {f"dM_pin{i}": f"Mpins{i}_Nm" for i in range(1, throws + 1)}
+    errors = [
+        GridError(name, float(np.ptp(coarse[key])), float(np.ptp(fine[key])))
+        for name, key in keys.items()
+    ]
+    return [error for error in errors if abs(error.percent) > MOST_GRID_ERROR]
 
 
 def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
@@ -252,8 +265,13 @@ class Chapter:
     @property
     def named(self) -> str:
         """The engine's name after the word for it; nothing for an engine without one."""
+        return self.named_in(genitive=True)
+
+    def named_in(self, *, genitive: bool) -> str:
+        """The name after the word for the engine in one of two cases."""
         name = self.input.engine.name
-        return "" if name in ("", EngineSection.model_fields["name"].default) else after_noun(name)
+        known = name not in ("", EngineSection.model_fields["name"].default)
+        return after_noun(name, genitive=genitive) if known else ""
 
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""
@@ -267,8 +285,8 @@ class Chapter:
             "at": self.example,
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
-               "ref", "book", "tabs", "figs", "chart", "panels", "told", "printed_step",
-               "whole", "named", "by_fine", "where")  # fmt: skip
+               "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",
+               "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -312,8 +330,11 @@ class Chapter:
         factors = list(self._factors()) if end == "." else []
         if not factors:
             return Markup("")
-        said = joined([f"{inline_html(power)} переводит {words}" for power, words in factors])
-        return Markup('<p class="flush">Здесь множитель {}.</p>').format(Markup(said))
+        powers = joined([inline_html(power) for power, _ in factors])
+        several = len(factors) > 1
+        verb = "множители {} переводят" if several else "множитель {} переводит"
+        said = Markup(f"Здесь {verb} {{}}.").format(Markup(powers), joined([w for _, w in factors]))
+        return Markup('<p class="flush">{}</p>').format(said)
 
     def _factors(self) -> Iterator[tuple[str, str]]:
         """Powers of ten that wait for their words, with these."""
@@ -369,12 +390,32 @@ class Chapter:
         ``angle`` adds where the fine value is, if that is elsewhere.
         """
         value = self.terms.eqv(name) if symbol else self.terms.val(name)
-        for error in self.terms.grid_errors:
+        return self._beside_fine(value, name, angle=angle)
+
+    def told_swing(self, number: int) -> Markup:
+        """Range of the torque in a crankpin, with the fine value where the grid is too coarse."""
+        name = f"dM_pin{number}"
+        swing = pin_swing(self.terms, self.shape.throws, number)
+        return self._beside_fine(with_unit(swing, self.terms.unit(name)), name)
+
+    def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
+        for error in self.grid_errors:
             if error.key == name:
                 where = error.moved_deg if angle else None
                 more = "" if where is None else f" при φ = {fixed(where, 0)}°"
                 return Markup("{} (при шаге 1° — {}{})").format(value, self.fine(error), more)
         return value
+
+    @cached_property
+    def grid_errors(self) -> tuple[GridError, ...]:
+        """Errors of the tables' step; of the torque in crankpins by statics where it leads."""
+        errors, throws = self.terms.grid_errors, self.shape.throws
+        if not errors or not pin_torque(self.terms, throws, 1).startswith(STATICS):
+            return errors
+        first = next((n for n, e in enumerate(errors) if e.key.startswith("dM_")), len(errors))
+        others = [error for error in errors if not error.key.startswith("dM_pin")]
+        others[first:first] = swing_errors(self.input, throws)
+        return tuple(others)
 
     def fine(self, error: GridError) -> Markup:
         """The value by the fine step with its unit."""

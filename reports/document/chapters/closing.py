@@ -11,12 +11,12 @@ from markupsafe import Markup
 from reports.document.chapters import balance, oil, rationale, regimes, strength, torsion
 from reports.document.chapters.chapter import (
     BOOK,
+    STATICS,
     Chapter,
     chosen,
     greatest_pressure,
     leaders,
     pin_stems,
-    pin_swing,
     pin_torque,
     relevant_chapters,
     worst_pin,
@@ -26,7 +26,7 @@ from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
-from reports.document.text.terms import Terms, with_unit
+from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import NO, YES
@@ -120,7 +120,7 @@ def _grid_errors(chapter: Chapter) -> list[GridError]:
     """Errors of the step of results that the report tells."""
     written = relevant_chapters(chapter.input)
     absent = tuple(start for start, name in _TELLERS.items() if name not in written)
-    return [error for error in chapter.terms.grid_errors if not error.key.startswith(absent)]
+    return [error for error in chapter.grid_errors if not error.key.startswith(absent)]
 
 
 def _grid_table(chapter: Chapter) -> TableBlock:
@@ -228,7 +228,6 @@ def conclusion(chapter: Chapter) -> Markup:
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
         pz=greatest_pressure(terms),
         powers=terms.has("cyc_N_gas"),
-        at_pins=with_unit(pin_swing(terms, throws, pins[0]), terms.unit("dM_pin1")),
         hole=oil.hole(chapter, pin),
     )
 
@@ -264,8 +263,8 @@ def appendices(chapter: Chapter) -> Markup:
     shape, terms = chapter.shape, chapter.terms
     wide = "dense" if shape.cylinders > 6 else ""
     # Statics gives a table of its own only where it differs from the rule.
-    apart = pin_torque(terms, shape.throws, 1).startswith("P4_5s")
-    running = ("P4_4", "P4_5", *(("P4_5s",) if apart else ()))
+    apart = pin_torque(terms, shape.throws, 1).startswith(STATICS)
+    running = ("P4_4", "P4_5", *((STATICS,) if apart else ()))
     reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
     kinematic = [
         ("P3_1", None, ""),

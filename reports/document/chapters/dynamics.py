@@ -12,7 +12,6 @@ from reports.document.chapters.chapter import (
     Chapter,
     greatest_pressure,
     half_torque_gap,
-    pin_swing,
     pin_torque,
     relevant_chapters,
     worst_running,
@@ -325,7 +324,7 @@ def torque(chapter: Chapter) -> Markup:
         agrees=terms.values.scalars.get("check_power") == YES,
         accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
         powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
-        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.terms.grid_errors),
+        coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.grid_errors),
         swing=of_digits(
             terms.value("M_max") - terms.value("M_min"), terms.quantity("M_max").digits
         ),
@@ -399,7 +398,6 @@ def running(chapter: Chapter) -> Markup:
         count=count,
         gap=of_digits(gap, digits) if gap > 0.5 * 10**-digits.decimals else "",
         statics=_statics(terms, count),
-        at_pins=with_unit(pin_swing(terms, count, worst[0]), terms.unit("dM_pin1")),
         beside=not (chapter.shape.single_rods or chapter.shape.articulated),
         mains=mains,
         pins=worst,

@@ -80,7 +80,7 @@ def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
     words = _words(chapter.input)
     return words | {
         "department": _department(words["department"]),
-        "named": chapter.named,
+        "named": chapter.named_in(genitive=False),
         "data": [(chapter.terms.title(k), chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),

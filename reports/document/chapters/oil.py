@@ -127,13 +127,13 @@ def hole(chapter: Chapter, pin: int) -> Hole:
 def _by_wear(chapter: Chapter, pin: int) -> Hole:
     """Of neighbouring rays that two steps find both ends are told; else the text's own angle."""
     key = f"hole_{pin_stems(chapter.shape)[pin - 1]}_deg"
-    fine = next((each.fine for each in chapter.terms.grid_errors if each.key == key), None)
+    fine = next((each.fine for each in chapter.grid_errors if each.key == key), None)
     if fine is None:
         return Hole(pin)
     angle, step = chapter.terms.value(key), 360.0 / chapter.input.calculation.wear_rays
     if abs(fine - angle) > 1.01 * step:
         return Hole(pin)
-    return Hole(pin, _between([angle, fine]), "где суммы сил по лучам наименьшие")
+    return Hole(pin, _between([angle, fine]), "напротив лучей с наименьшими суммами сил")
 
 
 def _between(angles: Sequence[float]) -> Markup:

@@ -66,7 +66,7 @@ STROKE = 0.1  # width of a line of type Б over the height of the letters
 _UNITS = 9.0  # of the stroke face in the height of a capital
 _GAP, _BLANK = 2.7, 5.4  # between letters and between words [units of the face]
 _FLAT = 12.0  # deg of an arc that one straight stroke stands for
-_SPACE, _ANYWHERE = re.compile("(?<= )"), re.compile(r"(?<= )|(?<=\w-)(?=\w)")  # ends of lines
+_SPACE, _ANYWHERE = re.compile("(?<= )"), re.compile(r"(?<= )|(?<=\w\w-)(?=\w\w)")  # ends of lines
 _INDEX = re.compile(r"_([^\W_][\w.]*)")
 _LACKING = 0.75  # em: a letter of a drawing that no face has
 

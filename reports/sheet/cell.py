@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from reports.document.chapters.balance import asked_devices
 from reports.document.chapters.chapter import pin_stems, worst_pin
 from reports.document.page.charts import mechanism_of, throw_of
 from reports.document.text.terms import Terms, plain_number
@@ -246,12 +247,16 @@ def _free(terms: Terms) -> Iterator[str]:
     """Lines on the free forces and moments of the orders that matter."""
     if not terms.has("F1_before_max"):
         return
+    devices = asked_devices(terms.model.input)
+    first, second = ({"counterweight", "first_shafts"} & devices, "second_shafts" in devices)
     for key, unit, word in (("F1", "кН", "Сила"), ("L1", "Н·м", "Момент")):
         before, after = (terms.num(f"{key}_{when}_max") for when in ("before", "after"))
-        yield f"{word} 1-го порядка: до {before}, после {after} {unit}"
+        said = f"до уравновешивания {before}, после {after}" if first else before
+        yield f"{word} 1-го порядка и вращающихся масс: {said} {unit}"
     if terms.has("balance_orders.F_order_kN"):
         force, moment = (terms.num(f"balance_orders.{key}", 2.0) for key in _SECOND)
-        yield f"2-й порядок до балансирных валов: сила {force} кН, момент {moment} Н·м"
+        when = " до балансирных валов" if second else ""
+        yield f"2-й порядок{when}: сила {force} кН, момент {moment} Н·м"
 
 
 def balance(canvas: Canvas, room: CellArea, terms: Terms) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
-from reports.document.chapters.chapter import worst_pin
+from reports.document.chapters.chapter import named_engine, worst_pin
 from reports.document.page.charts import mechanism_of, throws_of
 from reports.document.page.render import render_pdf
 from reports.document.text.terms import Terms
@@ -102,7 +102,8 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     cell("Листов 1", (155, 15, STAMP_WIDTH, 20))
     cell("У", (140, 20, 145, 35), 3.5)
     cell(designation(report), (65, 40, STAMP_WIDTH, 55), 7.0)
-    cell(f"Динамический расчёт двигателя. {model.engine.name}", (*_NAME[:1], 15, _NAME[1], 40), 5.0)
+    title = f"Динамический расчёт двигателя{named_engine(model)}"
+    cell(title, (*_NAME[:1], 15, _NAME[1], 40), 5.0)
     places = (report.institution, report.department, report.group)
     cell(", ".join(filter(None, places)), (135, 0, STAMP_WIDTH, 15), 3.5)
 
@@ -316,7 +317,7 @@ def sheet_pdf(items: list[Item], width: float, height: float, model: Model) -> b
     )
     svg = svg_of(list(letters), (0.0, 0.0, width, height))
     page = _PAGE.format(
-        title=escape(printable(f"Лист динамики. {model.input.engine.name}")),
+        title=escape(printable(f"Динамический расчёт двигателя{named_engine(model.input)}")),
         year=model.input.report.year,
         fonts=fonts.fonts_css(),
         stack=fonts.STACK,

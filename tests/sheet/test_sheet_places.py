@@ -130,8 +130,33 @@ def test_forces_of_the_throws_point_away_from_the_axis():
     assert [start[1] < end[1] for start, end in forces] == upwards == [True, False, False, True]
     second = t.num("balance_orders.F_order_kN", 2.0)
     assert second != t.num("balance_orders.F_order_kN", 1.0)
-    words = [item.text for item in canvas.items if isinstance(item, Words)]
-    assert any(f"до балансирных валов: сила {second} кН" in text for text in words)
+    assert f"2-й порядок: сила {second} кН" in said(canvas)
+
+
+def said(canvas):
+    return " ".join(item.text for item in canvas.items if isinstance(item, Words))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+def test_what_is_left_behind_balancing_is_told_where_it_is_asked_for(share):
+    """The first order of a shaft without devices stood as what they leave of it."""
+    raw = to_mapping(sample("d-240"))
+    raw["balance"] = {"first_shafts_share": share, "second_shafts_share": share}
+    canvas = Canvas()
+    balance(canvas, CellArea(0.0, 0.0, 180.0, 120.0), terms_of(load_mapping(raw, source="d").model))
+    for words in ("до уравновешивания", "после", "до балансирных валов"):
+        assert (words in said(canvas)) == (share > 0)
+
+
+def test_the_title_block_declines_the_engine():
+    """It read «двигателя. Двигатель …: V-» with the rest of the word in the next line."""
+    raw = to_mapping(sample("d-240"))
+    raw["engine"]["name"] = "Двигатель с искровым зажиганием: V-образный, четырёхтактный"
+    canvas = Canvas()
+    title_block(canvas, load_mapping(raw, source="d").model, 0.0, 0.0)
+    assert "двигателя с искровым зажиганием (V-образного, четырёхтактного)" in said(canvas)
+    lines = [item.text for item in canvas.items if isinstance(item, Words)]
+    assert not any(line.endswith("V-") for line in lines)
 
 
 @pytest.mark.parametrize("name", ["yamz-236", "vw-1600"])

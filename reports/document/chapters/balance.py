@@ -22,6 +22,7 @@ from reports.document.page.blocks import (
 from reports.document.page.numbering import TablePlan
 from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits, rich
+from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
@@ -68,7 +69,7 @@ def balance(chapter: Chapter) -> Markup:
         name: chapter.scalars(caption, keys, size="dense", keep=True)
         for name, (caption, keys) in _LISTS.items()
     }
-    devices = asked_devices(chapter)
+    devices = asked_devices(chapter.input)
     after, busy = bool(devices - {"suppression"}), devices - _idle(terms)
     tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, busy),
@@ -117,7 +118,7 @@ def concluded(chapter: Chapter) -> Markup:
     forces = (
         Markup("{}{} дают {}").format(
             _MASSES,
-            " до уравновешивания" if asked_devices(chapter) & _DEVICES.keys() else "",
+            " до уравновешивания" if asked_devices(chapter.input) & _DEVICES.keys() else "",
             Markup(joined(free)),
         )
         if free
@@ -147,9 +148,9 @@ def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
     return replace(block, rows=tuple(rows))
 
 
-def asked_devices(chapter: Chapter) -> set[str]:
+def asked_devices(model: InputFile) -> set[str]:
     """Devices of balancing that the input itself asks for."""
-    given = chapter.input.balance
+    given = model.balance
     return {
         name
         for key in (
@@ -317,7 +318,7 @@ def companions(chapter: Chapter) -> Markup:
             "segal_inverse", caption="Угол поворота кривошипа по положению поршня"
         ),
     }  # fmt: skip
-    suppressed = terms.has("zone") and "suppression" in asked_devices(chapter)
+    suppressed = terms.has("zone") and "suppression" in asked_devices(chapter.input)
     return chapter.page(
         "companions",
         formulas=_COMPANION_FORMULAS,

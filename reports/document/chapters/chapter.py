@@ -95,6 +95,13 @@ def after_noun(name: str, *, genitive: bool = True) -> str:
     return f" {words.strip()}" if words.strip() else ""
 
 
+def named_engine(model: InputFile, *, genitive: bool = True) -> str:
+    """The engine's name to stand after the word for it; nothing for an engine without one."""
+    name = model.engine.name
+    known = name not in ("", EngineSection.model_fields["name"].default)
+    return after_noun(name, genitive=genitive) if known else ""
+
+
 def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     """Numbers, from 1, of the scalars that are printed as large as the largest."""
     values = [terms.value(name) for name in names]
@@ -264,14 +271,8 @@ class Chapter:
 
     @property
     def named(self) -> str:
-        """The engine's name after the word for it; nothing for an engine without one."""
-        return self.named_in(genitive=True)
-
-    def named_in(self, *, genitive: bool) -> str:
-        """The name after the word for the engine in one of two cases."""
-        name = self.input.engine.name
-        known = name not in ("", EngineSection.model_fields["name"].default)
-        return after_noun(name, genitive=genitive) if known else ""
+        """The engine's name after «двигателя»."""
+        return named_engine(self.input)
 
     def page(self, template: str, **context: Any) -> Markup:  # noqa: ANN401
         """Render a template of the folder ``report`` with the tools and a chapter's own data."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from reports.document.chapters.chapter import Chapter, relevant_chapters
+from reports.document.chapters.chapter import Chapter, named_engine, relevant_chapters
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -80,7 +80,7 @@ def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
     words = _words(chapter.input)
     return words | {
         "department": _department(words["department"]),
-        "named": chapter.named_in(genitive=False),
+        "named": named_engine(chapter.input, genitive=False),
         "data": [(chapter.terms.title(k), chapter.terms.val(k)) for k in _TASK if k in present],
         "chapters": [item.title for item in n.contents if item.level == 1 and item.number],
         "figures": n.count("figure"),

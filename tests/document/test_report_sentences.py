@@ -340,7 +340,7 @@ def test_the_masses_outside_the_limits_are_named():
     light = {"crankshaft__pin_mass_kg": 0.1}
     assert "Вне пределов" in text_of(engine(**light, report__detail="short"))
     text = text_of(engine(**light))
-    assert "Вне пределов" not in text and "Масса колена на площадь поршня mк/Fп" in text
+    assert "Вне пределов" not in text and "Удельная масса колена mк/Fп" in text
     assert "Вне пределов" not in text_of(engine(crankshaft__pin_mass_kg=0.8))
 
 

@@ -21,10 +21,10 @@ from reports.document.page.blocks import (
 from reports.document.page.charts import axis_name
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html, titled_html
-from reports.document.text.terms import Terms
-from reports.document.text.texts import of_digits
+from reports.document.text.terms import Terms, with_unit
+from reports.document.text.texts import limits, of_digits
 from reports.model.blocks import ScalarTable
-from reports.shared.russian import MINUS, capital, fixed
+from reports.shared.russian import capital, fixed, uncapital
 from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
 _MOST_DECIMALS = 8  # of values in passes
@@ -73,7 +73,7 @@ def cycle(chapter: Chapter) -> Markup:
         tables=_tables(chapter),
         corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
         characteristic=partial(_characteristic, chapter),
-        outside=_outside(terms),
+        outside=[titled_html(uncapital(_range_of(terms, key)[0])) for key in _outside(terms)],
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
         residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
     )
@@ -197,16 +197,33 @@ def _range_keys(terms: Terms) -> list[str]:
     return [k.removeprefix(prefix) for k in terms.model.scalars if k.startswith(prefix)]
 
 
-def _outside(terms: Terms) -> list[Markup]:
-    """What lies outside its usual limits, without its unit."""
+def _outside(terms: Terms) -> list[str]:
+    """Names of the results outside their usual limits."""
     inside = next(
         block.verdicts[0] for block in terms.model.blocks
         if isinstance(block, ScalarTable) and block.verdicts and block.id == "cycle_ranges"
     )  # fmt: skip
-    keys = [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != inside]
-    notes = (terms.model.scalars[f"range_value_{key}"].note for key in keys)
-    titles = (note.partition(": обычно ")[0].partition(", ")[0] for note in notes)
-    return [titled_html(title[:1].lower() + title[1:]) for title in titles]
+    return [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != inside]
+
+
+def _range_of(terms: Terms, key: str) -> tuple[str, str, str, str]:
+    """Title with the symbol, unit, value and usual limits of a result, in print."""
+    title, _, usual = terms.model.scalars[f"range_value_{key}"].note.partition(": обычно ")
+    title, _, unit = title.partition(", ")
+    value = terms.value(f"range_value_{key}")
+    shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
+    return title, unit, shown, limits(usual)
+
+
+def outside_lines(terms: Terms, told: set[str]) -> list[Markup]:
+    """Results outside their usual limits, with value and limits, but for those told elsewhere."""
+    lines = []
+    for key in _outside(terms):
+        if key not in told:
+            title, unit, shown, usual = _range_of(terms, key)
+            words = titled_html(uncapital(title)), with_unit(shown, unit), usual
+            lines.append(Markup("{} {} (обычно {})").format(*words))
+    return lines
 
 
 def _ranges(terms: Terms) -> TableBlock:
@@ -218,12 +235,7 @@ def _ranges(terms: Terms) -> TableBlock:
     ]
     rows = []
     for key in _range_keys(terms):
-        scalar = terms.model.scalars[f"range_value_{key}"]
-        title, _, usual = scalar.note.partition(": обычно ")
-        value = terms.value(f"range_value_{key}")
-        shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
-        verdict = str(terms.values.scalars[f"range_{key}"])
-        low, _, high = usual.partition("…")
-        limits = (low if low == high else usual).replace("-", MINUS)
-        rows.append([titled_html(title), shown, limits, verdict])
+        title, unit, shown, usual = _range_of(terms, key)
+        name = titled_html(f"{title}, {unit}" if unit else title)
+        rows.append([name, shown, usual, str(terms.values.scalars[f"range_{key}"])])
     return table_block(columns, rows)

@@ -16,7 +16,7 @@ from reports.document.chapters.chapter import (
     relevant_chapters,
     worst_running,
 )
-from reports.document.chapters.rationale import judge
+from reports.document.chapters.rationale import judge, several_rods
 from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.charts import Row
@@ -191,6 +191,7 @@ def _mass_notes(chapter: Chapter) -> Markup:
     # What the chapter on the data judges is not judged twice.
     written = "rationale" in relevant_chapters(chapter.input)
     told = {each.reason.key for each in judge(chapter)} if written else set()
+    shown = [v for v in verdicts if _RATIOS[v.key.removesuffix("_fits")] not in told]
     return chapter.page(
         "masses",
         plan=chapter.scalars("Массы и шатун", keys, size="dense"),
@@ -198,11 +199,9 @@ def _mass_notes(chapter: Chapter) -> Markup:
         estimated=given.estimate_fuel is not None,
         weighed=given.rod_weighed_small_end_kg is not None,
         swung=given.swing_edges_mm is not None,
-        outside=[
-            _outside(chapter.terms, verdict.key, verdict.note)
-            for verdict in verdicts
-            if _RATIOS[verdict.key.removesuffix("_fits")] not in told
-        ],
+        outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in shown],
+        of_one_rod=[_RATIOS[v.key.removesuffix("_fits")] for v in shown] == ["throw_mass"]
+        and several_rods(chapter.input),
     )
 
 

@@ -9,7 +9,14 @@ from functools import partial
 from markupsafe import Markup
 
 from kshm.engine.arrangement import rods_beside
-from reports.document.chapters.chapter import Chapter, Prototype, pin_stems, worst_pin
+from reports.document.chapters import cycle
+from reports.document.chapters.chapter import (
+    Chapter,
+    Prototype,
+    pin_stems,
+    relevant_chapters,
+    worst_pin,
+)
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
@@ -19,9 +26,10 @@ from reports.formula.numeric import evaluate
 from reports.inputs.checks.bands import stated_kind
 from reports.inputs.firing import arrangement_of
 from reports.inputs.reasons import REASONS, Reason
-from reports.inputs.sections.input_file import PrototypeSection
+from reports.inputs.sections.input_file import InputFile, PrototypeSection
 from reports.inputs.to_si.masses import Sizes
 from reports.shared.russian import NBSP, fixed, short, uncapital
+from reports.tables.cycle_members import ranges_of, section_of
 
 _NEAR = 1e-9  # a value on the end of its span is inside
 
@@ -108,6 +116,7 @@ def rationale(chapter: Chapter) -> Markup:
         plan=TablePlan(partial(_table, judged, any(each.other is not None for each in judged)),
                        "Принятые данные и обычные пределы", size="dense", lined=True),
         outside=[each.line for each in judged if each.verdict != "в пределах"],
+        known_kind=bool(stated_kind(chapter.input)),
         compared=prototype is not None,
         prototype=prototype.name if prototype else "",
         pairs=TablePlan(partial(_main_table, pairs), "Двигатель и прототип") if pairs else None,
@@ -168,17 +177,24 @@ def _denser(pairs: list[tuple[Main, float, float]]) -> str:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """What of the data lies outside its usual range, with the range, in a line."""
-    outside = [each for each in judge(chapter) if each.verdict != "в пределах"]
-    if not outside:
-        return Markup("принятые данные лежат в обычных пределах")
-    parts = (
+    """What of the data and of the cycle lies outside its usual range, with the range, in a line."""
+    parts = [
         Markup("{} {} (обычно {})").format(
             uncapital(each.reason.title), with_unit(each.shown, each.reason.unit), each.usual
         )
-        for each in outside
-    )
+        for each in judge(chapter) if each.verdict != "в пределах"
+    ]  # fmt: skip
+    found = "cycle" in relevant_chapters(chapter.input)
+    if found:
+        parts += cycle.outside_lines(chapter.terms, set(_OF_CYCLE.values()))
+    if not parts:
+        also = " и результаты расчёта цикла" if found else ""
+        return Markup(f"принятые данные{also} лежат в обычных пределах")
     return Markup("вне обычных пределов: ") + Markup("; ").join(parts)
+
+
+# Reasons that the chapter on the cycle holds against limits too, by the names it has for them.
+_OF_CYCLE = {"peak": "cyc_p_z", "efficiency": "cyc_eta_m"}
 
 
 def judge(chapter: Chapter) -> Iterator[Judged]:
@@ -188,13 +204,20 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     bore = 2000 * float(evaluate("sqrt(F_piston/pi)", number))
     sizes = Sizes(bore, 1000 * number("r_crank"), 1000 * number("L_rod"))
     kind, times = stated_kind(model), sizes.heavier
-    several = rods_beside(arrangement_of(model), 0) > 1
+    section, several = section_of(model), several_rods(model)
+    by_cycle = {} if section is None else {r.name: (r.low, r.high) for r in ranges_of(section)}
     for reason in REASONS:
         own = _of_worst_pin(reason, chapter)
         value = _value(own.value, number)
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
-            yield Judged(own, value, other, *reason.span(kind, times))
+            span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
+            yield Judged(own, value, other, *span)
+
+
+def several_rods(model: InputFile) -> bool:
+    """Whether a throw bears rods side by side: some spans are of a throw with one rod."""
+    return rods_beside(arrangement_of(model), 0) > 1
 
 
 def _of_worst_pin(reason: Reason, chapter: Chapter) -> Reason:

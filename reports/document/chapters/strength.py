@@ -14,6 +14,7 @@ from reports.document.page.blocks import TableBlock, TableColumn, grid_table, ta
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms
+from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.model.blocks import Scalar, ScalarTable
 from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
@@ -159,7 +160,9 @@ def _ranges(terms: Terms, block: ScalarTable) -> TableBlock:
     for value, verdict in _pairs(block):
         title, _, usual = value.note.partition(": обычно ")
         shown = fixed(terms.value(value.key), _RANGED)
-        rows.append([titled_html(title), shown, usual, str(terms.values.scalars[verdict.key])])
+        rows.append(
+            [titled_html(title), shown, limits(usual), str(terms.values.scalars[verdict.key])]
+        )
     return table_block(
         [TableColumn("Величина", 4.2, text=True), TableColumn("Значение", 1.4),
          TableColumn("Обычно", 1.8), TableColumn("Вывод", 1.8)], rows,

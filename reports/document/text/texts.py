@@ -218,3 +218,11 @@ def quarters(text: str) -> int:
 def is_number(text: str) -> bool:
     """Whether a text consists of signs of numbers only, whose widths are known."""
     return all(char in _QUARTERS for char in text)
+
+
+def limits(usual: str) -> str:
+    """Usual limits in print: of a span from zero the upper end, of an empty one its value."""
+    low, _, high = usual.partition("…")
+    if low == high:
+        return low
+    return f"до {high}" if low == "0" else usual.replace("-", MINUS)

@@ -1,5 +1,8 @@
 """What a supervisor marks in the chapters: numbers against sentences, symbols, limits."""
 
+import html
+import itertools
+import re
 
 import pytest
 
@@ -65,3 +68,56 @@ def test_limits_of_a_throw_with_one_rod_are_called_so():
     said = "Пределы относятся к колену с одним шатуном"
     assert said in words_of("yamz-236")
     assert said not in text_of(engine(crankshaft__pin_mass_kg=0.1, report__detail="short"))
+
+
+# --- the working cycle ---
+
+
+def formulas_of(page):
+    """TeX of the formulas of a page, in their order."""
+    return [html.unescape(tex) for tex in re.findall(r'data-tex="([^"]*)"', page)]
+
+
+@pytest.mark.parametrize("name", ["cycle-turbo-diesel", "cycle-petrol"])
+def test_symbols_of_the_cycle_are_those_of_its_tables(name):
+    """The coefficients a, b, c of the characteristic were called a_N, b_N, c_N below it."""
+    page = page_of(name, "course")
+    text, formulas = plain(page), " ".join(formulas_of(page))
+    assert "a_N + b_N x - c_N x^2" in formulas and "a_g + b_g x + c_g x^2" in formulas
+    assert "= H_z" in formulas and "левая часть уравнения" not in text
+    columns = {"w": "вес верхней формулы", "h": "отношение (Q + Uz", "Δc": "добавка к истинной",
+               "cb": "истинная теплоёмкость при tb"}  # fmt: skip
+    for symbol, meaning in columns.items():
+        assert f"{symbol} — {meaning}" in text, symbol
+
+
+def test_passes_that_changed_nothing_are_not_printed():
+    for which in ("сжатия", "расширения"):
+        rows = printed_rows(page_of("cycle-turbo-diesel", "course"),
+                            f"Последовательные приближения показателя политропы {which}")  # fmt: skip
+        alike = [one[1:] == other[1:] for one, other in itertools.pairwise(rows)]
+        assert not any(alike[:-1]) and alike[-1]
+
+
+@pytest.mark.parametrize("name", ["cycle-turbo-diesel", "cycle-petrol", "cycle-tractor-diesel"])
+def test_the_temperature_of_residual_gases_is_above_or_below(name):
+    text = words_of(name, "course")
+    rows = printed_rows(page_of(name, "course"), "Проверки расчёта")
+    gap = next(row[1] for row in rows if row[0].startswith("Температура Tr"))
+    assert f"она {'ниже' if gap.startswith('−') else 'выше'} принятой на" in text
+    assert not re.search(r"отличается от принятой|принятой на −", text)
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["по правилу Ньютона", "начало видимого расширения", "Остаток включает", "Проход"],
+)
+def test_words_that_no_engineer_writes_of_a_cycle(words):
+    for name in ("cycle-turbo-diesel", "cycle-petrol"):
+        assert words not in words_of(name, "course")
+
+
+def test_constants_of_the_turbocharger_are_told():
+    said = "1,005 кДж/(кг·К) для воздуха и 1,15 кДж/(кг·К) для газов"
+    assert said in words_of("cycle-turbo-diesel", "course")
+    assert said not in words_of("cycle-petrol", "course")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -23,7 +24,7 @@ from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import limits, of_digits
-from reports.model.blocks import ScalarTable
+from reports.model.blocks import Grid, ScalarTable
 from reports.shared.russian import capital, fixed, uncapital
 from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
@@ -33,12 +34,12 @@ _MOST_DECIMALS = 8  # of values in passes
 _EQUATIONS = {
     "n1": r"n_1 - 1 = g(n_1) = \dfrac{8{,}315}{20{,}6 + 0{,}002638\,(t_a + t_c)},"
     r"\quad T_c = T_a\,\varepsilon^{n_1 - 1}",
-    "petrol": r"\xi_z q + U_c = \mu\, c''_{vz}\, t_z",
-    "diesel": r"\xi_z q + U_c + R\,[\lambda_p t_c + 273\,(\lambda_p - \mu)]"
-    r" = \mu\,(c''_{vz} + R)\, t_z",
+    "petrol": r"\mu\, c''_{vz}\, t_z = \xi_z q + U_c = H_z",
+    "diesel": r"\mu\,(c''_{vz} + R)\, t_z = "
+    r"\xi_z q + U_c + R\,[\lambda_p t_c + 273\,(\lambda_p - \mu)] = H_z",
     "n2": r"n_2 - 1 = \dfrac{R\,(T_z - T_b)}{Q + U_z - U_b},"
     r"\quad Q = \dfrac{(\xi_b - \xi_z)\, q}{\mu},\quad T_b = \dfrac{T_z}{\delta^{n_2 - 1}}",
-    "speed": r"M_e = M_N\,(a + b x - c x^2),\quad g_e = g_N\,(a' + b' x + c' x^2)",
+    "speed": r"M_e = M_{eN}\,(a_N + b_N x - c_N x^2),\quad g_e = g_{eN}\,(a_g + b_g x + c_g x^2)",
 }
 _BALANCE = ("useful", "exhaust", "incomplete", "rest")
 _ENERGIES = ("cyc_w_c", "cyc_U_air", "cyc_U_rest", "cyc_U_c", "cyc_content", "cyc_t_root")
@@ -75,7 +76,9 @@ def cycle(chapter: Chapter) -> Markup:
         characteristic=partial(_characteristic, chapter),
         outside=[titled_html(uncapital(_range_of(terms, key)[0])) for key in _outside(terms)],
         turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
-        residual_gap=fixed(terms.value("value_cycle_Tr"), 1),
+        residual_gap=_gap(terms.value("value_cycle_Tr")),
+        residual_above=terms.value("value_cycle_Tr") > 0,
+        expansion_symbols=_symbols(terms, chapter.grid("cycle_n2"), _OF_EXPANSION),
     )
 
 
@@ -163,7 +166,7 @@ def _coefficients(terms: Terms) -> TableBlock:
 def _passes(chapter: Chapter, name: str) -> TableBlock:
     """A grid of passes turned: one row a pass."""
     grid, terms = chapter.grid(name), chapter.terms
-    columns = [TableColumn("Проход")]
+    columns = [TableColumn("Приближение", 1.3)]
     cells: list[list[str]] = [[str(i + 1) for i in range(len(grid.labels))]]
     for row in grid.rows:
         q = row.quantity
@@ -171,7 +174,29 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
         columns.append(TableColumn(symbol_head(tex, q.unit_label)))
         digits = replace(q.digits, decimals=min(q.digits.decimals, _MOST_DECIMALS))
         cells.append([of_digits(terms.value(c.key), digits) for c in row.cells if c is not None])
-    return table_block(columns, list(zip(*cells, strict=True)))
+    rows = list(zip(*cells, strict=True))
+    while len(rows) > 2 and rows[-1][1:] == rows[-2][1:] == rows[-3][1:]:
+        rows.pop()  # the last two that are alike show that the passes have converged
+    return table_block(columns, rows)
+
+
+# Columns of the passes for n₂ whose symbols stand nowhere else.
+_OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
+
+
+def _symbols(terms: Terms, grid: Grid, names: Sequence[str]) -> Markup:
+    """What symbols of a grid mean, in the order of its rows."""
+    words = [
+        Markup("{} — {}").format(inline_html(row.quantity.tex), titled_html(row.quantity.title))
+        for row in grid.rows if row.of in names
+    ]  # fmt: skip
+    return Markup("; ").join(words)
+
+
+def _gap(percent: float) -> str:
+    """Size of a difference in print; empty where it prints as zero."""
+    shown = fixed(abs(percent), 1)
+    return "" if shown == fixed(0.0, 1) else shown
 
 
 def _balance(terms: Terms) -> TableBlock:

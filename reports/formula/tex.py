@@ -137,6 +137,15 @@ def _is_tolerance(node: ast.expr) -> bool:
     )
 
 
+def _is_angle(node: ast.expr) -> bool:
+    """Whether an inverse function gives the value, which is an angle of itself."""
+    calls = (each.func for each in ast.walk(node) if isinstance(each, ast.Call))
+    return any(isinstance(f, ast.Name) and f.id in _INVERSE for f in calls)
+
+
+_INVERSE = {"asin", "acos", "atan", "atan2"}
+
+
 def _is_long(node: ast.expr, text: str) -> bool:
     """Whether the numerator is a sum too wide for a line."""
     return (
@@ -166,6 +175,12 @@ class _Printer:
         if level >= least and not text.startswith("-"):
             return text
         return rf"\left({text}\right)"
+
+    def _first(self, node: ast.expr) -> str:
+        """First factor: −a·b, not (−a)·b; the whole product has the minus then."""
+        text, level = self._emit(node)
+        is_sum = level < _PRODUCT and not isinstance(node, ast.UnaryOp)
+        return rf"\left({text}\right)" if is_sum else text
 
     def _emit(self, node: ast.expr) -> tuple[str, int]:
         match node:
@@ -217,9 +232,7 @@ class _Printer:
             case ast.Sub():
                 return f"{self.text(left)} - {self._wrap(right, _PRODUCT)}", _SUM
             case ast.Mult():
-                first, second = self._wrap(left, _PRODUCT), self._wrap(right, _PRODUCT)
-                if isinstance(left, ast.UnaryOp):  # −a·b, not (−a)·b
-                    first = self.text(left)
+                first, second = self._first(left), self._wrap(right, _PRODUCT)
                 return f"{first}{self._times(left, first, second)}{second}", _PRODUCT
             case ast.Div() if _is_long(left, self.text(left)):
                 # Brackets without \left may be broken between lines, a fraction may not.
@@ -294,7 +307,10 @@ class _Printer:
                 return text, level
             return (rf"{text}^{{\circ}}", _ATOM) if level == _ATOM else (text, level)
         if name == "deg":
-            return self._emit(args[0])
+            # Inverse functions are read in degrees at once, other angles are turned into them.
+            if self.numbers is None or _is_angle(args[0]):
+                return self._emit(args[0])
+            return rf"{self._first(args[0])} \cdot \dfrac{{180}}{{\pi}}", _PRODUCT
         if name in SCALE_FUNCTIONS:
             return self._scale(name, args[0])
         if name == "sqrt":

@@ -2,6 +2,7 @@
 
 import html
 import itertools
+import math
 import re
 
 import pytest
@@ -93,8 +94,8 @@ def test_symbols_of_the_cycle_are_those_of_its_tables(name):
 
 def test_passes_that_changed_nothing_are_not_printed():
     for which in ("сжатия", "расширения"):
-        rows = printed_rows(page_of("cycle-turbo-diesel", "course"),
-                            f"Последовательные приближения показателя политропы {which}")  # fmt: skip
+        caption = f"Последовательные приближения показателя политропы {which}"
+        rows = printed_rows(page_of("cycle-turbo-diesel", "course"), caption)
         alike = [one[1:] == other[1:] for one, other in itertools.pairwise(rows)]
         assert not any(alike[:-1]) and alike[-1]
 
@@ -117,7 +118,75 @@ def test_words_that_no_engineer_writes_of_a_cycle(words):
         assert words not in words_of(name, "course")
 
 
-def test_constants_of_the_turbocharger_are_told():
-    said = "1,005 кДж/(кг·К) для воздуха и 1,15 кДж/(кг·К) для газов"
-    assert said in words_of("cycle-turbo-diesel", "course")
-    assert said not in words_of("cycle-petrol", "course")
+@pytest.mark.parametrize("given", [True, False])
+def test_constants_of_the_turbocharger_are_told(given):
+    """Of those that the input gives the table of the data tells."""
+    more = {"cycle__exhaust_heat_kj_kg_k": 1.16, "cycle__turbine_outlet_ratio": 1.05}
+    model = engine(source="cycle-turbo-diesel", report__detail="course", **(more if given else {}))
+    text = text_of(model)
+    assert ("1,005 и 1,15 — теплоёмкости воздуха и газов" in text) == (not given)
+    assert ("1,005 — теплоёмкость воздуха" in text) == given
+    assert ("принято близким к атмосферному" in text) == (not given)
+    assert "Здесь 1,005" not in words_of("cycle-petrol", "course")
+
+
+# --- torsion, film and safety of the shaft ---
+
+
+def number(text):
+    return float(text.replace("{,}", ".").replace(",", ".").replace("−", "-").replace("\xa0", ""))
+
+
+def test_the_amplitude_of_a_resonance_follows_from_its_substitution():
+    """In radians by the formula, in degrees in print: the factor is written."""
+    page = page_of("mwm-6", "course")
+    tex = next(each for each in formulas_of(page) if each.startswith("A_{1} = "))
+    tex = tex.replace(r"\,", "")
+    found = re.fullmatch(r"A_\{1\} = \\dfrac\{(\S+) \\cdot (\S+)\}\{(\S+)\} \\cdot \\dfrac\{180\}\{"
+                         r"\\pi\} = ([\d{},]+)\^\{\\circ\}", tex)  # fmt: skip
+    assert found, tex
+    moment, phases, loss, shown = map(number, found.groups())
+    assert shown == pytest.approx(math.degrees(moment * phases / loss), rel=2e-4)
+
+
+def test_symbols_of_the_train_and_its_stress_are_told():
+    text = text_of(engine(report__detail="course", torsion__stress_allowed_mpa=30.0))
+    for symbol in ("Jk — момент инерции", "ck — жёсткость", "Wp — его полярный", "bk — сопротивл",
+                   "Mν — амплитуда момента"):  # fmt: skip
+        assert symbol in text, symbol
+    assert "ωГ2" not in text and re.search(r"τ1,1 = [\d,]+ МПа", text)
+
+
+def test_masses_about_a_node_have_names():
+    text = words_of("mwm-6", "course")
+    train = printed_rows(page_of("mwm-6", "course"), "Собственные частоты и формы")
+    names = [row[0].replace("\xa0", " ") for row in train]
+    found = re.findall(r"между массами (.*?)\. ", text)
+    named = re.findall(r"(\d+) и \d+ \(([^)]*?) и ([^)]*?)\)", " ".join(found))
+    assert named
+    for k, first, second in named:
+        assert (first, second) == (names[int(k) - 1], names[int(k)])
+
+
+def test_safety_by_bending_follows_from_the_printed_stresses():
+    """A mean below zero counts by its size; stresses of both planes are printed."""
+    page = page_of("d-240-bearings", "course")
+    text, data = plain(page), printed_rows(page, "Исходные данные для расчёта")
+    given = {row[1]: number(row[2]) for row in data if re.fullmatch(r"−?[\d,]+", row[2])}
+    rows = {re.split(r",| —", row[0].replace("\xa0", " "))[0]: row[1:]
+            for row in printed_rows(page, "Запасы прочности шатунных шеек")}  # fmt: skip
+    limit = number(re.search(r"σ−1 = (\d+) МПа", text)[1])
+    assert r"\left" not in text and any(r"|\sigma_m|" in tex for tex in formulas_of(page))
+    for swing, mean, shape, safety in (
+        ("σa", "σm", "ασо", "nσ о"),
+        ("σa к", "σm к", "ασг", "nσ г"),
+    ):
+        factor = 1 + given["qσ"] * (given[shape] - 1)
+        factor /= given["εм"] * given["εп"]
+        for a, m, n in zip(*(map(number, rows[key]) for key in (swing, mean, safety)), strict=True):
+            assert n == pytest.approx(limit / (factor * a + given["ψσ"] * abs(m)), abs=0.011)
+
+
+def test_symbols_of_the_film_are_told():
+    text = words_of("d-240-bearings", "course")
+    assert "F — его нагрузка" in text and "ωш и ωв — угловые скорости шейки и вкладыша" in text

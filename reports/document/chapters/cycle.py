@@ -64,6 +64,8 @@ def cycle(chapter: Chapter) -> Markup:
         equations=_EQUATIONS,
         petrol=petrol,
         boosted=is_boosted(section),
+        given_heat=section.exhaust_heat_kj_kg_k is not None,
+        given_outlet=section.turbine_outlet_ratio is not None,
         friction=friction_by_speed(section),
         design=terms.has("cyc_D"),
         given_law=section.adaptability is not None,

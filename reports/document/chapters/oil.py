@@ -35,7 +35,7 @@ _MOTION = (
 )
 _SAFETY = (
     r"n_{\sigma} = "
-    r"\dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon_{\sigma} + \psi_{\sigma}\sigma_m}, "
+    r"\dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon_{\sigma} + \psi_{\sigma}|\sigma_m|}, "
     r"\qquad n_{\mathrm{о,\,г}} = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
 )
 CLASS_RULE = 1.15  # what the rule asks of its ratio
@@ -180,7 +180,8 @@ _CLOSED = 1e-3
 _SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
 _SAFE_PINS = (
     "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
-    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1", "safe_pin_bend_fillet1",
+    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1",
+    "safe_pin_crank_a1_MPa", "safe_pin_crank_m1_MPa", "safe_pin_bend_fillet1",
     "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
 )  # fmt: skip
 

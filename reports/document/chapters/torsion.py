@@ -38,6 +38,8 @@ _MOTION = (
     r"\omega = \nu\,\Omega"
 )
 _NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}
+# Rows of the train; bounds of the frequencies are of the sheet alone.
+_TRAIN = ("tor_J_kgm2", "tor_c_Nm_rad", "tor_W_cm3", "tor_b_Nms_rad")
 _DIGITS = 3  # of an energy, which is 4896 J for a ship's engine and 0.0012 J for a model's
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
@@ -92,8 +94,9 @@ def torsion(chapter: Chapter) -> Markup:
         own=bool(section.masses),
         free=section.ground_nm_rad + (section.masses[-1].stiffness_nm_rad
                                       if section.masses else 0) == 0,
-        train=TablePlan(partial(grid_table, terms, chapter.grid("torsion_train")),
+        train=TablePlan(partial(grid_table, terms, chapter.grid("torsion_train"), _TRAIN),
                         "Крутильная схема вала"),
+        least_order=short(float(terms.column("torsion_critical.tor_order")[0])),
         modes=modes,
         apart=terms.has("tor_f1_spread") and terms.value("tor_f1_spread") > _ALIKE,
         forms=TablePlan(partial(_forms, terms, modes), "Собственные частоты и формы", keep=True),
@@ -202,9 +205,14 @@ def _forms(terms: Terms, modes: list[int]) -> TableBlock:
 
 
 def _nodes(terms: Terms, mode: int) -> list[str]:
-    """Places of the nodes: numbers of the masses before and after."""
+    """Places of the nodes: numbers and names of the masses before and after."""
     column = terms.column(f"torsion_forms.tor_node{mode}")
-    return [f"{int(at)} и {int(at) + 1}" for at in column if at > 0]
+    grid = next(block for block in terms.model.blocks if block.id == "torsion_train")
+    labels = getattr(grid, "labels", ())
+    return [
+        f"{k} и {k + 1} ({labels[k - 1]} и {labels[k]})"
+        for k in (int(at) for at in column if at > 0)
+    ]
 
 
 def _holzer_row(terms: Terms) -> str:

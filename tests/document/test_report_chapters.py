@@ -8,7 +8,7 @@ import re
 import pytest
 
 from reports.document.text.texts import limits
-from tests.document.bare_pages import plain
+from tests.document.bare_pages import bare_page, plain
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -190,3 +190,114 @@ def test_safety_by_bending_follows_from_the_printed_stresses():
 def test_symbols_of_the_film_are_told():
     text = words_of("d-240-bearings", "course")
     assert "F — его нагрузка" in text and "ωш и ωв — угловые скорости шейки и вкладыша" in text
+
+
+# --- what is given, what follows ---
+
+
+@pytest.mark.parametrize(
+    ("changes", "left"),
+    [
+        ({}, ["lambda", "S"]),  # the crank's radius and the rod's length are given
+        ({"geometry__crank_radius_mm": None, "geometry__stroke_mm": 94.0}, ["r", "lambda"]),
+        ({"geometry__rod_length_mm": None, "geometry__lambda": 0.28}, ["L", "S"]),
+        ({"geometry__crank_radius_mm": None, "geometry__stroke_mm": 94.0,
+          "geometry__rod_length_mm": None, "geometry__lambda": 0.28}, ["r", "L"]),
+        ({"geometry__crank_radius_mm": None, "geometry__lambda": 0.28}, ["r", "S"]),
+    ],
+)  # fmt: skip
+def test_a_given_size_does_not_follow_from_itself(changes, left):
+    """S = 2r was printed where r is half of the given stroke, λ = r/L where L is r/λ."""
+    page = bare_page(engine(report__detail="course", **changes))
+    symbols = [tex.partition(" = ")[0] for tex in formulas_of(page)]
+    assert symbols[: len(left) + 1] == [*(s.replace("lambda", r"\lambda") for s in left),
+                                        r"F_{\mathrm{п}}"]  # fmt: skip
+
+
+@pytest.mark.parametrize(("layout", "title"), [("offset", "Удвоенный радиус кривошипа"),
+                                               ("basic", "Ход поршня")])  # fmt: skip
+def test_the_stroke_of_an_offset_engine_is_not_twice_the_radius(layout, title):
+    model = engine(layout, geometry__crank_radius_mm=None, geometry__stroke_mm=94.0,
+                   report__detail="course")  # fmt: skip
+    page = bare_page(model)
+    rows = {row[0]: row[1:3] for row in printed_rows(page, "Исходные данные для расчёта")}
+    assert rows[title] == ["2r" if layout == "offset" else "S", "94"]
+    assert f"{title[0].lower()}{title[1:]} — 94 мм" in plain(page)
+
+
+def test_the_factor_of_a_volume_is_told_beside_it():
+    """It stood after the displacement of the piston, where 10³ is of millimetres."""
+    text = text_of(engine("offset"))
+    at = text.index("переводит м³ в дм³" if "переводит м³" in text else "переводит м3 в дм3")
+    assert (
+        at < text.index("Угловая скорость вала и средняя скорость поршня") < text.index("При φ =")
+    )
+
+
+@pytest.mark.parametrize(("layout", "said"), [("split", False), ("v_six", True), ("basic", True)])
+def test_forces_of_turned_halves_of_a_pin_are_not_added_as_numbers(layout, said):
+    page = bare_page(engine(layout, report__detail="course"))
+    formulas = formulas_of(page)
+    assert any(tex.startswith("K_r = ") for tex in formulas) == said
+    assert ("не складываются арифметически" in plain(page)) == (not said)
+
+
+@pytest.mark.parametrize(("layout", "words"), [("v_six", "сумма сил вдоль двух шатунов"),
+                                               ("basic", "сила вдоль шатуна")])  # fmt: skip
+def test_the_vector_of_a_pin_with_two_rods_is_their_sum(layout, words):
+    assert f"Вектор от полюса O — {words}, от" in text_of(engine(layout, report__detail="course"))
+
+
+def test_forces_that_are_zero_stand_in_no_table():
+    """Counterweights across the throw and at the ends of the shaft, where there are none."""
+    for name in ("gots-diesel", "d-240"):
+        page = page_of(name, "course")
+        rows = printed_rows(page, "Центробежные силы колен")
+        assert all(any(cell.strip("0—") for cell in row[1:]) for row in rows)
+        ends = any(re.match(r"C1[0-3],", row[0]) for row in rows)
+        assert ("Знаки при C11 и C13" in plain(page)) == ends
+        assert "Равны нулю и в таблице не показаны: C8, C9" in plain(page)
+
+
+def test_a_force_that_is_printed_as_zero_is_not_put_in_as_a_number():
+    """0,097627 Н stood in the reaction of a bearing beside a table that says 0."""
+    web = {"mass_kg": 0.245, "counterweight_kg": 1.092001}  # all but the rotating masses
+    alone = {"crankshaft__nose_mass_kg": None, "crankshaft__rear_mass_kg": None}
+    model = engine(report__detail="course", crankshaft__webs=[web] * 6, **alone)
+    page = bare_page(model)
+    rows = printed_rows(page, "Пролёты колен и реакции опор от центробежных сил")
+    assert all(set(row[1:]) == {"0"} for row in rows[2:])
+    shown = [tex for tex in formulas_of(page) if re.match(r"A_\{K\(i[^=]* = [\d(\\]", tex)]
+    assert shown and not any("10^{-6}" in tex for tex in shown)
+
+
+@pytest.mark.parametrize("name", ["d-240-bearings", "mwm-6", "gots-diesel"])
+def test_the_aim_names_what_the_chapters_find(name):
+    text = words_of(name, "course")
+    aim = re.search(r"Цель работы — найти (.*?)\. ", text)[1]
+    contents = text[text.index("Содержание ") :][:3000]
+    for chapter, words in (("Крутильные колебания", "крутильные колебания вала"),
+                           ("Масляная плёнка", "толщину масляной плёнки"),
+                           ("Нагрузки на коренные", "нагрузки на шейки")):  # fmt: skip
+        assert (words in aim) == (chapter in contents), (words, aim)
+
+
+def test_the_task_of_a_cycle_names_its_power():
+    text = words_of("cycle-turbo-diesel", "course")
+    task = text[text.index("3. Исходные данные") : text.index("4. Содержание")]
+    assert "заданная эффективная мощность — 70 кВт" in task
+    assert "коэффициент избытка воздуха — 1,45" in task
+
+
+def test_every_abbreviation_is_in_the_list():
+    for name in ("gots-diesel", "d-240"):
+        text = words_of(name, "course")
+        assert text.count("КШМ") > 1 and "КШМ — кривошипно-шатунный механизм" in text
+
+
+@pytest.mark.parametrize(
+    ("layout", "words"),
+    [("basic", "Рабочая длина шатунной шейки"), ("v_six", "Рабочая длина всей шатунной шейки")],
+)
+def test_the_length_of_a_pin_under_one_rod_is_not_called_whole(layout, words):
+    assert words in text_of(engine(layout, report__detail="course"))

@@ -50,9 +50,31 @@ def kinematics(chapter: Chapter) -> Markup:
         f"Схема {word} кривошипно-шатунного механизма: а{NBSP}— размеры и углы; б{NBSP}— силы",
     )
     half = terms.value("P3_1.s_mm", 90.0) / (1000 * terms.value("S_stroke"))
+    following = {key: words for key, words in _SIZES.items() if key not in _given_sizes(terms)}
     template = "offset" if offset else "kinematics"
-    page = chapter.page(template, sketch=sketch, at=EXAMPLE, half=fixed(half, 3))
+    page = chapter.page(template, sketch=sketch, at=EXAMPLE, half=fixed(half, 3),
+                        following=following)  # fmt: skip
     return page + (chapter.page("articulated") if chapter.shape.articulated else "")
+
+
+# Sizes of the mechanism, one of which follows from another.
+_SIZES = {
+    "r_crank": "радиус кривошипа", "L_rod": "длина шатуна",
+    "lam": "отношение радиуса кривошипа к длине шатуна", "S_stroke": "ход поршня",
+    "F_piston": "площадь поршня",
+}  # fmt: skip
+
+
+def _given_sizes(terms: Terms) -> set[str]:
+    """Sizes of the mechanism that the input gives; those from which they would follow are not."""
+    radius, stroke = terms.has("geometry_crank_radius_mm"), terms.has("geometry_stroke_mm")
+    given = {
+        "r_crank": radius,
+        "L_rod": terms.has("geometry_rod_length_mm"),
+        "lam": terms.has("geometry_lambda"),
+        "S_stroke": stroke or terms.has("cyc_S"),
+    }
+    return {key for key, is_given in given.items() if is_given}
 
 
 _ERRORS = tuple(

@@ -42,13 +42,13 @@ _AIMS = (
     ({"strength"}, "прочность поршня, пальца, шатуна и щёк"),
     ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
 )
-_MOST_AIMS = 4  # of the first that a sentence names
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.
 _TASK = ("engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_stroke_mm",
          "geometry_crank_radius_mm", "geometry_rod_length_mm", "geometry_lambda",
-         "geometry_compression_ratio", "regime_speed_rpm", "regime_indicated_power_kw")  # fmt: skip
+         "geometry_compression_ratio", "regime_speed_rpm", "regime_indicated_power_kw",
+         "cycle_power_kw", "cycle_excess_air", "cycle_boost_ratio")  # fmt: skip
 
 
 def title_page(model: InputFile, style: TitlePage, frame: str | None = None) -> Words:
@@ -107,7 +107,7 @@ def abstract(chapter: Chapter) -> Words:
 def _aim(names: set[str]) -> str:
     """Aim of the work from its chapters; by default the whole mechanism."""
     fitting = [words for chapters, words in _AIMS if chapters & names]
-    aims = (fitting or [words for _, words in _AIMS[1:4]])[:_MOST_AIMS]
+    aims = fitting or [words for _, words in _AIMS[1:4]]
     if " и " in aims[-1]:
         return joined(aims, ", а также ")
     # A turn of speech has a comma at its end.

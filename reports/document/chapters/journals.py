@@ -27,6 +27,7 @@ from reports.document.page.blocks import (
     table_block,
 )
 from reports.document.page.numbering import Figure, TablePlan
+from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
 from reports.formula.parse import names
 from reports.model.shape import pin_figure, pin_table, rays_table
@@ -132,6 +133,7 @@ def journals(chapter: Chapter) -> Markup:
     loads = partial(
         _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
     )  # fmt: skip
+    idle = _idle_forces(chapter)
     return chapter.page(
         "journals",
         scheme=Figure(
@@ -148,7 +150,13 @@ def journals(chapter: Chapter) -> Markup:
         tables=[f"P4_3_{n}" for n in numbers],
         drawn=drawn,
         curves=[f"fig55_{n}" for n in drawn],
-        forces=_throws(chapter, _FORCES, "Центробежные силы колен", size),
+        forces=_throws(
+            chapter, [k for k in _FORCES if k not in idle], "Центробежные силы колен", size
+        ),
+        idle=[
+            inline_html(row.quantity.tex) for row in chapter.grid("throws").rows if row.of in idle
+        ],
+        outer=not {"C10", "C11", "C12", "C13"} <= idle,
         reactions=_throws(
             chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size
         ),
@@ -170,6 +178,16 @@ def _read_by_first(chapter: Chapter) -> set[str]:
     scalars = chapter.model.scalars
     formulas = (scalars[f"throw1_{key}"].expr for key in ("RKCL", "RTCL", "RKCP", "RTCP"))
     return {name for expr in formulas if expr is not None for name in names(expr)}
+
+
+def _idle_forces(chapter: Chapter) -> set[str]:
+    """Centrifugal forces that are printed as zero on every throw."""
+    rows = {row.of: row for row in chapter.grid("throws").rows if row.of in _FORCES}
+    return {
+        key
+        for key, row in rows.items()
+        if not any(chapter.terms.num(cell.key).strip("0,−") for cell in row.cells if cell)
+    }
 
 
 def _throws(chapter: Chapter, keys: Iterable[str], caption: str, size: str) -> TablePlan:

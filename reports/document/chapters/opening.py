@@ -22,7 +22,12 @@ from reports.document.page.blocks import (
 from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import field_title, input_text, plain_number
+from reports.document.text.terms import (
+    field_title,
+    input_text,
+    is_twice_radius,
+    plain_number,
+)
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
 from reports.inputs.sections.gas import TableGasSection
@@ -44,6 +49,7 @@ _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
 _ABBREVIATIONS = (
     ("ВМТ", "верхняя мёртвая точка"),
     ("КПД", "коэффициент полезного действия"),
+    ("КШМ", "кривошипно-шатунный механизм"),
     ("НМТ", "нижняя мёртвая точка"),
 )
 _SYMBOLS = (
@@ -168,7 +174,8 @@ def _general(model: InputFile, fields: Sequence[Field], unused: set[str]) -> Tab
             continue
         if field.path[0] in _OTHERS or field.name in _LEFT_OUT or _is_listed(field):
             continue
-        symbol = inline_html(input_symbol_tex(field.symbol)) if field.symbol else "—"
+        tex = "2r" if is_twice_radius(field, model) else input_symbol_tex(field.symbol or "")
+        symbol = inline_html(tex) if field.symbol else "—"
         value, degrees, _ = input_text(field).partition("°" if field.choices is not None else "\0")
         unit = degrees or ("—" if field.choices is not None else unit_cell(field.unit))
         rows.append([field_title(field, model), symbol, value, unit])

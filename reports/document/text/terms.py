@@ -84,7 +84,16 @@ def field_title(given: Field, model: InputFile) -> str:
         title = title.replace("впрыска (зажигания)", advance)
     if given.path[-1] == "pin_length_mm" and Shape.of(model).split:
         title = title.replace("всей", "каждой половины")
+    if given.path[-1] == "pin_length_mm" and Shape.of(model).single_rods:
+        title = title.replace("всей ", "")
+    if is_twice_radius(given, model):
+        title = "Удвоенный радиус кривошипа"
     return title
+
+
+def is_twice_radius(given: Field, model: InputFile) -> bool:
+    """Whether a field is the stroke of an offset engine, whose real stroke is longer than 2r."""
+    return given.path[-1] == "stroke_mm" and Shape.of(model).offset
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,7 +323,9 @@ class Terms:
         if about.unit == "rad":
             text = to_tex(fixed(float(np.degrees(value)), 3))
             return formulas.Raw(text + r"^{\circ}")
-        noise = about.digits.kind == "fixed" and abs(value) < 10.0 ** -(about.digits.decimals + 9)
+        # A force of a throw that its table prints as zero is none.
+        least = 0.5 if name.startswith("throw") else 1e-9
+        noise = about.digits.kind == "fixed" and abs(value) < least * 10.0**-about.digits.decimals
         return formulas.Raw(_number_tex(0.0 if noise else value))
 
 

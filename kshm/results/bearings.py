@@ -126,7 +126,9 @@ class _Turned:
 def _turned_pins(case: Case, inputs: Bearings, factors: Scalars) -> _Turned:
     diameters = np.array(case.engine.crankshaft.pin_diameters)
     modulus = polar_modulus(diameters, np.array(inputs.pin_bore))
-    swing, fillet, hole = _turned(case.raw.running_pin[case.index], modulus, inputs, factors)
+    swing, fillet, hole = _turned(
+        case.raw.running_pin_statics[case.index], modulus, inputs, factors
+    )
     rows = {
         "safe_pin_W{}_cm3": modulus,
         "safe_pin_a{}_MPa": swing.amplitude,

@@ -117,7 +117,7 @@ def page(**bearings: Any) -> str:
 def test_the_sentences_follow_the_numbers() -> None:
     good, bad = page(), page(form_um=9.0, safety_allowed=9.0)
     assert "плёнки достаточно" in good
-    assert "плёнка с сохранением массы масла тоньше" in good
+    assert "при сохранении массы масла плёнка тоньше" in good
     assert "прочность обеспечена" in good
     assert "запаса плёнки недостаточно" in bad
     assert "возможно касание неровностей" in bad

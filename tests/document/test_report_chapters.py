@@ -5,9 +5,12 @@ import itertools
 import math
 import re
 
+import numpy as np
 import pytest
 
 from reports.document.text.texts import limits
+from reports.inputs.solve_input import refined, solved
+from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
@@ -301,3 +304,69 @@ def test_every_abbreviation_is_in_the_list():
 )
 def test_the_length_of_a_pin_under_one_rod_is_not_called_whole(layout, words):
     assert words in text_of(engine(layout, report__detail="course"))
+
+
+# --- balance and flywheel ---
+
+
+@pytest.mark.parametrize("balanced", [False, True])
+def test_before_and_after_are_of_an_engine_that_something_balances(balanced):
+    more = {"balance__first_shafts_share": 1.0} if balanced else {}
+    text = text_of(engine(report__detail="course", **more))
+    assert ("до уравновешивания" in text) == balanced
+    assert ("На колена добавлены противовесы для доли" in text) == balanced
+    end = end_of(text)
+    said = re.search(r"; ([^;]*) вектор момента 1-го порядка достигает ([\d ,]+) Н·м", end)
+    assert said
+    assert said[1] == ("после уравновешивания" if balanced else "с вращающимися массами")
+    number = said[2].replace(" ", "\xa0")
+    assert text.replace(" ", "\xa0").count(number) > 1
+
+
+def test_the_conclusion_tells_no_vector_that_is_nothing():
+    assert "вектор силы 1-го порядка достигает" not in text_of(engine())
+
+
+@pytest.mark.parametrize(("inertia", "words"), [(0.9, "не меньше"), (0.01, "меньше"), (None, "")])
+def test_the_flywheel_of_the_train_is_held_against_the_required_one(inertia, words):
+    given = {"torsion__stress_allowed_mpa": 30.0, "torsion__flywheel_kg_m2": inertia}
+    model = engine(report__detail="course", **{k: v for k, v in given.items() if v is not None})
+    text = text_of(model)
+    assert ("Маховик, принятый для крутильной схемы" in text) == bool(words)
+    found = re.search(r"— (не меньше|меньше) требуемого\.", text)
+    assert (found[1] if found else "") == words
+    assert ("требуемого" in end_of(text)) == bool(words)
+
+
+def test_the_approximate_inertia_is_told_where_it_is_shown():
+    for detail in ("course", "full"):
+        shown = detail == "full"
+        assert (
+            "приближённая формула, обычная для оценок" in words_of("gots-diesel", detail)
+        ) == shown
+        assert ("погрешность приближённой формулы" in words_of("gots-diesel", detail)) == shown
+
+
+@pytest.mark.parametrize("name", ["yamz-238", "gots-diesel"])
+def test_the_pressure_on_a_pin_is_off_as_its_load_is(name):
+    end = end_of(words_of(name, "course"))
+    load, pressure = re.search(
+        r"кН( \(при шаге 1° — [^)]*\))?, давление на проекцию шейки [\d,]+ МПа"
+        r"(?: \(при шаге 1° — ([\d,]+) МПа\))?", end).groups()  # fmt: skip
+    assert (load is None) == (pressure is None) == (name == "gots-diesel")
+    fine = solved(refined(sample(name))).scalars
+    if pressure:
+        greatest = max(value for key, value in fine.items() if re.fullmatch(r"q_pin\d*_max", key))
+        assert float(pressure.replace(",", ".")) == pytest.approx(greatest, abs=0.006)
+
+
+def test_torsion_of_crankpins_is_by_statics():
+    """Of a split pin the rule of half a torque is far off; safety is found as the ranges are."""
+    model = engine("split", report__detail="course", bearings__safety_allowed=2.0)
+    table = printed_rows(bare_page(model), "Запасы прочности шатунных шеек")
+    rows = {row[0].partition(",")[0]: row[1:] for row in table}
+    solution = solved(model)
+    for pin, shown in enumerate(rows["τa"], 1):
+        swing = np.ptp(solution.columns["P4_5s"][f"Mpins{pin}_Nm"]) / 2
+        modulus = np.pi / 16 * (model.crankshaft.pin_diameter_mm / 10) ** 3
+        assert number(shown) == pytest.approx(swing / modulus, abs=0.006)

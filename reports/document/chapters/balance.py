@@ -16,6 +16,7 @@ from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
     counted_table,
+    scalar_table,
     symbol_head,
     table_block,
 )
@@ -45,6 +46,7 @@ _LISTS = {
         ("rod_model_mass", "rod_model_centre", "rod_model_inertia"),
     ),
 }  # fmt: skip
+_BEFORE = " до уравновешивания"
 _ZERO = f"0,{NBSP}{MINUS}"  # signs of a number that is printed as zero
 _MASSES = "возвратно-поступательно движущиеся массы"
 _DEVICES = {
@@ -71,6 +73,9 @@ def balance(chapter: Chapter) -> Markup:
     }
     devices = asked_devices(chapter.input)
     after, busy = bool(devices - {"suppression"}), devices - _idle(terms)
+    if not chapter.whole:  # the approximate formula is compared there alone
+        name, keys = "inertia", [key for key in _LISTS["inertia"][1] if key != "I_error_max"]
+        tables[name] = chapter.scalars(_LISTS[name][0], keys, size="dense", keep=True)
     tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, busy),
         "orders": TablePlan(
@@ -87,7 +92,8 @@ def balance(chapter: Chapter) -> Markup:
         banks=banks,
         moves=not _is_balanced(terms, "L"),
         pulls=not _is_balanced(terms, "F"),
-        counterweights="counterweight" in devices,
+        # What is left behind the shafts is so with the usual counterweights too.
+        counterweights=after and terms.value("balance_counterweight_share") > 0,
         shafts=[
             (terms.num(f"balance_{key}_share"), of) for key, of in _SHAFTS.items() if key in devices
         ],
@@ -97,6 +103,11 @@ def balance(chapter: Chapter) -> Markup:
         round=all(_is_round(terms, f"{letter}1_before") for letter in "FL"),
         turning=[] if after or not banks else _turning(terms),
         over_turn=_over_turn(terms, after=after),
+        paths={
+            x: chapter.model.charts_by_id[f"balance_{x}_vector"].words + _BEFORE * bool(devices)
+            for x in "FL"
+        },
+        own_flywheel=_own_flywheel(chapter),
         flywheel_needed=is_flywheel_needed(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
@@ -107,6 +118,7 @@ def concluded(chapter: Chapter) -> Markup:
     terms = chapter.terms
     if "balance_orders" not in terms.model.tables:
         return Markup("")
+    stage = "after" if asked_devices(chapter.input) & _DEVICES.keys() else "before"
     free = [
         Markup("{} {} порядка {}").format(what, rich(f"{order:.0f}-го"), terms.val(name, order))
         for name, what in (
@@ -117,18 +129,46 @@ def concluded(chapter: Chapter) -> Markup:
     ]  # fmt: skip
     forces = (
         Markup("{}{} дают {}").format(
-            _MASSES,
-            " до уравновешивания" if asked_devices(chapter.input) & _DEVICES.keys() else "",
-            Markup(joined(free)),
+            _MASSES, _BEFORE * bool(stage == "after"), Markup(joined(free))
         )
         if free
         else rich(f"{_MASSES} не дают свободных сил и моментов 1-го и 2-го порядков")
     )
-    needed = is_flywheel_needed(chapter)
+    needed, own = is_flywheel_needed(chapter), _own_flywheel(chapter)
     wheel = chapter.by_fine("I_flywheel") if needed else "не нужен"
-    return Markup("{}; маховик для неравномерности хода {}{} {}").format(
-        forces, terms.val("balance_irregularity"), ":" if needed else "", wheel
-    )
+    line = Markup("{}{}; маховик для неравномерности хода {}{} {}").format(
+        forces, _whole_first(terms, stage) if free else "", terms.val("balance_irregularity"),
+        ":" if needed else "", wheel,
+    )  # fmt: skip
+    if own:
+        line += Markup(", принятый {} {} требуемого").format(
+            terms.val("torsion_flywheel_kg_m2"), own
+        )
+    return line
+
+
+def _whole_first(terms: Terms, stage: str) -> Markup:
+    """What the first order and the rotating masses give together, for the conclusion."""
+    parts = [
+        Markup("вектор {} 1-го порядка достигает {}").format(
+            what, terms.val(f"{letter}1_{stage}_max")
+        )
+        for letter, what in (("F", "силы"), ("L", "момента"))
+        if terms.num(f"{letter}1_{stage}_max").strip(_ZERO)
+    ]
+    if not parts:
+        return Markup("")
+    with_what = "после уравновешивания" if stage == "after" else "с вращающимися массами"
+    return Markup("; {} {}").format(with_what, Markup(" и ").join(parts))
+
+
+def _own_flywheel(chapter: Chapter) -> str:
+    """How the flywheel of the torsional train is to the required one; empty without either."""
+    section = chapter.input.torsion
+    given = None if section is None else section.flywheel_kg_m2
+    if given is None or not is_flywheel_needed(chapter):
+        return ""
+    return "меньше" if given < chapter.fine_value("I_flywheel") else "не меньше"
 
 
 def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
@@ -207,7 +247,15 @@ def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
         if not _is_balanced(terms, letter) and any(terms.num(key).strip(_ZERO) for key in of):
             keys += of
     caption = "Вращающиеся массы и векторы первого порядка"
-    return {"vectors": chapter.scalars(caption, keys, size="dense", keep=True) if keys else None}
+    build = scalar_table if after else _without_stage
+    plan = TablePlan(partial(build, terms, keys), caption, size="dense", keep=True)
+    return {"vectors": plan if keys else None}
+
+
+def _without_stage(terms: Terms, keys: Sequence[str]) -> TableBlock:
+    """The values of an engine that nothing balances: there is no before and after."""
+    block = scalar_table(terms, [key for key in keys if terms.has(key)])
+    return replace(block, rows=tuple((row[0].replace(_BEFORE, ""), *row[1:]) for row in block.rows))
 
 
 def _turning(terms: Terms) -> list[str]:

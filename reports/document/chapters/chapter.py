@@ -400,12 +400,20 @@ class Chapter:
         return self._beside_fine(with_unit(swing, self.terms.unit(name)), name)
 
     def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
+        if name.startswith("q_"):  # a pressure is off as its load is
+            load = next((e for e in self.grid_errors if e.key == f"R{name[2:]}"), None)
+            return value if load is None else self._beside_load(value, name, load)
         for error in self.grid_errors:
             if error.key == name:
                 where = error.moved_deg if angle else None
                 more = "" if where is None else f" при φ = {fixed(where, 0)}°"
                 return Markup("{} (при шаге 1° — {}{})").format(value, self.fine(error), more)
         return value
+
+    def _beside_load(self, value: Markup, name: str, load: GridError) -> Markup:
+        fine = self.terms.value(name) * load.fine / load.coarse
+        shown = with_unit(of_digits(fine, self.terms.quantity(name).digits), self.terms.unit(name))
+        return Markup("{} (при шаге 1° — {})").format(value, shown)
 
     @cached_property
     def grid_errors(self) -> tuple[GridError, ...]:

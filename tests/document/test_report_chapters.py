@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from reports.document.text.texts import limits
+from reports.inputs.load import load_mapping
 from reports.inputs.solve_input import refined, solved
+from reports.new.generate import generate_engine
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
@@ -370,3 +372,60 @@ def test_torsion_of_crankpins_is_by_statics():
         swing = np.ptp(solution.columns["P4_5s"][f"Mpins{pin}_Nm"]) / 2
         modulus = np.pi / 16 * (model.crankshaft.pin_diameter_mm / 10) ** 3
         assert number(shown) == pytest.approx(swing / modulus, abs=0.006)
+
+
+# --- strength of the parts and names of the data ---
+
+
+@pytest.fixture(scope="module")
+def with_all_sizes():
+    """A new V8 of petrol whose every size of a part is given."""
+    data = generate_engine(8, layout="v", kind="petrol", strength=True).data
+    return load_mapping(data | {"report": {"detail": "course"}}, source="t.toml").model
+
+
+def test_sizes_that_are_given_stand_in_one_table(with_all_sizes):
+    page = bare_page(with_all_sizes)
+    assert printed_rows(page, "Размеры частей</div>") is None and "Размеры частей</div>" not in page
+    assert re.search(r"обозначены на рисунке \d+, значения даны в таблице 1\.", plain(page))
+    usual = bare_page(engine(report__detail="course", strength__kind="diesel"))
+    assert printed_rows(usual, "Размеры частей")
+
+
+def test_stresses_are_named_as_quantities(with_all_sizes):
+    """«Больше обычных пределов: днище поршня» is no sentence."""
+    page = bare_page(with_all_sizes)
+    rows = printed_rows(page, "Напряжения и обычные пределы")
+    nouns = ("Напряжение", "Давление", "Овализация")
+    assert rows and all(row[0].startswith(nouns) for row in rows)
+    outside = [row[0] for row in rows if row[3] != "в пределах" and "…" in row[2]]
+    end = end_of(plain(page))
+    said = re.search(r"больше обычных пределов: ([^;.]*)", end)
+    assert not said or all(part[:1].islower() for part in re.split(", | и ", said[1]) if outside)
+
+
+def test_a_leading_minus_stands_without_brackets(with_all_sizes):
+    """(−m ω²) r (1 + λ) was printed for −m ω² r (1 + λ)."""
+    formulas = formulas_of(bare_page(with_all_sizes))
+    drawn = [tex for tex in formulas if tex.startswith(r"P_{\mathrm{р}} = ")]
+    assert drawn and all(tex.partition(" = ")[2].startswith("-m_") for tex in drawn)
+    assert not any(re.search(r"= \\left\(-", tex) for tex in formulas)
+
+
+def test_materials_have_their_noun(with_all_sizes):
+    table = printed_rows(bare_page(with_all_sizes), "Исходные данные для расчёта")
+    rows = {row[0]: row[2].replace("\xa0", " ") for row in table}
+    assert rows["Материал поршня"] == "алюминиевый сплав" and rows["Материал щёк"] == "сталь 45"
+    data = printed_rows(page_of("d-240-bearings", "course"), "Исходные данные для расчёта")
+    assert ["Материал вала", "сталь\xa045"] in [[row[0], row[2]] for row in data]
+
+
+def test_ratios_are_called_ratios(with_all_sizes):
+    """«Ширина щеки к диаметру цилиндра» is no name of a quantity."""
+    page = bare_page(with_all_sizes)
+    named = [*printed_rows(page, "Исходные данные для расчёта"),
+             *printed_rows(page, "Принятые данные и обычные пределы")]  # fmt: skip
+    of = [
+        row[0] for row in named if re.search(r" (к|на) (диаметру|площадь|частоте|моменту)", row[0])
+    ]
+    assert of and all(title.startswith("Отношение ") for title in of)

@@ -14,7 +14,7 @@ from reports.document.chapters.chapter import Chapter, pin_stems, relevant_chapt
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, material_name
 from reports.inputs.sections.bearings import MATERIALS
 from reports.model.blocks import Grid
 from reports.model.shape import Scope
@@ -75,7 +75,7 @@ def oil(chapter: Chapter) -> Markup:
             getattr(section, f"{of}_clearance_{end}_mm") is not None
             for of in ("pin", "main") for end in ("min", "max")
         ),
-        material=_material(section.material),
+        material=material_name(MATERIALS[section.material].label),
         reynolds=_REYNOLDS, motion=_MOTION, safety_tex=_SAFETY,
         steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
@@ -161,12 +161,6 @@ def concluded(chapter: Chapter) -> Markup:
         thin.text, thin.words, fixed(reserve, 2), side, terms.num("bearings_reserve_allowed"),
         fixed(min(pin, main), 2), part, enough, terms.num("bearings_safety_allowed"),
     )  # fmt: skip
-
-
-def _material(key: str) -> str:
-    """Name of a material with its noun: «сталь 45», «чугун ВЧ 60»."""
-    label = MATERIALS[key].label
-    return f"{'чугун' if label.startswith(('ВЧ', 'СЧ')) else 'сталь'}{NBSP}{label}"
 
 
 def _times(mean: Sequence[float], gaps: Array) -> str:

@@ -13,7 +13,7 @@ from reports.document.figures.parts import parts_sketch
 from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, material_name
 from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.model.blocks import Scalar, ScalarTable
@@ -87,9 +87,9 @@ def strength(chapter: Chapter) -> Markup:
         mends=_MENDS,
         large=_bore_mm(terms) > _USUAL_BORE_MM,
         webs=terms.has("st_web_n"),
-        rod=PART_MATERIALS[section.rod_material].label,
-        bolt=PART_MATERIALS[section.bolt_material].label,
-        web=PART_MATERIALS[section.web_material].label,
+        rod=material_name(PART_MATERIALS[section.rod_material].label),
+        bolt=material_name(PART_MATERIALS[section.bolt_material].label),
+        web=material_name(PART_MATERIALS[section.web_material].label),
         joined=joined,
     )  # fmt: skip
 

@@ -54,10 +54,18 @@ def unit_tex(label: str) -> str:
     return r"\;" + rf"\mathrm{{{text}}}".replace(r"\mathrm{}", "")
 
 
+def material_name(label: str) -> str:
+    """A material with its noun: «сталь 45», «чугун ВЧ 60»; «алюминиевый сплав» has one."""
+    if label[:1].islower():
+        return label
+    return f"{'чугун' if label.startswith(('ВЧ', 'СЧ')) else 'сталь'}{NBSP}{label}"
+
+
 def input_text(given: Field) -> str:
     """An input value as printed: the label of a choice, a number with decimal comma."""
     if given.choices is not None:
-        return given.choices.get(str(given.value), str(given.value))
+        label = given.choices.get(str(given.value), str(given.value))
+        return material_name(label) if str(given.path[-1]).endswith("material") else label
     return given.value if isinstance(given.value, str) else plain_number(float(given.value))
 
 

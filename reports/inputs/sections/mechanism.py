@@ -40,7 +40,7 @@ class MassesSection(Strictly):
     """[masses]: m_j and m_2, or the piston group, the rod and its centre of mass."""
 
     reciprocating_kg: float | None = number(
-        "Масса возвратно-движущихся деталей", "m_j", KG, LEAST_KG, MOST_KG, None
+        "Масса возвратно-поступательно движущихся деталей", "m_j", KG, LEAST_KG, MOST_KG, None
     )
     rod_big_end_kg: float | None = number(
         "Масса шатуна, отнесённая к кривошипу", "m_2", KG, LEAST_KG, MOST_KG, None
@@ -240,11 +240,18 @@ class BalanceSection(Strictly, usual=(Balancing,)):
         "Доля массы шатуна у пальца, если масса шатуна не задана", "m_1/m_ш", NONE, 0.05, 0.8, USUAL
     )
     rod_mass_factor: float = number(
-        "Момент инерции шатуна к моменту двух замещающих масс", "k_ш", NONE, 0.2, 2, USUAL
+        "Отношение момента инерции шатуна к моменту инерции двух замещающих масс",
+        "k_ш",
+        NONE,
+        0.2,
+        2,
+        USUAL,
     )
-    web_width_share: float = number("Ширина щеки к диаметру цилиндра", "b/D", NONE, 0.3, 3, USUAL)
+    web_width_share: float = number(
+        "Отношение ширины щеки к диаметру цилиндра", "b/D", NONE, 0.3, 3, USUAL
+    )
     web_thickness_share: float = number(
-        "Толщина щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1, USUAL
+        "Отношение толщины щеки к диаметру цилиндра", "h/D", NONE, 0.03, 1, USUAL
     )
 
     @model_validator(mode="before")

@@ -56,7 +56,7 @@ class StrengthSection(Strictly):
     oval_form: Literal["curved", "program"] = choice("Овализация пальца", OVALS, "curved")
     bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, "each")
     speed_factor: float = number(
-        "Наибольшая частота к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1
+        "Отношение наибольшей частоты вращения к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1
     )
     piston_material: Literal["aluminium", "iron"] = choice("Материал поршня", PISTONS, "aluminium")
     piston_kg: float | None = number(title_of("st_m_piston"), "m_пк", KG, 0.001, 5000, None)
@@ -71,8 +71,12 @@ class StrengthSection(Strictly):
     ring_play_mm: float = number("Радиальный зазор кольца в канавке", "Δt", MM, 0.05, 20, 0.8)
     oil_holes: float = number("Число масляных отверстий в канавке", "n_м", NONE, 0, 40, 10)
     oil_hole_mm: float = number("Диаметр масляного отверстия в канавке", "d_отв", MM, 0, 30, 1.5)
-    head_play: float = number("Зазор головки к диаметру", "Δ_г/D", NONE, 0.0005, 0.02, 0.007)
-    skirt_play: float = number("Зазор юбки к диаметру", "Δ_ю/D", NONE, 0.0002, 0.01, 0.002)
+    head_play: float = number(
+        "Отношение зазора головки поршня к диаметру цилиндра", "Δ_г/D", NONE, 0.0005, 0.02, 0.007
+    )
+    skirt_play: float = number(
+        "Отношение зазора юбки поршня к диаметру цилиндра", "Δ_ю/D", NONE, 0.0002, 0.01, 0.002
+    )
     cylinder_c: float = number("Температура стенки цилиндра", "t_ц", CELSIUS, 40, 300, 115.0)
     head_c: float = number("Температура головки поршня", "t_г", CELSIUS, 60, 500, 250.0)
     skirt_c: float = number("Температура юбки поршня", "t_ю", CELSIUS, 40, 350, 140.0)
@@ -98,9 +102,15 @@ class StrengthSection(Strictly):
     web_material: Literal["45", "45g2", "40h", "40hn", "18h2n4va"] = choice(
         "Материал щёк", PART_NAMES, "45"
     )
-    rod_concentration: float = number("Концентрация и масштаб шатуна", "k/ε_ш", NONE, 0.5, 6, 1.4)
-    bolt_concentration: float = number("Концентрация и масштаб болта", "k/ε_б", NONE, 0.5, 8, 4.0)
-    web_concentration: float = number("Концентрация и масштаб щеки", "k/ε_щ", NONE, 0.5, 6, 2.0)
+    rod_concentration: float = number(
+        "Отношение коэффициента концентрации к масштабному: шатун", "k/ε_ш", NONE, 0.5, 6, 1.4
+    )
+    bolt_concentration: float = number(
+        "Отношение коэффициента концентрации к масштабному: болт", "k/ε_б", NONE, 0.5, 8, 4.0
+    )
+    web_concentration: float = number(
+        "Отношение коэффициента концентрации к масштабному: щека", "k/ε_щ", NONE, 0.5, 6, 2.0
+    )
     mean_factor: float = number("Приведение асимметричного цикла", "α_σ", NONE, 0, 0.6, 0.2)
     shank_height_mm: float | None = _size("shank_height", "h_ст")
     shank_width_mm: float | None = _size("shank_width", "b_ст")
@@ -112,7 +122,7 @@ class StrengthSection(Strictly):
     bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, 2)
     bolt_mm: float | None = _size("bolt", "d_б")
     bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, 1.0)
-    bolt_preload: float = number("Затяжка к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
+    bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
     bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, 0.2)
     web_width_mm: float | None = _size("web_width", "b_щ")
     web_thickness_mm: float | None = _size("web_thickness", "h_щ")

@@ -188,7 +188,7 @@ def test_the_workbook_is_recalculated_and_the_chapter_says_its_results():
     page = Report(model, values).page("screen")
     assert "Прочность деталей кривошипно-шатунного механизма</h1>" in page
     assert values.scalars["check_range_oval_in0"] == "вне пределов"
-    assert "напряжение овализации (увеличить толщину стенки пальца)." in page
+    assert "напряжение овализации пальца (увеличить толщину стенки пальца)." in page
     for key in ("st_crown_MPa", "st_pin_bend_MPa", "st_shank_Kx", "st_cap_MPa", "st_bolt_max_MPa"):
         assert f'id="eq-n.3a.{key}"' in page, key
     told = own_numbers(model.input).scalars

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from kshm.chain.firing_orders import intervals, rank_firing_orders
 from kshm.nomenclature.digits import scientific
-from reports.document.chapters.chapter import Chapter, are_nothing
+from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
@@ -222,7 +222,15 @@ def _is_balanced(
     force = terms.value("Pj_unit_kN")
     scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
     names = [f"balance.{letter}{side}{end}_{unit}" for side in sums for end in ends]
-    return are_nothing(terms, [name for name in names if terms.has(name)], scale)
+    return _are_nothing(terms, [name for name in names if terms.has(name)], scale)
+
+
+_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+
+
+def _are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
+    """Whether columns are zero compared with a scale in their unit."""
+    return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)
 
 
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:

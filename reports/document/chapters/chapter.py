@@ -74,7 +74,6 @@ def relevant_chapters(model: InputFile) -> set[str]:
 
 
 _PRESSURE = 2  # decimals of the greatest pressure in a sentence
-_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
 
 
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
@@ -170,19 +169,6 @@ def swing_errors(model: InputFile, throws: int) -> list[GridError]:
         for name, key in keys.items()
     ]
     return [error for error in errors if abs(error.percent) > MOST_GRID_ERROR]
-
-
-def are_alike(terms: Terms, columns: Sequence[str]) -> bool:
-    """Whether columns over a cycle hold the same values, at whatever angles."""
-    # The last row repeats the first.
-    first, *others = (np.sort(terms.column(name)[:-1]) for name in columns)
-    scale = float(np.abs(first).max())
-    return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
-
-
-def are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
-    """Whether columns are zero compared with a scale in their unit."""
-    return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)
 
 
 BOOK = "gots"

@@ -12,7 +12,6 @@ from markupsafe import Markup
 from kshm.nomenclature.quantity import roman
 from reports.document.chapters.chapter import (
     Chapter,
-    are_alike,
     leaders,
     pin_stems,
     relevant_chapters,
@@ -77,7 +76,7 @@ def crankpin(chapter: Chapter) -> Markup:
         others=others,
         tables=[pin_table(n) for n in others],
         diagrams=[(pin_figure("fig50", n), pin_figure("fig52", n)) for n in others],
-        same_curves=are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
+        same_curves=_are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
         same_loads=all(
             len(leaders(terms, [key.format(name) for name in names])) == len(names)
             for key, _, _ in (_MOST[0], *_MEAN)
@@ -95,6 +94,14 @@ def crankpin(chapter: Chapter) -> Markup:
         ties=_least_rays(terms, name, rays),
         arc=max(terms.value(f"{name}_arc{i}") for i in range(1, rays + 1)),
     )
+
+
+def _are_alike(terms: Terms, columns: Sequence[str]) -> bool:
+    """Whether columns over a cycle hold the same values, at whatever angles."""
+    # The last row repeats the first.
+    first, *others = (np.sort(terms.column(name)[:-1]) for name in columns)
+    scale = float(np.abs(first).max())
+    return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
 
 
 def _have_equal_gaps(chapter: Chapter) -> bool:

@@ -429,3 +429,15 @@ def test_ratios_are_called_ratios(with_all_sizes):
         row[0] for row in named if re.search(r" (к|на) (диаметру|площадь|частоте|моменту)", row[0])
     ]
     assert of and all(title.startswith("Отношение ") for title in of)
+
+
+@pytest.mark.parametrize(("layout", "detail", "told"), [("four", "full", True),
+                                                        ("four", "course", False),
+                                                        ("offset", "full", False)])  # fmt: skip
+def test_the_table_of_the_step_holds_what_the_note_tells(layout, detail, told):
+    """Unevenness by the law of energy stood in the table of an engine without that chapter."""
+    model = engine(layout, calculation__step_deg=30.0, report__detail=detail)
+    coarse, fine = (solved(each).scalars["delta_speed"] for each in (model, refined(model)))
+    assert abs(coarse / fine - 1) > 0.02
+    rows = printed_rows(bare_page(model), "Результаты, для которых шаг таблиц велик")
+    assert any("неравномерности хода по закону" in row[0] for row in rows) == told

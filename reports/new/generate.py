@@ -152,7 +152,7 @@ def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
     words = "двухтактный" if strokes == 2 else "четырёхтактный"
     # The kind that burns petrol burns gas and ethanol as well: the spark is what they share.
     noun = "Дизель" if kind == "diesel" else "Двигатель с искровым зажиганием"
-    return f"{noun}: {LAYOUTS[layout]}, {words}, цилиндров {cylinders}"
+    return f"{noun}: {LAYOUTS[layout]}, {words}, {cylinders}-цилиндровый"
 
 
 def rods_of(layout: str) -> int:

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 
+from reports.document.chapters.chapter import after_noun
 from reports.document.text.texts import limits
 from reports.inputs.load import load_mapping
 from reports.inputs.solve_input import refined, solved
@@ -441,3 +442,12 @@ def test_the_table_of_the_step_holds_what_the_note_tells(layout, detail, told):
     assert abs(coarse / fine - 1) > 0.02
     rows = printed_rows(bare_page(model), "Результаты, для которых шаг таблиц велик")
     assert any("неравномерности хода по закону" in row[0] for row in rows) == told
+
+
+@pytest.mark.parametrize(("kind", "noun"), [("diesel", "Дизель"), ("petrol", "Двигатель")])
+def test_the_name_of_a_new_engine_can_be_declined(kind, noun):
+    """«Двигателя (рядного, четырёхтактного, цилиндров 3)» is no Russian."""
+    name = generate_engine(3, kind=kind).data["engine"]["name"]
+    assert name.startswith(noun) and "3-цилиндровый" in name
+    assert "четырёхтактного, 3-цилиндрового)" in after_noun(name)
+    assert "четырёхтактный, 3-цилиндровый)" in after_noun(name, genitive=False)

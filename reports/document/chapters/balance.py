@@ -150,8 +150,8 @@ def concluded(chapter: Chapter) -> Markup:
 def _whole_first(terms: Terms, stage: str) -> Markup:
     """What the first order and the rotating masses give together, for the conclusion."""
     parts = [
-        Markup("вектор {} 1-го порядка достигает {}").format(
-            what, terms.val(f"{letter}1_{stage}_max")
+        Markup("вектор {} {} порядка достигает {}").format(
+            what, rich("1-го"), terms.val(f"{letter}1_{stage}_max")
         )
         for letter, what in (("F", "силы"), ("L", "момента"))
         if terms.num(f"{letter}1_{stage}_max").strip(_ZERO)

@@ -70,7 +70,9 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
 
     kind: Literal["diesel", "petrol"] = choice("Вид двигателя", KINDS, structural=True)
     power_kw: float | None = _limited("Заданная эффективная мощность", "N_e зад", KW, "power", None)
-    stroke_bore: float | None = _limited("Отношение S/D", "S/D", NONE, "stroke_bore", None)
+    stroke_bore: float | None = _limited(
+        "Отношение хода поршня к диаметру цилиндра", "S/D", NONE, "stroke_bore", None
+    )
     size_step_mm: float | None = _limited("Шаг ряда размеров D и S", "Δ", MM, "step", None)
     rounding: Literal["nearest", "up"] | None = choice(
         "Округление размеров до ряда", ROUNDINGS, None

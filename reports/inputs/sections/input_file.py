@@ -83,7 +83,14 @@ class GeometrySection(Strictly):
     stroke_mm: float | None = number(title_of("S_stroke"), "S", MM, 10, 4000, None)
     rod_length_mm: float | None = number(title_of("L_rod"), "L", MM, 10, 6000, None)
     lambda_: float | None = number(
-        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, None, alias="lambda", solver="lam"
+        "Отношение радиуса кривошипа к длине шатуна",
+        "λ",
+        NONE,
+        LAMBDA_MIN,
+        LAMBDA_MAX,
+        None,
+        alias="lambda",
+        solver="lam",
     )
     compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
     crank_offset_mm: float | None = number(
@@ -103,7 +110,13 @@ class DesignGeometrySection(Strictly):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
     lambda_: float = number(
-        "Отношение r/L", "λ", NONE, LAMBDA_MIN, LAMBDA_MAX, alias="lambda", solver="lam"
+        "Отношение радиуса кривошипа к длине шатуна",
+        "λ",
+        NONE,
+        LAMBDA_MIN,
+        LAMBDA_MAX,
+        alias="lambda",
+        solver="lam",
     )
     compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
 

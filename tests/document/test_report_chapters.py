@@ -15,6 +15,7 @@ from reports.inputs.solve_input import refined, solved
 from reports.new.generate import generate_engine
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
+from tests.document.substitutions import substitutions
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -451,3 +452,26 @@ def test_the_name_of_a_new_engine_can_be_declined(kind, noun):
     assert name.startswith(noun) and "3-цилиндровый" in name
     assert "четырёхтактного, 3-цилиндрового)" in after_noun(name)
     assert "четырёхтактный, 3-цилиндровый)" in after_noun(name, genitive=False)
+
+
+# --- formulas ---
+
+
+def assert_substitutions_hold(page):
+    """Numbers that are put in have five digits: so sure is what follows from them."""
+    found = list(substitutions(formulas_of(page)))
+    assert len(found) > 40
+    for tex, value, shown, half in found:
+        turned = {value, value + 180, value - 180} if r"\arctg" in tex else {value}
+        near = max(1.2 * half, 3e-4 * abs(shown))
+        assert any(abs(each - shown) <= near for each in turned), (tex, value)
+
+
+@pytest.mark.parametrize("name", ["cycle-turbo-diesel", "cycle-petrol", "mwm-6", "two-stroke"])
+def test_a_substitution_gives_the_printed_result(name):
+    assert_substitutions_hold(page_of(name, "course"))
+
+
+@pytest.mark.parametrize("layout", ["split", "offset", "v_six"])
+def test_a_substitution_of_a_layout_gives_the_printed_result(layout):
+    assert_substitutions_hold(bare_page(engine(layout, report__detail="course")))

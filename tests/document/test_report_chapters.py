@@ -475,3 +475,10 @@ def test_a_substitution_gives_the_printed_result(name):
 @pytest.mark.parametrize("layout", ["split", "offset", "v_six"])
 def test_a_substitution_of_a_layout_gives_the_printed_result(layout):
     assert_substitutions_hold(bare_page(engine(layout, report__detail="course")))
+
+
+def test_sizes_that_no_throw_has_stand_in_no_column():
+    """Arms l_3 and l_4 of a second rod, webs without a thickness."""
+    columns = {name: len(printed_rows(page_of(name, "course"), "Размеры колен, мм")[0])
+               for name in ("gots-diesel", "d-240", "yamz-236")}  # fmt: skip
+    assert columns == {"gots-diesel": 5, "d-240": 7, "yamz-236": 9}

@@ -244,7 +244,10 @@ def _arms(fields: Sequence[Field]) -> TableBlock:
     count = sum(field.name.endswith("_l1_mm") for field in fields)
     heads = [rf"l_{i}" for i in range(1, 7)] + [r"h_{\mathrm{Л}}", r"h_{\mathrm{П}}"]
     columns = [TableColumn("Колено", 1.3), *(TableColumn(inline_html(tex)) for tex in heads)]
-    return table_block(columns, _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count))
+    rows = _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count)
+    # Arms of a second rod and webs that are not given are zero on every throw.
+    shown = [n for n in range(len(columns)) if any(row[n] != "0" for row in rows)]
+    return table_block([columns[n] for n in shown], [[row[n] for n in shown] for row in rows])
 
 
 Points = Sequence[tuple[float, float]]

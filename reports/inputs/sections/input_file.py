@@ -83,7 +83,7 @@ class GeometrySection(Strictly):
     stroke_mm: float | None = number(title_of("S_stroke"), "S", MM, 10, 4000, None)
     rod_length_mm: float | None = number(title_of("L_rod"), "L", MM, 10, 6000, None)
     lambda_: float | None = number(
-        "Отношение радиуса кривошипа к длине шатуна",
+        title_of("lam"),
         "λ",
         NONE,
         LAMBDA_MIN,
@@ -110,7 +110,7 @@ class DesignGeometrySection(Strictly):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
     lambda_: float = number(
-        "Отношение радиуса кривошипа к длине шатуна",
+        title_of("lam"),
         "λ",
         NONE,
         LAMBDA_MIN,

@@ -264,6 +264,7 @@ def test_forces_that_are_zero_stand_in_no_table():
         ends = any(re.match(r"C1[0-3],", row[0]) for row in rows)
         assert ("Знаки при C11 и C13" in plain(page)) == ends
         assert "Равны нулю и в таблице не показаны: C8, C9" in plain(page)
+        assert "C9, C10, C11, C12, C13, C14, C15." in plain(page) or ends
 
 
 def test_a_force_that_is_printed_as_zero_is_not_put_in_as_a_number():
@@ -482,3 +483,10 @@ def test_sizes_that_no_throw_has_stand_in_no_column():
     columns = {name: len(printed_rows(page_of(name, "course"), "Размеры колен, мм")[0])
                for name in ("gots-diesel", "d-240", "yamz-236")}  # fmt: skip
     assert columns == {"gots-diesel": 5, "d-240": 7, "yamz-236": 9}
+
+
+def test_the_stroke_of_a_designed_engine_follows_from_the_accepted_one():
+    """S of the formulas is that of S_пр: r is half of it and S is 2r."""
+    heads = [tex.partition(" = ") for tex in formulas_of(page_of("cycle-turbo-diesel", "course"))]
+    sizes = {head: rest for head, _, rest in heads if head in ("r", "L", "S", r"\lambda")}
+    assert list(sizes) == ["r", "L", "S"] and r"S_{\mathrm{пр}}" in sizes["r"]

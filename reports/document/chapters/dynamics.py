@@ -67,12 +67,11 @@ _SIZES = {
 
 def _given_sizes(terms: Terms) -> set[str]:
     """Sizes of the mechanism that the input gives; those from which they would follow are not."""
-    radius, stroke = terms.has("geometry_crank_radius_mm"), terms.has("geometry_stroke_mm")
     given = {
-        "r_crank": radius,
+        "r_crank": terms.has("geometry_crank_radius_mm"),
         "L_rod": terms.has("geometry_rod_length_mm"),
         "lam": terms.has("geometry_lambda"),
-        "S_stroke": stroke or terms.has("cyc_S"),
+        "S_stroke": terms.has("geometry_stroke_mm"),
     }
     return {key for key, is_given in given.items() if is_given}
 

@@ -160,9 +160,7 @@ def journals(chapter: Chapter) -> Markup:
         forces=_throws(
             chapter, [k for k in _FORCES if k not in idle], "Центробежные силы колен", size
         ),
-        idle=[
-            inline_html(row.quantity.tex) for row in chapter.grid("throws").rows if row.of in idle
-        ],
+        idle=[inline_html(terms.tex(f"throw1_{key}")) for key in _FORCES if key in idle],
         outer=not {"C10", "C11", "C12", "C13"} <= idle,
         reactions=_throws(
             chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size

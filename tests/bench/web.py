@@ -34,7 +34,7 @@ from tests.bench._figure import Figure
 from tests.bench._process import kshm, run
 
 PEOPLE, DOCUMENTS, FLOOD = 60, 10, 40
-SECONDS = float(os.environ.get("KSHM_BENCH_S", "150"))
+SECONDS = float(os.environ.get("KSHM_BENCH_S", "25"))
 MARK = {"X-Kshm": "1"}
 _INPUTS = "xl/worksheets/sheet2.xml"
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 STATICS = "P4_5s"  # table of the crankpins' torques by statics
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
-_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals"}
+_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "checks"}
 _COURSE = _SHORT | {
     "rationale",
     "running",
@@ -44,7 +44,6 @@ _COURSE = _SHORT | {
     "strength",
     "own",
     "regimes",
-    "checks",
     "appendices",
 }
 _FULL = _COURSE | {"bearings", "reference", "companions"}

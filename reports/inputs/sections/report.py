@@ -13,7 +13,7 @@ from reports.inputs.units import DEG, NONE
 DETAILS = {
     "course": "главы курсового проекта, таблицы через 30°",
     "full": "все главы, все строки таблиц",
-    "short": "расчёт до коренных шеек с выводами, без приложений",
+    "short": "расчёт до коренных шеек с проверкой и выводами, без приложений",
 }
 # Chapters that a report may do without; the introduction, the input data, the conclusion and
 # the sources always stand.

@@ -51,7 +51,7 @@ def left_out_note(model: InputFile) -> str:
 
 
 def unused(model: InputFile) -> set[str]:
-    """Names of the defaults of the input that the calculation does not take."""
+    """Names of the inputs that the calculation does not take."""
     devices = set(_DEVICES)
     if model.masses.rod_kg is not None:
         devices.add("rod_small_end_share")
@@ -60,6 +60,8 @@ def unused(model: InputFile) -> set[str]:
     }
     if model.regime.indicated_power_kw is None:
         unused_keys.add("regime_fullness")
+    if getattr(model.gas, "combustion_start_deg", None) is not None:
+        unused_keys.add("gas_ignition_delay_deg")
     for end in ("nose", "rear"):  # no such counterweight: neither its angle nor its arm counts
         if not getattr(model.crankshaft, f"{end}_mass_kg"):
             unused_keys |= {f"crankshaft_{end}_{key}" for key in ("mass_kg", "angle_deg", "arm_mm")}

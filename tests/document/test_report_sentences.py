@@ -276,10 +276,14 @@ def assert_set_well(page):
     assert PARTED.findall(text) == []
 
 
-# Words of the program, which speaks in the console, in the workbook and in the manual.
+# Words of the program, which speaks in the console, in the workbook and in the manual; then
+# what was read in notes and sent back.
 PROGRAM = re.compile(
     r"программ|по памяти|не сверен|проверьте|впишите|сверьте|задайте|Внимание|умолчани|сборк"
-    r"|ukrbukva|источника не имеют|\b[\w-]+\.(?:toml|csv|xlsx)|в книге нет|\b[a-z]+_[a-z_]+",
+    r"|ukrbukva|источника не имеют|\b[\w-]+\.(?:toml|csv|xlsx)|в книге нет|\b[a-z]+_[a-z_]+"
+    r"|в тексте сопровождаются|ось пальца не пересекает|Порядок начала|\d коленами|Порознь"
+    r"|Второе мнение|Характерные точки, таблица|Материал вала — \S*\d|Кафедра:|приложены[.,]"
+    r"|двигателя «[^»]*двигатель",
     re.IGNORECASE,
 )
 

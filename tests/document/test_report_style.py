@@ -100,6 +100,7 @@ def test_a_style_file_changes_the_sheets(tmp_path):
     assert ["Разраб." in sheet for sheet in pages[:3]] == [False, True, False]
     assert ["Взам. инв. №" in sheet.replace("\xa0", " ") for sheet in pages[:3]] == [
         False, True, True]  # fmt: skip
+    assert len(Style().side_cells) == 5 and Style(side_columns=False).side_cells == ()
     assert whole.count("Приложение А") == 2 and "ПРИЛОЖЕНИЕ" not in whole
     assert "Реферат" not in page and "РЕФЕРАТ" not in whole
     assert re.search(r"Рисунок\s1\.1\s—", whole) and re.search(r"(?m)\(2\.1\)\s*$", whole)

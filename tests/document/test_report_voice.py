@@ -17,6 +17,7 @@ from kshm.nomenclature.digits import Digits
 from reports.document.chapters import opening
 from reports.document.chapters.chapter import Chapter, after_noun
 from reports.document.chapters.closing import SOURCES, tolerance
+from reports.document.chapters.front import title_page
 from reports.document.page.numbering import Draft
 from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
@@ -153,26 +154,25 @@ def test_the_flywheel_is_that_of_the_fine_step_wherever_it_is_told():
 
 @cache
 def oiled(*, well):
-    """A course note on smooth journals: of cast iron with a given hole, or of a reserve too small."""
-    more = {f"bearings__{key}_um": 0.3 for key in ("journal_roughness", "shell_roughness", "form")}
-    more |= (
+    """A course note on smooth journals: of cast iron, with a given hole; or too small a reserve."""
+    rough = ("journal_roughness_um", "shell_roughness_um", "form_um")
+    more = {f"bearings__{key}": 0.3 for key in rough} | (
         {"bearings__material": "vch60", "crankshaft__oil_hole_deg": 300.0} if well
         else {"bearings__reserve_allowed": 3.0}
     )  # fmt: skip
     return text_of(engine(source="d-240-bearings", report__detail="course", **more))
 
 
-@pytest.mark.parametrize(("well", "allowed", "side", "word"), [
-    (True, "1,5", "не меньше", "достаточно"), (False, "3", "меньше", "недостаточно"),
+@pytest.mark.parametrize(("well", "said"), [
+    (True, r"([\d,]+) не меньше допускаемого 1,5: плёнки достаточно"),
+    (False, r"([\d,]+) меньше допускаемого 3: плёнки недостаточно"),
 ])  # fmt: skip
-def test_a_film_below_the_allowed_reserve_is_not_called_enough(well, allowed, side, word):
-    """Above one: «1,08 of an allowed 1,5» was enough."""
+def test_a_film_below_the_allowed_reserve_is_not_called_enough(well, said):
+    """Above one too: 1.08 of an allowed 1.5 was."""
     text = oiled(well=well)
-    (reserve,) = re.findall(
-        rf"Запас плёнки за цикл ([\d,]+) {side} допускаемого {allowed}: плёнки {word}", text)  # fmt: skip
-    assert (
-        1 < float(reserve.replace(",", ".")) and f"её запас {reserve} {side} допускаемого" in text
-    )
+    found = re.search(f"Запас плёнки за цикл {said}", text)
+    assert found and float(found[1].replace(",", ".")) > 1
+    assert f"её запас {found[0].removeprefix('Запас плёнки за цикл ').partition(':')[0]}" in text
 
 
 @pytest.mark.parametrize("well", [True, False])
@@ -241,12 +241,28 @@ def test_an_engine_is_not_called_an_engine_twice(name, words):
 def test_counts_of_throws_are_words():
     assert instrumental(1, "коленом", "коленами") == "одним\xa0коленом"
     assert instrumental(4, "коленом", "коленами") == "четырьмя\xa0коленами"
-    assert "Схема вала с тремя коленами показана" in plain(page_of("gots-diesel", "short"))
 
 
-def test_a_department_stands_in_quotes():
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Порядок работы цилиндров 1–3–4–2, рабочие ходы чередуются через 180°",
+        "Схема вала с четырьмя коленами показана", "Отдельно для массы шатуна и массы колена",
+        "Дополнительно прочность проверена по правилу классификационных обществ",
+        "Характерные точки диаграммы приведены в таблице", "Материал вала — сталь 45:",
+        "таблицы с расчётными формулами (книга Excel) приложены в электронном виде",
+    ],
+)  # fmt: skip
+def test_the_wording_of_a_note(said):
+    """What stood in their place stands in no note: PROGRAM of test_report_sentences."""
+    assert said in words_of("d-240-bearings", "course")
+
+
+def test_wordings_of_other_engines():
+    assert "Материал вала — чугун ВЧ 60:" in oiled(well=True)
     raw = {"report__department": "Поршневые двигатели"}
     assert "Кафедра «Поршневые двигатели»" in text_of(engine(**raw))
+    assert "рабочие ходы чередуются неравномерно: через 90° и 150°" in text_of(engine("v_six"))
 
 
 @pytest.mark.parametrize(
@@ -306,6 +322,8 @@ def test_the_title_page_has_lines_for_signatures(review):
     page = Report(model, evaluate_model(model), style=style).page("print")
     text = plain(page)
     assert text.count("подпись, дата") == 3 and "Допущен к защите" in text
+    framed = title_page(model.input, style.title, "eskd")  # the frame has them
+    assert not framed["designation"] and not framed["controller"]
     assert "Нормов Н. Н." in text and "КП.01 ПЗ" in text
     assert ("ОТЗЫВ РУКОВОДИТЕЛЯ" in text) == review
     assert "margin: 21.0pt 0 8.0pt" in page and ".eq { margin: 9.0pt 0" in page

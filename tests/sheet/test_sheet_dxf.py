@@ -200,7 +200,9 @@ def test_lettering_is_that_of_the_standard():
     space = read(files()["-sheet.dxf"]).modelspace()
     texts = space.query("TEXT")
     assert {round(text.dxf.height, 3) for text in texts} <= set(HEIGHTS)
-    assert {text.dxf.style for text in texts} == {STYLE}
+    assert {text.dxf.style for text in texts} == {STYLE} == {"lc_opengost-br"}  # of LibreCAD
+    style = read(files()["-sheet.dxf"]).styles.get(STYLE)
+    assert (style.dxf.font, style.dxf.oblique) == ("isocpeur.ttf", 15)  # of AutoCAD, КОМПАС
     assert any(text.dxf.height == 2.5 and text.dxf.text == "г" for text in texts)  # an index
 
 

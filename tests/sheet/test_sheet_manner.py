@@ -8,6 +8,7 @@ import pytest
 
 from reports.draw.canvas import Line, Words
 from reports.draw.fonts import HEIGHTS, glyphs, is_drawn, strokes_of, width_of
+from reports.draw.writers import svg_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.sheet.write import designation, sheet_items
@@ -35,6 +36,15 @@ def test_letters_are_as_high_as_they_say_and_lean():
 def test_all_heights_of_the_sheet_are_of_the_standard(name):
     canvas, _, _ = drawn(terms(name))
     assert {w.height for w in canvas.items if isinstance(w, Words)} <= set(HEIGHTS)
+    assert set(HEIGHTS) == {1.8, 2.5, 3.5, 5.0, 7.0, 10.0}
+    box = (0.0, 0.0, 841.0, 594.0)
+    assert seen_letters(canvas.items, box) == []
+    assert seen_letters([Words((9.0, 9.0), "漢", 3.5)], box)  # in the face that has it
+
+
+def seen_letters(items, box):
+    """Letters that are seen as such: those of the standard are strokes under unseen ones."""
+    return re.findall(r'<text(?![^>]*fill-opacity="0")', svg_of(items, box))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -110,7 +110,9 @@ def test_a_long_name_stays_in_its_cell():
     """It ran over its neighbours; a surname alone is what ГОСТ 2.104 asks for."""
     raw = to_mapping(sample("d-240"))
     raw["report"] |= {"student": "Александра Владимировна Константинопольская-Преображенская",
-                      "supervisor": "Ржевский К. К.", "controller": "О" * 40}  # fmt: skip
+                      "supervisor": "Ржевский К. К.", "controller": "О" * 40,
+                      "department": "Тепловые двигатели",
+                      "institution": "Казанский национальный технический университет"}  # fmt: skip
     canvas = Canvas()
     title_block(canvas, load_mapping(raw, source="d").model, 0.0, 0.0)
     names = [item for item in canvas.items if isinstance(item, Words) and item.place[1] < 30
@@ -118,6 +120,10 @@ def test_a_long_name_stays_in_its_cell():
     assert [n.text for n in names] == ["Константинопольская-", "Преображенская", "Ржевский",
                                        "О" * 40]  # fmt: skip
     assert all(n.box[0] >= 17 and n.box[2] <= 40 for n in names)
+    places = [i for i in canvas.items if isinstance(i, Words) and i.place[0] > 135
+              and i.place[1] < 15]  # fmt: skip
+    assert "Казанский" in places[0].text and min(n.height for n in places) >= 1.8
+    assert all(n.box[0] >= 135 and n.box[2] <= 185 and n.box[3] < 15.1 for n in places)
     assert not any(overlap(one.box, other.box) for one, other in itertools.combinations(names, 2))
 
 
@@ -160,7 +166,7 @@ def test_the_title_block_declines_the_engine():
 
 
 @pytest.mark.parametrize("name", ["yamz-236", "vw-1600"])
-def test_no_curve_runs_through_an_angle_of_a_polar_diagram(name):
+def test_an_angle_of_a_polar_diagram_stands_at_its_point_and_no_curve_runs_through_it(name):
     canvas, *_ = drawn(terms(name))
     (curve,) = (i for i in canvas.items if getattr(i, "name", "").startswith("fig50"))
     angles = [i for i in canvas.items if isinstance(i, Words) and i.text.endswith("°")]
@@ -168,6 +174,13 @@ def test_no_curve_runs_through_an_angle_of_a_polar_diagram(name):
     assert len(near) >= 6
     for left, low, right, high in near:
         assert not any(left < x < right and low < y < high for x, y in curve.points)
+    left, low, right, high = curve.box
+    of_curve = [w for w in angles if left - 9 < w.place[0] < right + 9 and w.height == 2.5]
+    for words in of_curve:
+        x, y = curve.points[round(float(words.text[:-1]) * (len(curve.points) - 1) / 720)]
+        aside = max(words.box[0] - x, x - words.box[2], words.box[1] - y, y - words.box[3])
+        assert aside < 8.1, words.text
+    assert len(of_curve) > 10
 
 
 @pytest.mark.parametrize("table", [cell.results, cell.running])

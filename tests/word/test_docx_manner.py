@@ -7,6 +7,7 @@ import zipfile
 import pytest
 
 from reports.document.page.style import USUAL
+from reports.word.write import from_page
 from tests.word.docx_samples import docx_of
 
 
@@ -20,6 +21,18 @@ def test_the_file_says_what_wrote_it_and_has_no_picture_of_a_template(parts):
     assert not [name for name in parts if "thumbnail" in name]
     assert b"thumbnail" not in parts["_rels/.rels"]
     assert re.search(rb"<Application>kshm<", parts["docProps/app.xml"])
+
+
+@pytest.mark.parametrize("author", ["Иванов И. И.", ""])
+def test_the_author_of_the_file_is_that_of_the_note(author):
+    page = (
+        f'<html><head><title>т</title><meta name="author" content="{author}">'
+        '<meta name="dcterms.created" content="2026-01-01"></head>'
+        '<body><div class="text"><p>а</p></div></body></html>'
+    )
+    with zipfile.ZipFile(io.BytesIO(from_page(page, USUAL))) as archive:
+        about = archive.read("docProps/core.xml").decode()
+    assert f"<dc:creator>{author}</dc:creator>" in about and "python-docx" not in about
 
 
 def test_room_after_tables_comes_from_styles(parts):

@@ -292,8 +292,8 @@ def prototype_of(model: InputFile, beside: Path) -> Prototype | None:
     if file is not None:
         other = build_model(load_toml(file).model)
         name = section.name if section is not None else ""
-        terms = Terms(other, evaluate_model(other))
-        return Prototype(name or other.input.engine.name, terms.value)
+        value = rationale.numbers(Terms(other, evaluate_model(other)))
+        return Prototype(name or other.input.engine.name, value)
     return None if section is None else rationale.stated(section)
 
 

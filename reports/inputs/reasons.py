@@ -18,6 +18,7 @@ from reports.shared.russian import short
 
 Span = tuple[float, float]
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
+RODS = "rods_on_pin"  # a number beside the model's nodes
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,7 @@ class Reason:
 
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
 _LIGHT = "деталь тоньше обычной, её прочность следует проверить отдельно"
+_LENGTH = "растут длина вала и его прогиб", "растёт давление на подшипник, плёнка тоньше"
 _SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
@@ -113,12 +115,23 @@ REASONS: tuple[Reason, ...] = (
            (f"crankshaft_pin_diameter_mm/{_BORE}",), (0.45, 0.7), (0.55, 0.8), "", 2, "", *_SHAFT),
     Reason("main", "Отношение диаметра коренной шейки к диаметру цилиндра", r"d_{\mathrm{к.ш}}/D",
            (f"crankshaft_main_diameter_mm/{_BORE}",), (0.5, 0.85), (0.6, 0.95), "", 2, "", *_SHAFT),
+    Reason("pin_length", "Длина шатунной шейки под шатуном к её диаметру",
+           r"l_{\mathrm{ш.ш}}/d_{\mathrm{ш.ш}}",
+           (f"crankshaft_pin_length_mm/{RODS}/crankshaft_pin_diameter_mm",),
+           (0.35, 0.65), (0.4, 0.7), "", 2, "", *_LENGTH),
+    Reason("main_length", "Длина коренной шейки 2 к её диаметру",
+           r"l_{\mathrm{к.ш2}}/d_{\mathrm{к.ш}}",
+           ("main_length_2_mm/crankshaft_main_diameter_mm",), (0.35, 0.6), (0.35, 0.6), "", 2, "",
+           *_LENGTH),
     Reason("pin_pressure", "Среднее давление на шатунную шейку", r"q_{\mathrm{ср}}",
            ("q_pin_mean",), (4, 16), (4, 16), "МПа", 2, "",
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("pin_peak", "Наибольшее давление на шатунную шейку", r"q_{\max}",
            ("q_pin_max",), (7, 30), (10, 50), "МПа", 2, "",
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
+    Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
+           ("value_oil_orbit*oil_hcr_um",), (1, 6), (1, 10), "мкм", 2, "",
+           "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша"),
 )  # fmt: skip
 _BY_KEY = {reason.key: reason for reason in REASONS}
 # Keys of the file whose comments tell the span of a reason.
@@ -128,6 +141,7 @@ _COMMENTED = {
     "regime.speed_rpm": "piston_speed", "regime.mechanical_efficiency": "efficiency",
     "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
     "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
+    "crankshaft.main_lengths_mm": "main_length",
 }  # fmt: skip
 
 

@@ -20,12 +20,12 @@ from reports.document.chapters.chapter import (
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import with_unit
+from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import rich
 from reports.formula.numeric import evaluate
 from reports.inputs.checks.bands import stated_kind
 from reports.inputs.firing import arrangement_of
-from reports.inputs.reasons import REASONS, Reason
+from reports.inputs.reasons import REASONS, RODS, Reason
 from reports.inputs.sections.input_file import InputFile, PrototypeSection
 from reports.inputs.to_si.masses import Sizes
 from reports.shared.russian import NBSP, fixed, short, uncapital
@@ -121,6 +121,7 @@ def rationale(chapter: Chapter) -> Markup:
         prototype=prototype.name if prototype else "",
         pairs=TablePlan(partial(_main_table, pairs), "Двигатель и прототип") if pairs else None,
         denser=_denser(pairs),
+        film=judged[-1].reason.key == "film",
     )  # fmt: skip
 
 
@@ -197,10 +198,16 @@ def concluded(chapter: Chapter) -> Markup:
 _OF_CYCLE = {"peak": "cyc_p_z", "efficiency": "cyc_eta_m"}
 
 
+def numbers(terms: Terms) -> Callable[[str], float]:
+    """Nodes of an engine by name, and how many rods stand on a crankpin."""
+    rods = float(rods_beside(arrangement_of(terms.model.input), 0))
+    return lambda name: rods if name == RODS else terms.value(name)
+
+
 def judge(chapter: Chapter) -> Iterator[Judged]:
     """Every reason that the engine's data allow to judge."""
     model, prototype = chapter.input, chapter.prototype
-    number = chapter.terms.value
+    number = numbers(chapter.terms)
     bore = 2000 * float(evaluate("sqrt(F_piston/pi)", number))
     sizes = Sizes(bore, 1000 * number("r_crank"), 1000 * number("L_rod"))
     kind, times = stated_kind(model), sizes.heavier

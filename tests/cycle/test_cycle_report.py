@@ -45,6 +45,8 @@ def test_every_step_has_its_heading(report: tuple[str, str]) -> None:
         headings.append("Турбокомпрессор")
     for heading in headings:
         assert heading in text
+    # One field for all curves: no «: а — …» of several.
+    assert re.search(r"Рисунок\W+\d+ — Внешняя скоростная характеристика(?!:)", text)
 
 
 def test_numbers_are_the_results(report: tuple[str, str]) -> None:

@@ -350,8 +350,18 @@ def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside
     text, _, end = plain(page).partition("Рассчитаны кинематика")
     assert ("больше обычного (0,24…0,31): растут боковая сила" in text) != inside
     assert ("Все величины лежат в обычных пределах." in text) == inside
-    assert ("вне обычных пределов: " in end) != inside
+    assert ("вне обычных пределов: " in end and "(обычно 0,24…0,31)" in end) != inside
     assert ("принятые данные лежат в обычных пределах" in end) == inside
+
+
+@pytest.mark.parametrize(("allowed", "side"), [(1.1, "не меньше"), (9.0, "меньше")])
+def test_the_least_safety_stands_beside_what_is_allowed(allowed, side):
+    model = engine(strength__safety_allowed=allowed, report__chapters=["strength"])
+    least, said, of = re.search(
+        r"запас прочности деталей ([\d,]+) — [^;]*, он (\D+) допускаемого ([\d,]+)", text_of(model)
+    ).groups()
+    assert said == side and float(of.replace(",", ".")) == allowed
+    assert (float(least.replace(",", ".")) >= allowed) == (side == "не меньше")
 
 
 def test_the_comments_of_a_new_engine_tell_the_same_spans():

@@ -5,10 +5,11 @@ import re
 import zipfile
 
 import pytest
+from lxml import etree
 
 from reports.document.page.style import USUAL
 from reports.word.write import from_page
-from tests.word.docx_samples import docx_of
+from tests.word.docx_samples import W, docx_of
 
 
 @pytest.fixture(scope="module")
@@ -36,10 +37,10 @@ def test_the_author_of_the_file_is_that_of_the_note(author):
 
 
 def test_room_after_tables_comes_from_styles(parts):
-    text = parts["word/document.xml"].decode()
-    empty = re.findall(r"<w:p>(?:<w:pPr>(?:(?!</w:pPr>).)*</w:pPr>)?</w:p>", text)
-    assert not [one for one in empty if '"AfterTable"' in one]
-    assert "BodyAfterTable" in text
+    body = etree.fromstring(parts["word/document.xml"]).find(f"{W}body")
+    empty = [p for p in body.iterfind(f"{W}p") if not [e for e in p if e.tag != f"{W}pPr"]]
+    assert all(p.find(f"{W}pPr/{W}sectPr") is not None for p in empty)  # the end of a section
+    assert b"BodyAfterTable" in parts["word/document.xml"]
 
 
 def test_branches_of_a_brace_stand_in_columns(parts):

@@ -35,17 +35,8 @@ if TYPE_CHECKING:
 STATICS = "P4_5s"  # table of the crankpins' torques by statics
 _ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
 _SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "checks"}
-_COURSE = _SHORT | {
-    "rationale",
-    "running",
-    "balance",
-    "torsion",
-    "oil",
-    "strength",
-    "own",
-    "regimes",
-    "appendices",
-}
+_COURSE = _SHORT | {"rationale", "running", "balance", "torsion", "oil", "strength", "own",
+                    "regimes", "appendices"}  # fmt: skip
 _FULL = _COURSE | {"bearings", "reference", "companions"}
 _PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
 

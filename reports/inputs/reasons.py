@@ -70,7 +70,6 @@ class Reason:
 
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
 _LIGHT = "деталь тоньше обычной, её прочность следует проверить отдельно"
-_LENGTH = "растут длина вала и его прогиб", "растёт давление на подшипник, плёнка тоньше"
 _SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
@@ -115,14 +114,11 @@ REASONS: tuple[Reason, ...] = (
            (f"crankshaft_pin_diameter_mm/{_BORE}",), (0.45, 0.7), (0.55, 0.8), "", 2, "", *_SHAFT),
     Reason("main", "Отношение диаметра коренной шейки к диаметру цилиндра", r"d_{\mathrm{к.ш}}/D",
            (f"crankshaft_main_diameter_mm/{_BORE}",), (0.5, 0.85), (0.6, 0.95), "", 2, "", *_SHAFT),
-    Reason("pin_length", "Длина шатунной шейки под шатуном к её диаметру",
+    Reason("pin_length", "Длина шейки под шатуном к её диаметру",
            r"l_{\mathrm{ш.ш}}/d_{\mathrm{ш.ш}}",
            (f"crankshaft_pin_length_mm/{RODS}/crankshaft_pin_diameter_mm",),
-           (0.35, 0.65), (0.4, 0.7), "", 2, "", *_LENGTH),
-    Reason("main_length", "Длина коренной шейки 2 к её диаметру",
-           r"l_{\mathrm{к.ш2}}/d_{\mathrm{к.ш}}",
-           ("main_length_2_mm/crankshaft_main_diameter_mm",), (0.35, 0.6), (0.35, 0.6), "", 2, "",
-           *_LENGTH),
+           (0.35, 0.65), (0.4, 0.7), "", 2, "",
+           "растут длина вала и его прогиб", "растёт давление на подшипник, плёнка тоньше"),
     Reason("pin_pressure", "Среднее давление на шатунную шейку", r"q_{\mathrm{ср}}",
            ("q_pin_mean",), (4, 16), (4, 16), "МПа", 2, "",
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
@@ -141,7 +137,6 @@ _COMMENTED = {
     "regime.speed_rpm": "piston_speed", "regime.mechanical_efficiency": "efficiency",
     "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
     "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
-    "crankshaft.main_lengths_mm": "main_length",
 }  # fmt: skip
 
 

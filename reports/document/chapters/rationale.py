@@ -261,9 +261,9 @@ def _main_table(pairs: list[tuple[Main, float, float]]) -> TableBlock:
 
 def _table(judged: list[Judged], compared: bool) -> TableBlock:
     columns = [
-        TableColumn("Величина", 4.4, text=True), TableColumn("Символ", 1.3),
+        TableColumn("Величина", 6.8, text=True), TableColumn("Символ", 1.2),
         TableColumn("Принято", 1.2), *([TableColumn("Прототип", 1.3)] if compared else []),
-        TableColumn("Обычно", 1.7), TableColumn("Вывод", 1.5), TableColumn("Основание", 1.6),
+        TableColumn("Обычно", 1.6), TableColumn("Вывод", 1.8), TableColumn("Основание", 1.5),
     ]  # fmt: skip
     rows = []
     for each in judged:

@@ -114,7 +114,7 @@ REASONS: tuple[Reason, ...] = (
            (f"crankshaft_pin_diameter_mm/{_BORE}",), (0.45, 0.7), (0.55, 0.8), "", 2, "", *_SHAFT),
     Reason("main", "Отношение диаметра коренной шейки к диаметру цилиндра", r"d_{\mathrm{к.ш}}/D",
            (f"crankshaft_main_diameter_mm/{_BORE}",), (0.5, 0.85), (0.6, 0.95), "", 2, "", *_SHAFT),
-    Reason("pin_length", "Длина шейки под шатуном к её диаметру",
+    Reason("pin_length", "Отношение длины шейки под шатуном к её диаметру",
            r"l_{\mathrm{ш.ш}}/d_{\mathrm{ш.ш}}",
            (f"crankshaft_pin_length_mm/{RODS}/crankshaft_pin_diameter_mm",),
            (0.35, 0.65), (0.4, 0.7), "", 2, "",

@@ -251,7 +251,7 @@ _MOST_SHOWN = 3
 _THREE_MOMENTS = (
     r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
     r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
-    r" - \sum P \dfrac{u'\,(l_k^2 - u'^2)}{l_k}"
+    r" - \sum P \dfrac{u'\,(l_k^2 - \left(u'\right)^2)}{l_k}"
 )
 _BENDING = (
     "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",

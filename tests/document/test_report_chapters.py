@@ -490,3 +490,38 @@ def test_the_stroke_of_a_designed_engine_follows_from_the_accepted_one():
     heads = [tex.partition(" = ") for tex in formulas_of(page_of("cycle-turbo-diesel", "course"))]
     sizes = {head: rest for head, _, rest in heads if head in ("r", "L", "S", r"\lambda")}
     assert list(sizes) == ["r", "L", "S"] and r"S_{\mathrm{пр}}" in sizes["r"]
+
+
+@pytest.mark.parametrize("pumping", ["no", "yes"])
+def test_a_row_of_the_powers_follows_from_the_one_it_names(pumping):
+    """«То же с коэффициентом полноты» stood below the dynamic calculation, which it is not of."""
+    model = engine(source="cycle-turbo-diesel", report__detail="course", cycle__pumping=pumping)
+    rows = printed_rows(bare_page(model), "Мощности расчёта цикла и динамического расчёта")
+    pressures = [number(row[1].partition("=")[2].strip()) for row in rows if "=" in row[1]]
+    first, indicated, effective = pressures[0], *pressures[-2:]
+    named = rows[-2][0].replace("\xa0", " ")
+    assert named.startswith("Первая диаграмма с коэффициентом полноты")
+    assert ("за вычетом насосных потерь" in named) == (pumping == "yes")
+    if pumping == "no":
+        assert indicated == pytest.approx(
+            first * number(named.rpartition("=")[2].strip()), abs=2e-4
+        )
+    factor = number(rows[-1][0].rpartition("=")[2].strip())
+    assert effective == pytest.approx(indicated * factor, abs=2e-4)
+
+
+def test_the_alternative_text_tells_the_first_of_equal_extremes():
+    """The torque of three cylinders is least at 30, 270 and 510°: the text says 30."""
+    page = page_of("cycle-turbo-diesel", "course")
+    angle = re.search(r"наименьший [^.]*? — при φ = (\d+)°", plain(page))[1]
+    spoken = next(
+        each for each in re.findall(r"Индикаторный крутящий момент двигателя\. [^<\"]*", page)
+    )
+    assert re.search(r"наименьшее.*?=\s(\d+)°", spoken)[1] == angle
+
+
+def test_numbers_of_the_tables_in_brackets_are_explained():
+    said = "в скобках после названий таблиц приложений — номера таблиц пособия"
+    for detail in ("short", "course"):
+        text = words_of("gots-diesel", detail)
+        assert (said in text) == ("(П3.1)" in text)

@@ -34,6 +34,7 @@ from reports.model.charts import Series
 from reports.model.context import diagram_kind
 from reports.model.shape import rods_table
 from reports.shared.russian import NBSP, fixed, short
+from reports.tables.cycle_members import section_of
 from reports.tables.verdicts import reasons_of
 
 EXAMPLE = 30.0  # crank angle of the worked lines [deg]; every grid has it
@@ -355,6 +356,9 @@ def torque(chapter: Chapter) -> Markup:
 def _powers(chapter: Chapter) -> TablePlan:
     """From the pressure of the diagram that is not rounded to the effective one, Gots 2.8."""
     terms, step = chapter.terms, fixed(chapter.input.calculation.step_deg, 0)
+    section = section_of(chapter.input)
+    subtracted = section is not None and section.pumping == "yes"
+    losses = " и за вычетом насосных потерь" if subtracted else ""
     steps = (
         ("Нескруглённая диаграмма без насосных ходов", "cyc_p_theory", "", ""),
         ("Нескруглённая диаграмма с насосными ходами", "", "cyc_N_gas", ""),
@@ -365,8 +369,8 @@ def _powers(chapter: Chapter) -> TablePlan:
             "M_mean",
         ),
         (
-            f"То же с коэффициентом полноты {terms.sym('cycle_fullness')} = "
-            f"{terms.num('cycle_fullness')}",
+            f"Первая диаграмма с коэффициентом полноты {terms.sym('cycle_fullness')} = "
+            f"{terms.num('cycle_fullness')}{losses}",
             "cyc_p_i",
             "cyc_N_i",
             "",
@@ -378,7 +382,7 @@ def _powers(chapter: Chapter) -> TablePlan:
             "cyc_M_e",
         ),
     )
-    columns = [TableColumn("Ступень", 3.6, text=True), TableColumn("Среднее давление, МПа", 1.9),
+    columns = [TableColumn("Диаграмма", 3.6, text=True), TableColumn("Среднее давление, МПа", 1.9),
                TableColumn("Мощность, кВт", 1.9), TableColumn("Момент, Н·м", 1.7)]  # fmt: skip
 
     def cell(name: str) -> str:

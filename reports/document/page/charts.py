@@ -302,12 +302,17 @@ def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
     for chart in charts:
         for series in chart.drawn_by("report") if chart.x_is_angle else ():
             x, y = terms.column(series.x), terms.column(series.y)
-            y = np.where(np.abs(y) < _NOISE * np.abs(y).max(), 0.0, y)
+            noise = _NOISE * np.abs(y).max()
+            y = np.where(np.abs(y) < noise, 0.0, y)
+            # Of equal extremes of a periodic curve the first, as in the text.
+            high, low = (
+                int(np.argmax(ends)) for ends in (y >= y.max() - noise, y <= y.min() + noise)
+            )
             unit, angle = terms.unit(series.y), spoken(terms.tex(series.x))
             parts = (
                 f"{word} {significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
                 f" при {angle} = {fixed(x[row], 0)}°"
-                for word, row in (("наибольшее", y.argmax()), ("наименьшее", y.argmin()))
+                for word, row in (("наибольшее", high), ("наименьшее", low))
             )
             said.append(f"{spoken(terms.tex(series.y))}: {', '.join(parts)}")
     return f"{caption}. {'; '.join(said)}" if said else caption

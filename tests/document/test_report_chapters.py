@@ -525,3 +525,11 @@ def test_numbers_of_the_tables_in_brackets_are_explained():
     for detail in ("short", "course"):
         text = words_of("gots-diesel", detail)
         assert (said in text) == ("(П3.1)" in text)
+
+
+@pytest.mark.parametrize(("layout", "what"), [
+    ("v_six", "составляющие моментов вдоль оси первого цилиндра"), ("basic", "моменты"),
+])  # fmt: skip
+def test_curves_of_free_moments_are_called_components_where_they_are(layout, what):
+    """Of two banks the vector's greatest size stands in the table, its projection in the figure."""
+    assert f"За оборот {what} изменяются по рисунку" in text_of(engine(layout))

@@ -117,7 +117,7 @@ def ray_key(number: int) -> str:
 
 
 # How what is printed grows with the length of alike engines: of equal stresses and piston speeds.
-_POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2,
+_POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2, "m2": 2,
            "cubic_mm": 3, "quartic_mm": 4, "kg": 3, "kgm": 4, "kgm2": 5, "kg_h": 2, "Nms_rad": 4}  # fmt: skip
 _USUAL_BORES_M = (0.06, 0.2)
 _FIFTHS = 5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
@@ -47,17 +47,18 @@ class Piece:
     condition: str | None
 
 
-def to_tex(text: str, symbols: Symbols) -> str:
+def to_tex(text: str, symbols: Symbols, zeros: Collection[str] = ()) -> str:
     """The expression in symbols.
 
     Args:
         text: the expression.
         symbols: TeX of a name; columns of other tables come as ``table.column``.
+        zeros: names whose terms are left out.
 
     Raises:
         NotPrintable: the expression is a choice or an interpolation.
     """
-    return _Printer(symbols, None).text(parse(text))
+    return _Printer(symbols, None, zeros).text(parse(text))
 
 
 def to_tex_numbers(text: str, symbols: Symbols, numbers: Numbers) -> str:
@@ -163,9 +164,12 @@ def _level(symbol: str) -> int:
 
 
 class _Printer:
-    def __init__(self, symbols: Symbols, numbers: Numbers | None) -> None:
+    def __init__(
+        self, symbols: Symbols, numbers: Numbers | None, zeros: Collection[str] = ()
+    ) -> None:
         self.symbols = symbols
         self.numbers = numbers
+        self.zeros = zeros
 
     def text(self, node: ast.expr) -> str:
         return self._emit(node)[0]
@@ -241,18 +245,23 @@ class _Printer:
                 over = self._emit(left.operand)[0]
                 return rf"-\dfrac{{{over}}}{{{self.text(right)}}}", _PRODUCT
             case ast.Div():
-                return rf"\dfrac{{{self.text(left)}}}{{{self.text(right)}}}", _PRODUCT
+                over, sign = self.text(left), ""
+                if self.numbers is not None and not isinstance(left, ast.BinOp):
+                    sign, over = ("-", over[1:]) if over.startswith("-") else ("", over)
+                return rf"{sign}\dfrac{{{over}}}{{{self.text(right)}}}", _PRODUCT
         return self._power(left, right)
 
     def _is_zero(self, node: ast.expr) -> bool:
-        """Whether a term with numbers put in is a plain zero, which no one writes."""
-        if self.numbers is None:
-            return False
+        """Whether a term is a plain zero, which no one writes."""
         match node:
+            case ast.Name(id=name) if name in self.zeros:
+                return True
+            case _ if self.numbers is None and not self.zeros:
+                return False
             case ast.Name(id=name) if name != "pi":
-                return self._name(name)[0] == "0"
+                return self.numbers is not None and self._name(name)[0] == "0"
             case ast.Attribute(value=ast.Name(id=table), attr=column):
-                return self._name(f"{table}.{column}")[0] == "0"
+                return self.numbers is not None and self._name(f"{table}.{column}")[0] == "0"
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return self._is_zero(operand)
             case ast.BinOp(left=left, op=ast.Mult(), right=right):

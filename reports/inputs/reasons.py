@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
-from kshm.mechanics.masses import PISTON, ROD, THROW
+from kshm.mechanics.masses import BORES, PISTON, ROD, THROW
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import short
@@ -55,6 +55,11 @@ class Reason:
     by_size: bool = False
     one_rod: bool = False
 
+    def below_at(self, bore_mm: float) -> str:
+        """What follows below the span; a bore below those of the table is light by similarity."""
+        small = self.by_size and bore_mm < _LEAST_BORE_MM
+        return _SIMILAR if small else self.below
+
     def span(self, kind: str, heavier: float = 1.0) -> Span:
         """Usual span of a kind of engine; of an unknown one that of both."""
         spans = {"petrol": self.petrol, "diesel": self.diesel}
@@ -68,8 +73,13 @@ class Reason:
         return f"пределы {short(low)}…{short(high)}{f' {self.unit}' if self.unit else ''}"
 
 
+_LEAST_BORE_MM = 1000 * BORES["petrol"][0]  # of table 4
+_SIMILAR = (
+    f"таблица 4 пособия составлена для диаметров от {short(_LEAST_BORE_MM)} мм, у подобных "
+    "двигателей удельная масса пропорциональна диаметру"
+)
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
-_LIGHT = "деталь тоньше обычной, её прочность следует проверить отдельно"
+_LIGHT = "сечения тоньше обычных, их прочность следует проверить отдельно"
 _SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",

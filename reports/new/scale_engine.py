@@ -144,7 +144,7 @@ def alternative(
     kind = kind_of(model)
     data = to_mapping(model)
     data["engine"] |= {
-        "name": f"{old.name}: вариант, цилиндров {cylinders}",
+        "name": f"{old.name}: вариант, число цилиндров {cylinders}",
         "cylinders": cylinders,
         "layout": layout,
     }

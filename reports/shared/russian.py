@@ -161,6 +161,15 @@ def instrumental(count: int, one: str, many: str) -> str:
     )
 
 
+_OF = ("одно", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти",
+       "одиннадцати", "двенадцати")  # fmt: skip
+
+
+def cylindered(count: int) -> str:
+    """«двухцилиндровый»; digits beyond twelve."""
+    return f"{_OF[count - 1] if count <= len(_OF) else f'{count}-'}цилиндровый"
+
+
 _INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")
 _PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
 

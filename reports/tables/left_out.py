@@ -5,6 +5,7 @@ from __future__ import annotations
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.model.blocks import Block
 from reports.model.shape import Scope, Shape
+from reports.shared.russian import joined
 from reports.tables.contexts import books
 from reports.tables.cycle_members import given_by_cycle
 
@@ -30,11 +31,12 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
 def without_orders(model: InputFile) -> str:
     """Why there are no series by orders, after «из-за»; empty where there are."""
     shape = Shape.of(model)
+    moved = {"оси цилиндра": "crank_offset_mm", "поршневого пальца": "pin_offset_mm"}
     reasons = [
-        *(["смещения оси цилиндра или пальца"] if shape.offset else []),
+        *(f"смещения {what}" for what, key in moved.items() if getattr(model.geometry, key, None)),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
-    return " и ".join(reasons)
+    return joined(reasons) if reasons else ""
 
 
 def left_out_note(model: InputFile) -> str:

@@ -532,7 +532,8 @@ def page_of_defined_symbols(model):
 
     def noting(known):
         def noted(self, key, *more, **named):
-            placed.append((self, key, more[0] if more and not isinstance(more[0], str) else None))
+            at = more[0] if more and not isinstance(more[0], str) else None
+            placed.append((self, key, at, more[2] if len(more) > 2 else ()))
             return known(self, key, *more, **named)
 
         return noted
@@ -566,16 +567,16 @@ def page_of_defined_symbols(model):
     idle = {f.name for f in listed if f.name not in used and not f.structural}
     assert not idle, idle
     text = _bare(re.sub(r'<div class="eq.*?</div>', "", page, flags=re.DOTALL))
-    formulas = [(c.terms.tex(n), c, n, at) for c, n, at in placed if not c.writer.draft]
+    formulas = [(c.terms.tex(n), c, n, *of) for c, n, *of in placed if not c.writer.draft]
     left = {tex for tex, *_ in formulas}
-    assert (r"\Delta p/\Delta\varphi" in left) == any(n == "p_start" for _, _, n, _ in formulas)
-    for _, chapter, name, at in formulas:
+    assert (r"\Delta p/\Delta\varphi" in left) == any(n == "p_start" for _, _, n, *_ in formulas)
+    for _, chapter, name, at, zeros in formulas:
         terms, symbol = chapter.terms, chapter.terms._symbols(name)
         for node in ast.walk(parse(terms._expr(name, at))):
             inner = ast.unparse(node) if isinstance(node, ast.Name | ast.Attribute) else "pi"
             known = terms.has(inner) or terms.has(f"{name.rpartition('.')[0]}.{inner}")
             tex = symbol(inner) if known else ""
-            if not tex or tex in left or re.search(r"dfrac|\\(sin|cos)|\+", tex):
+            if not tex or tex in left or inner in zeros or re.search(r"dfrac|\\(sin|cos)|\+", tex):
                 continue
             assert _bare(str(inline_html(tex))) in text, (name, tex)
     return page

@@ -57,7 +57,7 @@ def test_an_offset_names_every_sheet_that_it_costs(capsys: pytest.CaptureFixture
     raw = with_offset(crank_offset_mm=6.0)
     loaded = load_mapping(raw, source="f")
     (note,) = notes_of(loaded)
-    assert note.startswith("Не рассчитано из-за смещения оси цилиндра или пальца")
+    assert note.startswith("Не рассчитано из-за смещения оси цилиндра (ряды")
     tell(loaded, Path("data") / "v.toml")  # of several files a person knows which
     assert f"v.toml: {note}" in capsys.readouterr().err.splitlines()
     central = build_model(load_mapping(with_offset(), source="f").model)

@@ -117,7 +117,7 @@ def concluded(chapter: Chapter) -> Markup:
     """The chapter's results in a line of the conclusion."""
     terms = chapter.terms
     if "balance_orders" not in terms.model.tables:
-        return Markup("")
+        return flywheel(chapter)
     stage = "after" if asked_devices(chapter.input) & _DEVICES.keys() else "before"
     free = [
         Markup("{} {} порядка {}").format(what, rich(f"{order:.0f}-го"), terms.val(name, order))
@@ -134,11 +134,19 @@ def concluded(chapter: Chapter) -> Markup:
         if free
         else rich(f"{_MASSES} не дают свободных сил и моментов 1-го и 2-го порядков")
     )
+    first = _whole_first(terms, stage) if free else ""
+    return Markup("{}{}; {}").format(forces, first, flywheel(chapter))
+
+
+def flywheel(chapter: Chapter) -> Markup:
+    """The flywheel that the evenness needs, beside the given one; empty where none is found."""
+    terms = chapter.terms
+    if not terms.has("I_flywheel"):
+        return Markup("")
     needed, own = is_flywheel_needed(chapter), _own_flywheel(chapter)
-    wheel = chapter.by_fine("I_flywheel") if needed else "не нужен"
-    line = Markup("{}{}; маховик для неравномерности хода {}{} {}").format(
-        forces, _whole_first(terms, stage) if free else "", terms.val("balance_irregularity"),
-        ":" if needed else "", wheel,
+    line = Markup("маховик для неравномерности хода {}{} {}").format(
+        terms.val("balance_irregularity"), ":" if needed else "",
+        chapter.by_fine("I_flywheel") if needed else "не нужен",
     )  # fmt: skip
     if own:
         line += Markup(", принятый {} {} требуемого").format(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
@@ -214,6 +214,13 @@ class Chapter:
         return 390.0 if self.shape.strokes == 4 else 30.0
 
     @property
+    def crankcase(self) -> bool:
+        """Whether the crankcase scavenges: no oil under pressure reaches the crankpin."""
+        model = self.input
+        hole = model.crankshaft.oil_hole_deg
+        return self.shape.strokes == 2 and model.bearings is None and hole is None
+
+    @property
     def exact(self) -> bool:
         """Whether the forces follow from the exact acceleration."""
         return self.input.calculation.method == "exact"
@@ -261,9 +268,9 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
         }
-        own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
-               "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",
-               "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
+        own = ("input", "shape", "example", "exact", "crankcase", "order", "strokes_at", "eq",
+               "full", "sub", "ref", "book", "tabs", "figs", "chart", "panels", "told",
+               "told_swing", "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -274,11 +281,13 @@ class Chapter:
             self.scales.clear()
         return self.writer.heading(level, title, **manner)
 
-    def eq(self, name: str, at: float | None = None, end: str = "") -> Markup:
-        """The formula of a node in symbols, numbered."""
+    def eq(
+        self, name: str, at: float | None = None, end: str = "", zeros: Collection[str] = ()
+    ) -> Markup:
+        """The formula of a node in symbols, numbered; without the terms of what is no part."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
-        return self.writer.formula(self.terms.formula(name, at), FORMULA + name, end)
+        return self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
 
     def full(self, name: str, end: str = "") -> Markup:
         """The formula of a scalar in symbols, with numbers and its result, numbered."""

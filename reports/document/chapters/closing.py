@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 
 from markupsafe import Markup
 
-from reports.document.chapters import balance, oil, rationale, regimes, strength, torsion
+from reports.document.chapters import (
+    balance,
+    journals,
+    oil,
+    rationale,
+    regimes,
+    strength,
+    torsion,
+)
 from reports.document.chapters.chapter import (
     BOOK,
+    ELSEWHERE,
     STATICS,
     Chapter,
     chosen,
@@ -26,7 +35,7 @@ from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import NO, YES
@@ -90,8 +99,9 @@ def checks(chapter: Chapter) -> Markup:
         "checks",
         plan=plan,
         failed=failed(terms),
-        verdict=verdict(terms),
+        verdict=verdict(chapter),
         accepted=_accepted(chapter),
+        flywheel=balance.flywheel(chapter),
         reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
         grid=bool(_grid_errors(chapter)),
         errors=TablePlan(
@@ -135,9 +145,14 @@ def _grid_table(chapter: Chapter) -> TableBlock:
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
         shown = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]
-        difference = fixed(percent, 1) if abs(percent) < _MOST_PERCENT else "—"
-        rows.append([capital(error.title) + unit, *shown, difference])
+        rows.append([capital(error.title) + unit, *shown, difference(percent, shown[1])])
     return table_block(columns, rows)
+
+
+def difference(percent: float, fine: str) -> str:
+    """A difference from a value as printed; none from a value that is printed as zero."""
+    known = abs(percent) < _MOST_PERCENT and fine.strip("0,−")
+    return fixed(percent, 1) if known else "—"
 
 
 def check_keys(terms: Terms) -> list[str]:
@@ -150,16 +165,22 @@ def check_keys(terms: Terms) -> list[str]:
     ]
 
 
-def failed(terms: Terms) -> list[tuple[Markup, str]]:
-    """Title and value of the checks that did not pass."""
+def failed(terms: Terms, without: Collection[str] = ()) -> list[tuple[Markup, Markup]]:
+    """Title and what came out of the checks that did not pass."""
     return [
-        (
-            titled_html(terms.model.scalars[f"check_{key}"].note),
-            check_value(terms.value(f"value_{key}")),
-        )
+        _outcome(terms.model.scalars[f"check_{key}"].note, check_value(terms.value(f"value_{key}")))
         for key in check_keys(terms)
-        if terms.values.scalars[f"check_{key}"] == NO
+        if terms.values.scalars[f"check_{key}"] == NO and key not in without
     ]
+
+
+def _outcome(title: str, value: str) -> tuple[Markup, Markup]:
+    """«Моменты равны: расхождение, %» and a value as title and «расхождение 3 %»."""
+    head, colon, result = title.rpartition(": ")
+    what, comma, unit = result.rpartition(", ")
+    if not (colon and comma):
+        return titled_html(title), Markup("получено {}").format(value)
+    return titled_html(head), Markup("{} {}").format(titled_html(what), with_unit(value, unit))
 
 
 def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
@@ -206,15 +227,16 @@ def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
     terms, throws = chapter.terms, chapter.shape.throws
     names, pin = pin_stems(chapter.shape), worst_pin(terms)
+    names_of_chapters = relevant_chapters(chapter.input)
     mains, pins = worst_running(terms, throws)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
-        failed=failed(terms),
-        verdict=verdict(terms),
+        failed=failed(terms, {"power"} if "torque" in names_of_chapters else ()),
+        verdict=verdict(chapter),
         load=chapter.worst("worst_main_load"),
         loads=leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
-        names=relevant_chapters(chapter.input) & _CONCLUDED,
+        names=names_of_chapters & _CONCLUDED,
         mains=mains,
         pins=pins,
         pins_count=len(names),
@@ -238,25 +260,28 @@ def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
     names = chosen(chapter.input)
     lines = {
-        "rationale": rationale.concluded, "balance": balance.concluded,
+        "bearings": journals.concluded, "rationale": rationale.concluded,
+        "balance": balance.concluded,
         "torsion": torsion.concluded, "oil": oil.concluded, "strength": strength.concluded,
         "regimes": regimes.concluded,
     }  # fmt: skip
     return [line for name, of in lines.items() if name in names and (line := of(chapter))]
 
 
-def verdict(terms: Terms) -> str:
-    """How many checks passed, in words."""
-    count, bad = len(check_keys(terms)), len(failed(terms))
+def verdict(chapter: Chapter) -> str:
+    """How many checks passed, in words; where they stand if the report has no table of them."""
+    count, bad = len(check_keys(chapter.terms)), len(failed(chapter.terms))
+    absent = "checks" not in relevant_chapters(chapter.input)
+    where = f" (таблица «Проверки» {ELSEWHERE})" if absent else ""
     if not bad:
-        return f"Все проверки расчёта выполнены ({count}{NBSP}из{NBSP}{count})."
-    return f"Проверок расчёта выполнено {count - bad}{NBSP}из{NBSP}{count}."
+        return f"Все проверки расчёта{where} выполнены ({count}{NBSP}из{NBSP}{count})."
+    return f"Проверок расчёта{where} выполнено {count - bad}{NBSP}из{NBSP}{count}."
 
 
 def sources(chapter: Chapter) -> Markup:
     """Bibliography."""
     heading = chapter.writer.heading(1, "Список использованных источников", numbered=False)
-    cited = [(key, text) for key, text in SOURCES.items() if chapter.writer.n.is_cited(key)]
+    cited = [(key, SOURCES[key]) for key in chapter.writer.n.cited]
     return heading + chapter.writer.sources(cited)
 
 

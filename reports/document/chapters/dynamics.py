@@ -349,7 +349,7 @@ def torque(chapter: Chapter) -> Markup:
         swing=of_digits(
             terms.value("M_max") - terms.value("M_min"), terms.quantity("M_max").digits
         ),
-        ratio=fixed(terms.value("M_max") / mean, 2) if mean > 0 else "",
+        ratio=fixed(terms.value("M_max") / mean, 1) if mean > 0 else "",
     )
 
 

@@ -27,7 +27,7 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms
+from reports.document.text.terms import Terms, with_unit
 from reports.formula.parse import names
 from reports.model.shape import pin_figure, pin_table, rays_table
 from reports.shared.russian import capital, fixed, instrumental, joined
@@ -37,7 +37,8 @@ _FORCES = ("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "
 _REACTIONS = ("length", "share", "share2", "RKCL", "RTCL", "RKCP", "RTCP")
 _ARMS = tuple(f"throw1_{key}" for key in ("arm_left", "arm_rod", "arm_rod2", "arm_pin",
                                           "arm_right", "length"))  # fmt: skip
-_OUTER = ("crankshaft_nose_arm_mm", "crankshaft_rear_arm_mm")  # of the ends' counterweights
+# Arms of the ends' counterweights with their forces across and along the throw.
+_OUTER = {"crankshaft_nose_arm_mm": ("C10", "C11"), "crankshaft_rear_arm_mm": ("C12", "C13")}
 _HALVES = "; половины шеек: л — левого ряда, п — правого"
 _SUM_DIGITS = 2
 _SUM_COLUMNS = 7  # the most journals in one table of sums
@@ -135,6 +136,7 @@ def journals(chapter: Chapter) -> Markup:
     k = chapter.worst("worst_main_load")
     drawn = numbers if chapter.whole else [k]
     neighbours = [("a", k - 1, "правой", "i"), ("b", k, "левой", "i + 1")]
+    absent = _absent_ends(chapter)
     share = -(-len(numbers) // -(-len(numbers) // _SUM_COLUMNS))  # of each of as few tables
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
@@ -152,7 +154,8 @@ def journals(chapter: Chapter) -> Markup:
             "Схема коленчатого вала: вид сбоку и с носка" + _HALVES * chapter.shape.split,
         ),
         throws_text=instrumental(throws, "коленом", "коленами"),
-        arms=[name for name in (*_ARMS, *_OUTER) if name in _read_by_first(chapter)],
+        arms=[name for name in (*_ARMS, *_OUTER) if name in _read_by_first(chapter) - absent],
+        absent=absent,
         numbers=numbers,
         tables=[f"P4_3_{n}" for n in numbers],
         drawn=drawn,
@@ -176,6 +179,18 @@ def journals(chapter: Chapter) -> Markup:
         sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )
+
+
+def _absent_ends(chapter: Chapter) -> set[str]:
+    """Arms and forces of the counterweights that the ends of the shaft do not have."""
+    crank = chapter.input.crankshaft
+    masses = (crank.nose_mass_kg, crank.rear_mass_kg)
+    return {
+        name
+        for mass, (arm, forces) in zip(masses, _OUTER.items(), strict=True)
+        if not mass
+        for name in (arm, *(f"throw1_{key}" for key in forces))
+    }
 
 
 def _read_by_first(chapter: Chapter) -> set[str]:
@@ -276,7 +291,26 @@ def bearings(chapter: Chapter) -> Markup:
         schemes=schemes,
         shown=shown,
         three_moments=_THREE_MOMENTS,
+        continuous=concluded(chapter),
     )
+
+
+def concluded(chapter: Chapter) -> Markup:
+    """What the continuous shaft adds: its most loaded supports beside the other scheme."""
+    terms = chapter.terms
+    if "continuous" not in terms.model.tables:
+        return Markup("")
+    supports = leaders(terms, [f"Rc{k}_max" for k in range(1, chapter.shape.throws + 2)])
+    k = supports[0]
+    change = terms.value(f"dRc{k}_max")
+    return Markup(
+        "по схеме неразрезного вала наибольшая реакция — у {} {}: {} (давление {}), на {} {}, "
+        "чем по разрезной"
+    ).format(
+        "опоры" if len(supports) == 1 else "опор", joined(supports), terms.val(f"Rc{k}_max"),
+        terms.val(f"qc{k}_max"), with_unit(fixed(abs(change), 1), "%"),
+        "больше" if change > 0 else "меньше",
+    )  # fmt: skip
 
 
 def _supports(terms: Terms) -> list[int]:

@@ -34,7 +34,7 @@ from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import LAYOUTS, InputFile
 from reports.model.context import diagram_kind
 from reports.model.shape import Shape
-from reports.shared.russian import joined
+from reports.shared.russian import cylindered, instrumental, joined
 from reports.tables.left_out import unused
 
 POINTS_FILE = "диаграмма.csv"  # all points of a diagram, attached to the PDF
@@ -301,4 +301,10 @@ def scheme_text(chapter: Chapter) -> Markup:
         float(shape.period),
     )
     scheme = Figure(draw, "Схема двигателя с носка вала и рабочие ходы цилиндров")
-    return chapter.page("layout", scheme=scheme, layout=LAYOUTS[chapter.input.engine.layout])
+    return chapter.page(
+        "layout",
+        scheme=scheme,
+        layout=LAYOUTS[chapter.input.engine.layout],
+        cylindered=cylindered(shape.cylinders),
+        throws_text=instrumental(shape.throws, "коленом", "коленами"),
+    )

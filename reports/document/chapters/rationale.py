@@ -28,7 +28,7 @@ from reports.inputs.firing import arrangement_of
 from reports.inputs.reasons import REASONS, RODS, Reason
 from reports.inputs.sections.input_file import InputFile, PrototypeSection
 from reports.inputs.to_si.masses import Sizes
-from reports.shared.russian import NBSP, fixed, short, uncapital
+from reports.shared.russian import NBSP, fixed, joined, short, uncapital
 from reports.tables.cycle_members import ranges_of, section_of
 
 _NEAR = 1e-9  # a value on the end of its span is inside
@@ -43,6 +43,7 @@ class Judged:
     other: float | None
     low: float
     high: float
+    bore_mm: float
 
     @property
     def verdict(self) -> str:
@@ -70,15 +71,18 @@ class Judged:
         return "…".join(short(end) for end in ends)
 
     @property
-    def line(self) -> Markup:
-        """What lies outside and what follows."""
-        reason, shown = self.reason, with_unit(self.shown, self.reason.unit)
-        follows = reason.above if self.verdict == "выше" else reason.below
-        side = "больше" if self.verdict == "выше" else "меньше"
-        words = '{} <span class="nb">{} = {}</span> {} обычного ({}): {}'
-        return Markup(words).format(
-            reason.title, inline_html(reason.tex), shown, side, self.usual, follows
-        )
+    def follows(self) -> tuple[str, str]:
+        """On which side of the span the value lies and what follows."""
+        if self.verdict == "выше":
+            return "больше", self.reason.above
+        return "меньше", self.reason.below_at(self.bore_mm)
+
+    @property
+    def named(self) -> Markup:
+        """Title, symbol and value."""
+        words = Markup('{} <span class="nb">{}\u00a0=\u00a0{}</span>')
+        shown = with_unit(self.shown, self.reason.unit)
+        return words.format(self.reason.title, inline_html(self.reason.tex), shown)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +119,8 @@ def rationale(chapter: Chapter) -> Markup:
         "rationale",
         plan=TablePlan(partial(_table, judged, any(each.other is not None for each in judged)),
                        "Принятые данные и обычные пределы", size="dense", lined=True),
-        outside=[each.line for each in judged if each.verdict != "в пределах"],
+        outside=list(_outside(judged)),
+        several=sum(each.verdict != "в пределах" for each in judged) > 1,
         known_kind=bool(stated_kind(chapter.input)),
         compared=prototype is not None,
         prototype=prototype.name if prototype else "",
@@ -123,6 +128,22 @@ def rationale(chapter: Chapter) -> Markup:
         denser=_denser(pairs),
         film=judged[-1].reason.key == "film",
     )  # fmt: skip
+
+
+def _outside(judged: list[Judged]) -> Iterator[Markup]:
+    """What lies outside; values from which the same follows stand in one sentence."""
+    groups: dict[tuple[str, str], list[Judged]] = {}
+    for each in judged:
+        if each.verdict != "в пределах":
+            groups.setdefault(each.follows, []).append(each)
+    for (side, follows), members in groups.items():
+        if len(members) == 1:
+            (one,) = members
+            yield Markup("{} {} обычного ({}): {}").format(one.named, side, one.usual, follows)
+            continue
+        names = [Markup("{} (обычно {})").format(each.named, each.usual) for each in members]
+        said = Markup(joined([names[0], *map(uncapital, names[1:])]))
+        yield Markup("{} {} обычного: {}").format(said, side, follows)
 
 
 def stated(section: PrototypeSection) -> Prototype:
@@ -219,7 +240,7 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
             span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
-            yield Judged(own, value, other, *span)
+            yield Judged(own, value, other, *span, bore)
 
 
 def several_rods(model: InputFile) -> bool:

@@ -296,23 +296,23 @@ def _tex(title: str) -> str:
     return _SYMBOL.sub(symbol, title)
 
 
+def _first(y: NDArray[np.float64]) -> int:
+    """Row of the greatest value; of equal ones the first."""
+    return int(np.argmax(y >= y.max() - _NOISE * np.abs(y).max()))
+
+
 def _spoken(terms: Terms, caption: str, charts: Sequence[ChartSpec]) -> str:
     """Alternative text: the caption and the extremes of each curve over an angle."""
     said = []
     for chart in charts:
         for series in chart.drawn_by("report") if chart.x_is_angle else ():
             x, y = terms.column(series.x), terms.column(series.y)
-            noise = _NOISE * np.abs(y).max()
-            y = np.where(np.abs(y) < noise, 0.0, y)
-            # Of equal extremes of a periodic curve the first, as in the text.
-            high, low = (
-                int(np.argmax(ends)) for ends in (y >= y.max() - noise, y <= y.min() + noise)
-            )
+            y = np.where(np.abs(y) < _NOISE * np.abs(y).max(), 0.0, y)
             unit, angle = terms.unit(series.y), spoken(terms.tex(series.x))
             parts = (
                 f"{word} {significant(float(y[row]), 4)}{' ' if unit else ''}{unit}"
                 f" при {angle} = {fixed(x[row], 0)}°"
-                for word, row in (("наибольшее", high), ("наименьшее", low))
+                for word, row in (("наибольшее", _first(y)), ("наименьшее", _first(-y)))
             )
             said.append(f"{spoken(terms.tex(series.y))}: {', '.join(parts)}")
     return f"{caption}. {'; '.join(said)}" if said else caption

@@ -74,7 +74,7 @@ class Numbering:
         self._labels: dict[Name, Label] = dict(labels or {})
         self._elsewhere = dict(elsewhere or {})
         self._counts: Counter[tuple[Kind, int]] = Counter()
-        self._referred: set[Name] = set()
+        self._referred: dict[Name, None] = {}  # in the order of the first reference
         self._placed: list[Name] = []
         self._early: list[str] = []
         self._section: list[int] = []
@@ -121,7 +121,7 @@ class Numbering:
         if (kind, key) not in self._labels and (kind, key) in self._elsewhere:
             return Markup(escape(self._elsewhere[kind, key]))
         label = self.label(kind, key)
-        self._referred.add((kind, key))
+        self._referred[kind, key] = None
         return Markup('<a class="ref" href="#{}">{}</a>').format(label.anchor, label.number)
 
     def fig(self, key: str) -> Markup:
@@ -171,9 +171,10 @@ class Numbering:
         self._headings.append(heading)
         return heading
 
-    def is_cited(self, source: str) -> bool:
-        """Whether the text so far refers to a source of the bibliography."""
-        return ("source", source) in self._referred
+    @property
+    def cited(self) -> tuple[str, ...]:
+        """Sources that the text so far refers to, in the order of the first references."""
+        return tuple(key for kind, key in self._referred if kind == "source")
 
     @property
     def contents(self) -> tuple[Heading, ...]:
@@ -222,7 +223,7 @@ class Draft(Numbering):
 
     def refer(self, kind: Kind, key: str) -> Markup:
         """No number yet."""
-        self._referred.add((kind, key))
+        self._referred[kind, key] = None
         return Markup("?")
 
     def place(self, kind: Kind, key: str, *, number: str | None = None) -> Label:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -38,7 +38,8 @@ _SYMBOLS = {
     TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
-_SIGNIFICANT = 5
+_PROJECTION = re.compile(r"\\(cos|sin)\b")
+_SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
 _NO_SPACE = {"°"}
 
 
@@ -90,6 +91,8 @@ def field_title(given: Field, model: InputFile) -> str:
     advance = _ADVANCE.get(stated_kind(model), "")
     if advance:
         title = title.replace("впрыска (зажигания)", advance)
+    if given.path[-1] == "ambient_pressure_mpa" and model.engine.strokes == 2:
+        title = "Давление под поршнем"  # of the crankcase that scavenges
     if given.path[-1] == "pin_length_mm" and Shape.of(model).split:
         title = title.replace("всей", "каждой половины")
     if given.path[-1] == "pin_length_mm" and Shape.of(model).single_rods:
@@ -226,10 +229,10 @@ class Terms:
         present = (name for name in names if self.has(name))
         return [WhereItem(self.tex(n), self.title(n), self.unit(n)) for n in present]
 
-    def formula(self, name: str, at: float | None = None) -> str:
-        """``symbol = expression`` in symbols, of the branch in force."""
+    def formula(self, name: str, at: float | None = None, zeros: Collection[str] = ()) -> str:
+        """``symbol = expression`` in symbols, of the branch in force, without ``zeros``."""
         expr = self._expr(name, at)
-        return f"{self.tex(name)} = {formulas.to_tex(expr, self._symbols(name))}"
+        return f"{self.tex(name)} = {formulas.to_tex(expr, self._symbols(name), zeros)}"
 
     def substitution(self, name: str, at: float | None = None, *, symbols: bool = False) -> str:
         """``symbol = numbers = result unit``; with ``symbols`` the expression stands before."""
@@ -237,10 +240,14 @@ class Terms:
         parts = [self.tex(name)]
         if symbols:
             parts.append(formulas.to_tex(expr, self._symbols(name)))
-        table = name.rpartition(".")[0]
+        table, digits = name.rpartition(".")[0], self._significant(name, expr, at)
 
         def number(inner: str) -> float | str:
-            return self._number(self._global(inner, table), at)
+            node = self._global(inner, table)
+            if not self._is_product(node):
+                return self._number(node, at, digits)
+            product = formulas.to_tex_numbers(self._node_expr(node), self._symbols(name), number)
+            return formulas.Raw("0" if product.startswith(r"0 \cdot") else product)
 
         parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
         parts.append(self.result_tex(name, at))
@@ -259,8 +266,7 @@ class Terms:
         """Result with unit for TeX."""
         if name in self.model.fields:
             return to_tex(self.num(name, at)) + unit_tex(self.unit(name))
-        shown = of_digits_tex(self.value(name, at), self._digits(name))
-        return shown + unit_tex(self.unit(name))
+        return self._result_tex(name, self.value(name, at)) + unit_tex(self.unit(name))
 
     def branches(self, name: str) -> list[formulas.Piece]:
         """All branches of a formula with choices."""
@@ -269,6 +275,9 @@ class Terms:
     def book(self, *names: str) -> str:
         """Where the book has them: «формула (3)», «формулы (51), (53)», «п. 2.8», empty else."""
         return book_place(*(node.source for node in map(self._node, names) if node is not None))
+
+    def _result_tex(self, name: str, value: float) -> str:
+        return of_digits_tex(value, self._digits(name))
 
     def _digits(self, name: str) -> Digits:
         """Digits of a node; of a column those that its table has."""
@@ -323,22 +332,54 @@ class Terms:
 
         return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
 
-    def _number(self, name: str, at: float | None) -> float | str:
+    def _significant(self, name: str, expr: str, at: float | None) -> int:
+        """Fewest digits of the numbers put in that give the printed result."""
+        table = name.rpartition(".")[0]
+        shown = self._result_tex(name, self.value(name, at))
+
+        def rounded(inner: str) -> float:
+            node = self._global(inner, table)
+            if self._is_product(node):
+                return float(evaluate(self._node_expr(node), rounded))
+            value = self.value(node, at)
+            if node not in self.model.fields and self.quantity(node).unit == "rad":
+                return float(np.radians(round(float(np.degrees(value)), _decimals_deg(digits))))
+            return float(f"{value:.{digits - 1}e}")
+
+        for digits in range(_SIGNIFICANT, _MOST_SIGNIFICANT + 1):
+            try:
+                value = float(evaluate(expr, rounded))
+            except (KeyError, TypeError, ValueError):  # whole columns, choices
+                break
+            if self._result_tex(name, value) == shown:
+                return digits
+        return _SIGNIFICANT
+
+    def _is_product(self, name: str) -> bool:
+        """Whether the symbol of a node is itself a formula, as that of a projection of a force."""
+        return self._column(name) and bool(_PROJECTION.search(self.tex(name)))
+
+    def _number(self, name: str, at: float | None, digits: int) -> float | str:
         value = self.value(name, at)
         if name in self.model.fields:
-            return formulas.Raw(_number_tex(value))
+            return formulas.Raw(_number_tex(value, digits))
         about = self.quantity(name)
         if about.unit == "rad":
-            text = to_tex(fixed(float(np.degrees(value)), 3))
+            text = to_tex(fixed(float(np.degrees(value)), _decimals_deg(digits)))
             return formulas.Raw(text + r"^{\circ}")
         # A force of a throw that its table prints as zero is none.
         least = 0.5 if name.startswith("throw") else 1e-9
         noise = about.digits.kind == "fixed" and abs(value) < least * 10.0**-about.digits.decimals
-        return formulas.Raw(_number_tex(0.0 if noise else value))
+        return formulas.Raw(_number_tex(0.0 if noise else value, digits))
 
 
-def _number_tex(value: float) -> str:
-    text = formulas.number_tex(value, _SIGNIFICANT)
+def _decimals_deg(digits: int) -> int:
+    """Decimals of an angle among numbers of so many digits."""
+    return digits - 2
+
+
+def _number_tex(value: float, digits: int) -> str:
+    text = formulas.number_tex(value, digits)
     return rf"\left({text}\right)" if r"\cdot" in text else text
 
 

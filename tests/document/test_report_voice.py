@@ -81,7 +81,7 @@ def test_results_of_a_coarse_step_stand_in_a_table_of_every_profile():
 def test_the_line_of_an_offset_pin_does_not_cross_the_axis():
     line = "Прямая, по которой движется ось поршневого пальца, не пересекает ось вала"
     assert line in plain(offset()[1])
-    assert "Цилиндр центральный: его ось пересекает ось вала." in words_of()
+    assert "Механизм центральный: ось цилиндра пересекает ось вала." in words_of()
 
 
 @cache

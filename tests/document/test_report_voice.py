@@ -153,6 +153,10 @@ def test_factors_that_are_told_together_share_their_verb():
     assert re.search(r"Здесь множители [^.]* переводят Н в кН и Па в МПа", text)
     assert re.search(r"Здесь множитель \S+ переводит", text)
     assert not re.search(r"переводит [^.]*переводит", text)
+    for chapter in page_of().split("<h1"):  # once in each
+        said = " ".join(re.findall(r"Здесь множител[^.]*\.", plain(chapter)))
+        pairs = re.findall(r"[А-Яа-я³]+ в [А-Яа-я³]+", said)
+        assert len(set(pairs)) == len(pairs)
 
 
 def test_the_flywheel_is_that_of_the_fine_step_wherever_it_is_told():

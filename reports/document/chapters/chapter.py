@@ -64,8 +64,6 @@ def relevant_chapters(model: InputFile) -> set[str]:
 
 
 _PRESSURE = 2  # decimals of the greatest pressure in a sentence
-
-
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
 
 
@@ -214,13 +212,6 @@ class Chapter:
         return 390.0 if self.shape.strokes == 4 else 30.0
 
     @property
-    def crankcase(self) -> bool:
-        """Whether the crankcase scavenges: no oil under pressure reaches the crankpin."""
-        model = self.input
-        hole = model.crankshaft.oil_hole_deg
-        return self.shape.strokes == 2 and model.bearings is None and hole is None
-
-    @property
     def exact(self) -> bool:
         """Whether the forces follow from the exact acceleration."""
         return self.input.calculation.method == "exact"
@@ -268,9 +259,9 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
         }
-        own = ("input", "shape", "example", "exact", "crankcase", "order", "strokes_at", "eq",
-               "full", "sub", "ref", "book", "tabs", "figs", "chart", "panels", "told",
-               "told_swing", "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
+        own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
+               "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",
+               "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -281,10 +272,9 @@ class Chapter:
             self.scales.clear()
         return self.writer.heading(level, title, **manner)
 
-    def eq(
-        self, name: str, at: float | None = None, end: str = "", zeros: Collection[str] = ()
-    ) -> Markup:
-        """The formula of a node in symbols, numbered; without the terms of what is no part."""
+    def eq(self, name: str, at: float | None = None, end: str = "",
+           zeros: Collection[str] = ()) -> Markup:  # fmt: skip
+        """The formula of a node in symbols, numbered, without the terms of ``zeros``."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
         return self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)

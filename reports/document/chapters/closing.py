@@ -246,6 +246,7 @@ def conclusion(chapter: Chapter) -> Markup:
         pin_number=pin,
         pin=names[pin - 1],
         ray=least_ray(terms, names[pin - 1]),
+        crankcase=journals.crankcase_scavenges(chapter.input),
         has_power=terms.has("T_ref"),
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,

@@ -137,7 +137,8 @@ BEARINGS = Base(
         "oil_hmin1_um": "={oil_gap1_mm}*(1-{oil_chi1})*500",
         "oil_K1": "=500*{oil_gap1_mm}*(1-{oil_chi1})/{oil_hcr_um}",
         "safe_pin_W1_cm3": "=PI()*crankshaft_pin_diameter_mm^3/16000",  # solid
-        "safe_pin_a1_MPa": "=(MAX({|P4_5s.Mpins1_Nm})-MIN({|P4_5s.Mpins1_Nm}))/(2*{safe_pin_W1_cm3})",
+        "safe_pin_a1_MPa": "=(MAX({|P4_5s.Mpins1_Nm})-MIN({|P4_5s.Mpins1_Nm}))"
+        "/(2*{safe_pin_W1_cm3})",
         "safe_n_hole": "={safe_n_bend_hole}*{safe_n_turn_hole}"
         "/SQRT({safe_n_bend_hole}^2+{safe_n_turn_hole}^2)",
         "safe_n_pin": "=IF({safe_n_hole}<{safe_n_fillet},{safe_n_hole},{safe_n_fillet})",

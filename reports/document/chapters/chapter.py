@@ -96,6 +96,17 @@ def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
 
 
+def stretched(labels: Sequence[Markup]) -> list[Markup]:
+    """Numbered labels, three and more that follow each other by their ends: «19–22»."""
+    stretches: list[Markup] = []
+    for first, last in runs([str(label.striptags()) for label in labels]):
+        if last - first > 1:
+            stretches.append(labels[first] + "–" + labels[last])
+        else:
+            stretches += labels[first : last + 1]
+    return stretches
+
+
 def pin_stems(shape: Shape) -> list[str]:
     """Stems of the keys of the crankpins, from the nose: ``pin``, ``pin2``."""
     return [f"pin{pin_name(number)}" for number in range(1, len(shape.pins) + 1)]
@@ -352,13 +363,7 @@ class Chapter:
             links = [link.removesuffix(elsewhere) for link in links]
         else:
             elsewhere = ""
-        stretches = []
-        for first, last in runs([str(link.striptags()) for link in links]):
-            if last - first > 1:
-                stretches.append(links[first] + "–" + links[last])
-            else:
-                stretches += links[first : last + 1]
-        return Markup(joined(stretches) + elsewhere)
+        return Markup(joined(stretched(links)) + elsewhere)
 
     def told(self, name: str, *, symbol: bool = False, angle: bool = False) -> Markup:
         """A scalar with its unit and, where the grid is too coarse for it, with the fine value.

@@ -15,6 +15,7 @@ from reports.document.chapters.chapter import (
     leaders,
     pin_stems,
     relevant_chapters,
+    stretched,
     worst_pin,
 )
 from reports.document.figures.schemes import crank_scheme
@@ -171,7 +172,9 @@ def journals(chapter: Chapter) -> Markup:
         forces=_throws(
             chapter, [k for k in _FORCES if k not in idle], "Центробежные силы колен", size
         ),
-        idle=[inline_html(terms.tex(f"throw1_{key}")) for key in _FORCES if key in idle],
+        idle=stretched(
+            [Markup(inline_html(terms.tex(f"throw1_{key}"))) for key in _FORCES if key in idle]
+        ),
         outer=not {"C10", "C11", "C12", "C13"} <= idle,
         reactions=_throws(
             chapter, _REACTIONS, "Пролёты колен и реакции опор от центробежных сил", size

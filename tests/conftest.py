@@ -21,7 +21,7 @@ from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
 # As many processes as there are processors leave none to the threads of numpy.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-_WAITING = 2  # processes more: some wait for LibreOffice, a browser, a command
+_WAITING = 1  # process more: some wait for LibreOffice, a browser, a command
 
 
 def pytest_xdist_auto_num_workers() -> int:

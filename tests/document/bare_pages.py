@@ -24,6 +24,11 @@ def plain(page: str) -> str:
     return re.sub(r"[ \xa0\n]+", " ", html.unescape(re.sub("<[^>]+>", "", page)))
 
 
+def formulas_of(page: str) -> list[str]:
+    """TeX of the formulas of a page, in their order."""
+    return [html.unescape(tex) for tex in re.findall(r'data-tex="([^"]*)"', page)]
+
+
 def bare_page(model: InputFile, drawn: Drawn | None = None) -> str:
     """HTML of the report; ``drawn`` gets each chart with its greatest ordinate.
 

@@ -56,6 +56,10 @@ def expression(tex: str) -> str:
     return re.sub(r"([\d)])\s*\(", r"\1*(", tex)  # a product without its sign
 
 
+def _zeros(whole: str) -> int:
+    return len(whole) - len(whole.rstrip("0"))
+
+
 def substitutions(formulas: list[str]) -> Iterator[tuple[str, float, float, float]]:
     """Formula, value of its numbers, printed result, half a unit of its last digit."""
     for tex in formulas:
@@ -68,7 +72,9 @@ def substitutions(formulas: list[str]) -> Iterator[tuple[str, float, float, floa
         if r"\mathrm{окр}" in tex or r"\sum" in tex:
             continue
         scale = 10.0 ** int(shown[2] or 0)
-        decimals = len(shown[1].partition(".")[2])
+        whole, _, fraction = shown[1].partition(".")
+        # Of a number of four significant digits the last may stand before the unit.
+        decimals = len(fraction) if fraction or len(whole.lstrip("-")) < 5 else -_zeros(whole)
         value = float(eval(expression(numbers), dict(_FUNCTIONS)))
         if "рад" in shown[3] and r"\arc" in numbers:
             value = math.radians(value)

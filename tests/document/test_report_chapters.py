@@ -1,6 +1,5 @@
 """What a supervisor marks in the chapters: numbers against sentences, symbols, limits."""
 
-import html
 import itertools
 import math
 import re
@@ -14,8 +13,7 @@ from reports.inputs.load import load_mapping
 from reports.inputs.solve_input import refined, solved
 from reports.new.generate import generate_engine
 from tests.conftest import sample
-from tests.document.bare_pages import bare_page, plain
-from tests.document.substitutions import substitutions
+from tests.document.bare_pages import bare_page, formulas_of, plain
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -79,24 +77,6 @@ def test_limits_of_a_throw_with_one_rod_are_called_so():
 
 
 # --- the working cycle ---
-
-
-def formulas_of(page):
-    """TeX of the formulas of a page, in their order."""
-    return [html.unescape(tex) for tex in re.findall(r'data-tex="([^"]*)"', page)]
-
-
-@pytest.mark.parametrize("name", ["cycle-turbo-diesel", "cycle-petrol"])
-def test_symbols_of_the_cycle_are_those_of_its_tables(name):
-    """The coefficients a, b, c of the characteristic were called a_N, b_N, c_N below it."""
-    page = page_of(name, "course")
-    text, formulas = plain(page), " ".join(formulas_of(page))
-    assert "a_N + b_N x - c_N x^2" in formulas and "a_g + b_g x + c_g x^2" in formulas
-    assert "= H_z" in formulas and "левая часть уравнения" not in text
-    columns = {"w": "вес верхней формулы", "h": "отношение (Q + Uz", "Δc": "добавка к истинной",
-               "cb": "истинная теплоёмкость при tb"}  # fmt: skip
-    for symbol, meaning in columns.items():
-        assert f"{symbol} — {meaning}" in text, symbol
 
 
 def test_passes_that_changed_nothing_are_not_printed():
@@ -456,26 +436,6 @@ def test_the_name_of_a_new_engine_can_be_declined(kind, noun):
 
 
 # --- formulas ---
-
-
-def assert_substitutions_hold(page):
-    """Numbers that are put in have five digits: so sure is what follows from them."""
-    found = list(substitutions(formulas_of(page)))
-    assert len(found) > 40
-    for tex, value, shown, half in found:
-        turned = {value, value + 180, value - 180} if r"\arctg" in tex else {value}
-        near = max(1.2 * half, 3e-4 * abs(shown))
-        assert any(abs(each - shown) <= near for each in turned), (tex, value)
-
-
-@pytest.mark.parametrize("name", ["cycle-turbo-diesel", "cycle-petrol", "mwm-6", "two-stroke"])
-def test_a_substitution_gives_the_printed_result(name):
-    assert_substitutions_hold(page_of(name, "course"))
-
-
-@pytest.mark.parametrize("layout", ["split", "offset", "v_six"])
-def test_a_substitution_of_a_layout_gives_the_printed_result(layout):
-    assert_substitutions_hold(bare_page(engine(layout, report__detail="course")))
 
 
 def test_sizes_that_no_throw_has_stand_in_no_column():

@@ -12,7 +12,7 @@ from pathlib import Path
 import tests.bench as bench
 from tests.bench._figure import keep
 
-BY_NAME = {"copying"}  # takes long: only where it is asked for
+BY_NAME = {"copying", "web"}  # take long: only where they are asked for
 
 
 def names() -> list[str]:

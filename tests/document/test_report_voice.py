@@ -116,7 +116,16 @@ def test_a_vector_that_turns_with_the_shaft_can_be_balanced_on_it():
 def test_the_hole_lies_opposite_the_rays_of_the_least_sums():
     """On the ray of its own angle the sum may be the greatest: forces press on the other side."""
     text = text_of(engine("v_six", report__detail="course"))
+    assert "от колена против вращения, напротив лучей с наименьшими суммами сил" in text
     assert "где суммы сил" not in text
+
+
+@pytest.mark.parametrize(("hole", "title"), [(None, "Давление под поршнем"),
+                                             (90.0, "Давление окружающей среды")])  # fmt: skip
+def test_the_pressure_under_the_piston_is_that_of_a_crankcase_that_scavenges(hole, title):
+    """A two-stroke with an oil hole has its oil under pressure and no mixture below the piston."""
+    model = engine("two_stroke", report__detail="course", crankshaft__oil_hole_deg=hole)
+    assert title in text_of(model)
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ from reports.document.chapters.journals import least_ray
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
-from reports.document.text.terms import Terms, with_unit
+from reports.document.text.terms import Terms, crankcase_scavenges, with_unit
 from reports.document.text.texts import of_digits
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import NO, YES
@@ -246,7 +246,7 @@ def conclusion(chapter: Chapter) -> Markup:
         pin_number=pin,
         pin=names[pin - 1],
         ray=least_ray(terms, names[pin - 1]),
-        crankcase=journals.crankcase_scavenges(chapter.input),
+        crankcase=crankcase_scavenges(chapter.input),
         has_power=terms.has("T_ref"),
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,

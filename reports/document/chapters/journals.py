@@ -28,9 +28,8 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html
-from reports.document.text.terms import Terms, with_unit
+from reports.document.text.terms import Terms, crankcase_scavenges, with_unit
 from reports.formula.parse import names
-from reports.inputs.sections.input_file import InputFile
 from reports.model.shape import pin_figure, pin_table, rays_table
 from reports.shared.russian import capital, fixed, instrumental, joined
 
@@ -106,12 +105,6 @@ def _are_alike(terms: Terms, columns: Sequence[str]) -> bool:
     first, *others = (np.sort(terms.column(name)[:-1]) for name in columns)
     scale = float(np.abs(first).max())
     return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
-
-
-def crankcase_scavenges(model: InputFile) -> bool:
-    """Whether no oil under pressure reaches the crankpin: a two-stroke without told bearings."""
-    hole = model.crankshaft.oil_hole_deg
-    return model.engine.strokes == 2 and model.bearings is None and hole is None
 
 
 def _have_equal_gaps(chapter: Chapter) -> bool:

@@ -85,14 +85,20 @@ _HINTS = re.compile(r",? (если|0 —) .*|,? PL\d| \((двухтактный 
 _ADVANCE = {"diesel": "впрыска", "petrol": "зажигания"}
 
 
+def crankcase_scavenges(model: InputFile) -> bool:
+    """Whether no oil under pressure reaches the crankpin: a two-stroke without told bearings."""
+    hole = model.crankshaft.oil_hole_deg
+    return model.engine.strokes == 2 and model.bearings is None and hole is None
+
+
 def field_title(given: Field, model: InputFile) -> str:
     """Title of a field of the input as a note has it, of the engine at hand."""
     title = _HINTS.sub("", given.title)
     advance = _ADVANCE.get(stated_kind(model), "")
     if advance:
         title = title.replace("впрыска (зажигания)", advance)
-    if given.path[-1] == "ambient_pressure_mpa" and model.engine.strokes == 2:
-        title = "Давление под поршнем"  # of the crankcase that scavenges
+    if given.path[-1] == "ambient_pressure_mpa" and crankcase_scavenges(model):
+        title = "Давление под поршнем"
     if given.path[-1] == "pin_length_mm" and Shape.of(model).split:
         title = title.replace("всей", "каждой половины")
     if given.path[-1] == "pin_length_mm" and Shape.of(model).single_rods:

@@ -1,86 +1,68 @@
-"""Prints the measures of the structure: ``python -m tools.house [FOLDER]``.
+"""Prints the measures of the structure as a table, a column a tree.
 
-Counted are the files of ``kshm``, ``reports`` and the books of ``templates/tables``.
+python -m tools.house                 the checkout as it stands
+python -m tools.house HEAD~20 .       a commit beside the checkout, by the same ruler
+python -m tools.house --static …      without the rows that run a build
 """
 
 from __future__ import annotations
 
-import ast
+import subprocess
 import sys
-from collections import Counter, defaultdict
+import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-VAGUE = ("found", "made", "place", "told", "asked", "apart")  # names that say nothing of a value
-SMALL = 60  # lines
+from tools.house.code import Code
+from tools.house.measures import MEASURES
+
+ROOT = Path(__file__).parents[2]
 
 
-def modules(root: Path) -> dict[str, Path]:
-    """Modules of both packages by name."""
-    files = [f for package in ("kshm", "reports") for f in sorted((root / package).rglob("*.py"))]
-    return {".".join(f.relative_to(root).with_suffix("").parts): f for f in files}
+@contextmanager
+def tree_of(revision: str) -> Iterator[Path]:
+    """Folder of a revision's files; the checkout itself for a dot."""
+    if revision == ".":
+        yield ROOT
+        return
+    with tempfile.TemporaryDirectory(prefix="kshm-house-") as folder:
+        packed = subprocess.run(
+            ["git", "archive", revision], cwd=ROOT, capture_output=True, check=True
+        )
+        subprocess.run(["tar", "-x", "-C", folder], input=packed.stdout, check=True)
+        yield Path(folder)
 
 
-def imported(tree: ast.Module) -> Iterator[str]:
-    """Names that a module imports: modules, and what it takes from them."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            yield node.module
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+def column(root: Path, *, static: bool) -> dict[str, str]:
+    """Value of each row for the files below a root."""
+    code = Code(root)
+    values = {title: measure(code) for title, measure in MEASURES.items()}
+    return values if static else values | dynamic(root)
 
 
-def measures(root: Path) -> dict[str, int | str]:
-    """Measure by its title."""
-    files = modules(root)
-    texts = {name: path.read_text(encoding="utf-8") for name, path in files.items()}
-    trees = {name: ast.parse(text) for name, text in texts.items()}
-    importers: defaultdict[str, set[str]] = defaultdict(set)
-    for name, tree in trees.items():
-        for target in set(imported(tree)) & files.keys() - {name}:
-            importers[target].add(name)
-    plain = [name for name in files if not name.endswith(("__init__", "__main__"))]
-    classes = Counter(
-        node.name for tree in trees.values() for node in tree.body if isinstance(node, ast.ClassDef)
-    )
-    words = Counter(
-        node.id if isinstance(node, ast.Name) else node.arg
-        for tree in trees.values()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Name | ast.arg)
-    )
-    books = sorted((root / "templates" / "tables").glob("*.book"))
-    lines = sum(text.count("\n") for text in texts.values())
-    of_books = sum(path.read_text(encoding="utf-8").count("\n") for path in books)
-    return {
-        "files of Python": len(files),
-        "books": len(books),
-        "lines of Python": lines,
-        "lines of books": of_books,
-        "modules with one importer": sum(len(importers[name]) == 1 for name in plain),
-        f"modules under {SMALL} lines": sum(texts[name].count("\n") < SMALL for name in plain),
-        "class names with several meanings": sum(count > 1 for count in classes.values()),
-        "vague names of values": sum(words[word] for word in VAGUE),
-        **{f"files of {chapter}": chapter_files(root, chapter) for chapter in ("torsion", "oil")},
-    }
+def dynamic(root: Path) -> dict[str, str]:
+    """Rows that a build of the tree itself gives: its own modules, this ruler."""
+    printed = subprocess.run(
+        [sys.executable, "-P", str(Path(__file__).with_name("trace.py")), str(root)],
+        capture_output=True, text=True, check=True, cwd=root,
+    ).stdout  # fmt: skip
+    return dict(line.split("\t", 1) for line in printed.splitlines() if "\t" in line)
 
 
-def chapter_files(root: Path, chapter: str) -> str:
-    """Files, folders and lines of a chapter: those that are named after it."""
-    names = {"torsion": ("torsion", "resonance"), "oil": ("oil", "bearing", "film")}[chapter]
-    paths = [
-        path
-        for folder in ("kshm", "reports", "templates")
-        for path in (root / folder).rglob("*")
-        if path.suffix in (".py", ".book", ".j2")
-        and any(name in part for name in names for part in path.relative_to(root).parts[1:])
-        and path.name != "__init__.py"
-    ]
-    lines = sum(path.read_text(encoding="utf-8").count("\n") for path in paths)
-    return f"{len(paths)} in {len({path.parent for path in paths})} folders, {lines} lines"
+def main(arguments: list[str]) -> None:
+    """Print the table of the trees that the arguments name."""
+    static = "--static" in arguments
+    revisions = [word for word in arguments if word != "--static"] or ["."]
+    columns = []
+    for revision in revisions:
+        with tree_of(revision) as root:
+            columns.append(column(root, static=static))
+    print(f"| measured | {' | '.join(revisions)} |")
+    print("|---" * (1 + len(revisions)) + "|")
+    for title in columns[0] | columns[-1]:
+        print(f"| {title} | {' | '.join(each.get(title, '–') for each in columns)} |")
 
 
 if __name__ == "__main__":
-    for title, value in measures(Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()).items():
-        print(f"{title:36} {value}")
+    main(sys.argv[1:])

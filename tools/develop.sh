@@ -5,6 +5,7 @@
 # ./run bench [NAME]  times and memory (see tests/bench)
 # ./run fuzz DOOR [SECONDS]  random files at the doors (see tests/fuzz)
 # ./run breaks [WORD]  deliberate breaks and whether the tests see them (see tests/breaks)
+# ./run audit         known holes in the pinned packages (asks the index of packages)
 # ./run docs [ARGS]   renew the generated pages of docs/, check links (--site DIR: HTML)
 
 office_packages="libreoffice-calc-nogui libreoffice-writer-nogui libreoffice-math-nogui python3-uno poppler-utils gnumeric"
@@ -44,6 +45,13 @@ need_atheris() {
     # Where there is no wheel of it, inputs are changed blindly.
     "$venv/bin/python" -c 'import atheris' 2>/dev/null && return 0
     pip_install "atheris>=3" || say "Нет пакета atheris: входы будут меняться вслепую."
+}
+
+# Packages are audited as they are pinned, without installing them.
+audit() {
+    "$venv/bin/python" -c 'import pip_audit' 2>/dev/null || pip_install "pip-audit>=2.10" ||
+        die "Не удалось установить pip-audit: проверьте сеть и повторите."
+    exec "$venv/bin/python" -m pip_audit --requirement "$root/constraints.txt" --no-deps --disable-pip --strict "$@"
 }
 
 lint() {
@@ -117,6 +125,7 @@ develop() {
     cd "$root"
     case "$command" in
         test) run_tests "$@" ;;
+        audit) audit "$@" ;;
         fuzz) need_atheris; exec "$venv/bin/python" -m tests.fuzz "$@" ;;
         docs) exec "$venv/bin/python" -m tools.manual "$root/docs" "$@" ;;
         *) exec "$venv/bin/python" -m "tests.$command" "$@" ;;

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import tests.bench as bench
 from tests.bench._figure import keep
+from tests.bench._history import draw
 
 BY_NAME = {"copying", "web"}  # take long: only where they are asked for
 
@@ -26,7 +27,15 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="./run bench", description="Замеры времени и памяти.")
     parser.add_argument("names", nargs="*", metavar="ЗАМЕР", help=f"из: {', '.join(known)}")
     parser.add_argument("--history", type=Path, metavar="ФАЙЛ.csv", help="дописать строки в CSV")
+    parser.add_argument("--draw", type=Path, metavar="ФАЙЛ.svg",
+                        help="нарисовать историю из --history; ЗАМЕР отбирает строки")  # fmt: skip
     asked = parser.parse_args(arguments)
+    if asked.draw:
+        if not asked.history or not asked.history.exists():
+            print("история не найдена: назовите её файл ключом --history", file=sys.stderr)
+            return 2
+        print(f"{asked.draw}: линий {draw(asked.history, asked.draw, asked.names)}")
+        return 0
     unknown = [name for name in asked.names if name not in known]
     if unknown:
         print(f"нет замера {unknown[0]}; есть: {', '.join(known)}", file=sys.stderr)

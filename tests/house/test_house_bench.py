@@ -9,7 +9,8 @@ import sys
 import openpyxl
 import pytest
 
-from tests.bench.__main__ import names
+from tests.bench.__main__ import main, names
+from tests.bench._history import by_commit
 from tests.bench._process import run
 from tests.bench.workbook import cells_of, theirs
 from tests.referee.changes import without_charts
@@ -33,3 +34,15 @@ def test_the_other_library_writes_every_cell_of_ours():
     for sheet, written in cells.items():
         found = sum(cell.value is not None for row in book[sheet].iter_rows() for cell in row)
         assert found == len(written), sheet
+
+
+def test_the_history_is_drawn_by_commit(tmp_path, capsys):
+    history, picture = tmp_path / "h.csv", tmp_path / "h.svg"
+    rows = ("a,A,m,solver: solve,2,s", "b,A,m,solver: solve,4,s", "c,B,m,solver: solve,6,s",
+            "d,B,other,solver: solve,9,s", "e,B,m,web: page,1,s")  # fmt: skip
+    history.write_text("date,commit,machine,name,value,unit\n" + "\n".join(rows), encoding="utf-8")
+    commits, values = by_commit(history)
+    assert commits == ["A", "B"] and values["solver: solve"] == {"A": 3.0, "B": 6.0}
+    assert main(["solver", "--history", str(history), "--draw", str(picture)]) == 0
+    assert capsys.readouterr().out.endswith("линий 1\n") and b"<svg" in picture.read_bytes()
+    assert main(["--history", str(tmp_path / "none.csv"), "--draw", str(picture)]) == 2

@@ -15,7 +15,8 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from typing import TypeVar
 
-from reports.document.chapters.chapter import chosen
+from reports.document.chapters.contents import CHAPTERS
+from reports.document.chapters.record import chosen
 from reports.formula.parse import parse
 from reports.inputs.fields import to_mapping
 from reports.model.blocks import Model
@@ -75,7 +76,7 @@ def chapters(model: Model) -> set[tuple]:
     """Every section of the input, every chapter of the report, every arrangement."""
     given = to_mapping(model.input)
     found = {("section", name) for name, section in given.items() if section}
-    found |= {("chapter", name) for name in chosen(model.input)}
+    found |= {("chapter", name) for name in chosen(CHAPTERS, model.input)}
     return found | {("engine", given["engine"].get("layout"), given["engine"].get("strokes"))}
 
 

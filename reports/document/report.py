@@ -15,29 +15,16 @@ from typing import TYPE_CHECKING, Literal, cast
 
 from markupsafe import Markup
 
-from reports.document.chapters import (
-    balance,
-    closing,
-    cycle,
-    dynamics,
-    front,
-    journals,
-    oil,
-    opening,
-    own,
-    rationale,
-    regimes,
-    strength,
-    torsion,
-)
+from reports.document.chapters import closing, front, opening, rationale
 from reports.document.chapters.chapter import (
     ELSEWHERE,
     Chapter,
     Prototype,
-    chosen,
     pin_stems,
     worst_pin,
 )
+from reports.document.chapters.contents import CHAPTERS
+from reports.document.chapters.record import Write, chosen
 from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.floating import arranged, redrawn
@@ -60,36 +47,8 @@ from reports.tables.registry import build_model
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-Write = Callable[[Chapter], Markup]
 Further = Sequence[Write]
 
-# In the order of the report; the names are those of ``report.chapters``.
-CHAPTERS: dict[str, Write] = {
-    "notation": opening.notation,
-    "introduction": opening.introduction,
-    "inputs": opening.input_data,
-    "rationale": rationale.rationale,
-    "cycle": cycle.cycle,
-    "kinematics": dynamics.kinematics,
-    "dynamics": dynamics.dynamics,
-    "torque": dynamics.torque,
-    "crankpin": journals.crankpin,
-    "journals": journals.journals,
-    "bearings": journals.bearings,
-    "running": dynamics.running,
-    "balance": balance.balance,
-    "torsion": torsion.torsion,
-    "oil": oil.oil,
-    "strength": strength.strength,
-    "own": own.own,
-    "regimes": regimes.regimes,
-    "reference": dynamics.reference,
-    "companions": balance.companions,
-    "checks": closing.checks,
-    "conclusion": closing.conclusion,
-    "sources": closing.sources,
-    "appendices": closing.appendices,
-}
 _RUN_ON = 0.25  # of a page that is left for the next chapter outside of the full report
 
 
@@ -209,17 +168,17 @@ class Report:
     def _draft(self) -> tuple[Draft, Chapter]:
         """Draft of the chosen chapters: places and numbers."""
         env, draft = self._environment("print", tagged=True), Draft(by_chapter=self._by_chapter)
-        chapter = Chapter(self._terms, Writer(env, draft), env, self.prototype)
+        chapter = Chapter(self._terms, Writer(env, draft), env, self.prototype, CHAPTERS)
         with overrides.template_errors(self.templates):
-            _write(chapter, chosen(self.model.input), self.further)
+            _write(chapter, chosen(CHAPTERS, self.model.input), self.further)
         return draft, chapter
 
     @cached_property
     def _absent(self) -> dict[Name, str]:
         """Words for what stands in the chapters that are left out."""
         env, absent = self._environment("print", tagged=True), Draft()
-        names = CHAPTERS.keys() - chosen(self.model.input)
-        _write(Chapter(self._terms, Writer(env, absent), env, self.prototype), names)
+        names = {record.name for record in CHAPTERS} - chosen(CHAPTERS, self.model.input)
+        _write(Chapter(self._terms, Writer(env, absent), env, self.prototype, CHAPTERS), names)
         return _elsewhere(self._terms, absent)
 
     @property
@@ -233,8 +192,10 @@ class Report:
     def _written(self, media: Literal["print", "screen"], tagged: bool) -> str:
         env, style = self._environment(media, tagged=tagged), self.style
         numbering = self._draft[0].numbering(elsewhere=self._absent)
-        chapter = Chapter(self._terms, Writer(env, numbering), env, self.prototype)
-        body = Markup(texts.unbroken(_write(chapter, chosen(self.model.input), self.further)))
+        chapter = Chapter(self._terms, Writer(env, numbering), env, self.prototype, CHAPTERS)
+        body = Markup(
+            texts.unbroken(_write(chapter, chosen(CHAPTERS, self.model.input), self.further))
+        )
         if media == "print":
             sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
             placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(chapter, style))
@@ -338,11 +299,11 @@ def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool
 def _write(chapter: Chapter, names: set[str], further: Further = ()) -> Markup:
     """The chapters of those names; further ones stand before the checks and conclusions."""
     parts: dict[str, Markup] = {}
-    for name, write in CHAPTERS.items():
-        if name == "checks":
+    for record in CHAPTERS:
+        if record.name == "checks":
             parts |= {f"further {n}": added(chapter) for n, added in enumerate(further)}
-        if name in names:
-            parts[name] = write(chapter)
+        if record.name in names:
+            parts[record.name] = record.write(chapter)
     if "notation" in parts and not chapter.writer.draft:
         others = Markup("\n").join(part for name, part in parts.items() if name != "notation")
         parts["notation"] = opening.notation(chapter, others)

@@ -63,7 +63,7 @@ def test_a_broken_reference_is_told(monkeypatch):
     from reports.document import report
     from reports.document.page.numbering import NumberingError
 
-    few = dict(list(report.CHAPTERS.items())[:4])
+    few = report.CHAPTERS[:4]
     monkeypatch.setattr(report, "CHAPTERS", few)
     with pytest.raises(NumberingError, match="необъявленное"):
         page(terms_of(text_of("one")))

@@ -12,6 +12,7 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import UNITS
+from reports.document.chapters.record import Record, chosen, relevant
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.numbering import Figure, Kind, TablePlan, Writer
@@ -22,47 +23,17 @@ from reports.document.text.texts import of_digits
 from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
+from reports.inputs.sections.report import CHAPTERS
 from reports.inputs.solve_input import FINE, MOST_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
 from reports.shared.russian import NBSP, fixed, joined, runs
-from reports.tables.cycle_members import section_of
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
 STATICS = "P4_5s"  # table of the crankpins' torques by statics
-_ALWAYS = {"notation", "introduction", "inputs", "conclusion", "sources"}
-_SHORT = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "checks"}
-_COURSE = _SHORT | {"rationale", "running", "balance", "torsion", "oil", "strength", "own",
-                    "regimes", "appendices"}  # fmt: skip
-_FULL = _COURSE | {"bearings", "reference", "companions"}
-_PROFILES = {"short": _SHORT, "course": _COURSE, "full": _FULL}
-
-
-def chosen(model: InputFile) -> set[str]:
-    """Names of the report's chapters: its profile or the person's own list."""
-    report = model.report
-    wanted = _PROFILES[report.detail] if report.chapters is None else set(report.chapters)
-    # Both were one chapter: files that name it get what they got.
-    if "companions" in wanted:
-        wanted = wanted | {"balance"}
-    return wanted | _ALWAYS
-
-
-def relevant_chapters(model: InputFile) -> set[str]:
-    """Chosen chapters that apply to the engine."""
-    lacking = {"torsion"} if model.torsion is None else set()
-    lacking |= {"oil"} if model.bearings is None else set()
-    lacking |= {"strength"} if model.strength is None else set()
-    lacking |= set() if model.books else {"own"}
-    lacking |= {"cycle"} if section_of(model) is None else set()
-    shape = Shape.of(model)
-    lacking |= {"balance", "companions"} if shape.offset or shape.articulated else set()
-    return chosen(model) - lacking
-
-
 _PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
 
@@ -199,6 +170,7 @@ class Chapter:
     writer: Writer
     environment: Environment
     prototype: Prototype | None = None
+    records: Sequence[Record] = ()
     figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
     scales: dict[str, bool] = field(default_factory=dict)  # factors of the chapter → explained
 
@@ -211,6 +183,16 @@ class Chapter:
     def input(self) -> InputFile:
         """The input file."""
         return self.terms.model.input
+
+    @cached_property
+    def chosen(self) -> set[str]:
+        """Names of the chapters that the report has."""
+        return chosen(self.records, self.input)
+
+    @cached_property
+    def relevant(self) -> set[str]:
+        """Names of the chosen chapters that apply to the engine."""
+        return relevant(self.records, self.input)
 
     @cached_property
     def shape(self) -> Shape:
@@ -269,6 +251,7 @@ class Chapter:
             "figure": self.writer.figure,
             "table": self.writer.table,
             "at": self.example,
+            "title": CHAPTERS.get(template, ""),
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",

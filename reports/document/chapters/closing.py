@@ -10,24 +10,17 @@ from markupsafe import Markup
 
 from reports.document.chapters import (
     balance,
-    journals,
     oil,
-    rationale,
-    regimes,
-    strength,
-    torsion,
 )
 from reports.document.chapters.chapter import (
     BOOK,
     ELSEWHERE,
     STATICS,
     Chapter,
-    chosen,
     greatest_pressure,
     leaders,
     pin_stems,
     pin_torque,
-    relevant_chapters,
     worst_pin,
     worst_running,
 )
@@ -102,7 +95,7 @@ def checks(chapter: Chapter) -> Markup:
         verdict=verdict(chapter),
         accepted=_accepted(chapter),
         flywheel=balance.flywheel(chapter),
-        reason=without_orders(chapter.input) if "balance" in chosen(chapter.input) else "",
+        reason=without_orders(chapter.input) if "balance" in chapter.chosen else "",
         grid=bool(_grid_errors(chapter)),
         errors=TablePlan(
             partial(_grid_table, chapter), "Результаты, для которых шаг таблиц велик", size="tiny"
@@ -112,7 +105,7 @@ def checks(chapter: Chapter) -> Markup:
 
 def _accepted(chapter: Chapter) -> list[tuple[Markup, Markup]]:
     """Failed checks that the author explains, with the reason; that of power has its chapter."""
-    stated = {"power"} if "torque" in chosen(chapter.input) else set()
+    stated = {"power"} if "torque" in chapter.chosen else set()
     titles = {key: scalar.note for key, scalar in chapter.model.scalars.items()}
     return [
         (titled_html(titles[f"check_{key}"]), remark_html(reason.rstrip(".")))
@@ -121,15 +114,11 @@ def _accepted(chapter: Chapter) -> list[tuple[Markup, Markup]]:
     ]
 
 
-# Chapters that alone tell results of these names.
-_TELLERS = {"Malpha": "bearings", "B_": "bearings", "dM_": "running", "I_flywheel": "balance",
-            "W_range": "balance"}  # fmt: skip
-
-
 def _grid_errors(chapter: Chapter) -> list[GridError]:
     """Errors of the step of results that the report tells."""
-    written = relevant_chapters(chapter.input)
-    absent = tuple(start for start, name in _TELLERS.items() if name not in written)
+    written = chapter.relevant
+    absent = tuple(key for record in chapter.records if record.name not in written
+                   for key in record.keys)  # fmt: skip
     if not (chapter.whole and "balance" in written):
         absent += ("delta_speed",)
     return [error for error in chapter.grid_errors if not error.key.startswith(absent)]
@@ -227,16 +216,15 @@ def conclusion(chapter: Chapter) -> Markup:
     """Conclusions, each from numbers."""
     terms, throws = chapter.terms, chapter.shape.throws
     names, pin = pin_stems(chapter.shape), worst_pin(terms)
-    names_of_chapters = relevant_chapters(chapter.input)
     mains, pins = worst_running(terms, throws)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
-        failed=failed(terms, {"power"} if "torque" in names_of_chapters else ()),
+        failed=failed(terms, {"power"} if "torque" in chapter.relevant else ()),
         verdict=verdict(chapter),
         load=chapter.worst("worst_main_load"),
         loads=leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
-        names=names_of_chapters & _CONCLUDED,
+        names=chapter.relevant & _CONCLUDED,
         mains=mains,
         pins=pins,
         pins_count=len(names),
@@ -259,20 +247,15 @@ def conclusion(chapter: Chapter) -> Markup:
 
 def _further(chapter: Chapter) -> list[Markup]:
     """Results of the chapters that not every report has."""
-    names = chosen(chapter.input)
-    lines = {
-        "bearings": journals.concluded, "rationale": rationale.concluded,
-        "balance": balance.concluded,
-        "torsion": torsion.concluded, "oil": oil.concluded, "strength": strength.concluded,
-        "regimes": regimes.concluded,
-    }  # fmt: skip
-    return [line for name, of in lines.items() if name in names and (line := of(chapter))]
+    lines = (record.conclude(chapter) for record in chapter.records
+             if record.conclude is not None and record.name in chapter.chosen)  # fmt: skip
+    return [line for line in lines if line]
 
 
 def verdict(chapter: Chapter) -> str:
     """How many checks passed, in words; where they stand if the report has no table of them."""
     count, bad = len(check_keys(chapter.terms)), len(failed(chapter.terms))
-    absent = "checks" not in relevant_chapters(chapter.input)
+    absent = "checks" not in chapter.relevant
     where = f" (таблица «Проверки» {ELSEWHERE})" if absent else ""
     if not bad:
         return f"Все проверки расчёта{where} выполнены ({count}{NBSP}из{NBSP}{count})."

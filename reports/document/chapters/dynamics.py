@@ -13,7 +13,6 @@ from reports.document.chapters.chapter import (
     greatest_pressure,
     half_torque_gap,
     pin_torque,
-    relevant_chapters,
     worst_running,
 )
 from reports.document.chapters.rationale import judge, several_rods
@@ -211,7 +210,7 @@ def _mass_notes(chapter: Chapter) -> Markup:
         if scalar.of == "verdict" and scalars[scalar.key] == NO
     ]
     # What the chapter on the data judges is not judged twice.
-    written = "rationale" in relevant_chapters(chapter.input)
+    written = "rationale" in chapter.relevant
     told = {each.reason.key for each in judge(chapter)} if written else set()
     shown = [v for v in verdicts if _RATIOS[v.key.removesuffix("_fits")] not in told]
     return chapter.page(

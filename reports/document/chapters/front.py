@@ -5,9 +5,10 @@ Each gives its template words by name; what is empty becomes a line to write on 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
-from reports.document.chapters.chapter import Chapter, named_engine, relevant_chapters
+from reports.document.chapters.chapter import Chapter, named_engine
 from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
@@ -16,32 +17,9 @@ from reports.shared.russian import joined, last_bound, surname
 
 Words = dict[str, Any]
 
-_KEYWORDS = (
-    ("", "кривошипно-шатунный механизм"),
-    ("cycle", "рабочий цикл"),
-    ("kinematics", "кинематика"),
-    ("dynamics", "динамика"),
-    ("dynamics", "индикаторная диаграмма"),
-    ("torque", "крутящий момент"),
-    ("crankpin", "шатунная шейка"),
-    ("journals", "коренная шейка"),
-    ("crankpin", "диаграмма износа"),
-    ("balance", "уравновешенность"),
-    ("torsion", "крутильные колебания"),
-    ("oil", "масляная плёнка"),
-    ("strength", "прочность деталей"),
-)
-# What the work is to find, by the chapters that tell it.
-_AIMS = (
-    ({"cycle"}, "показатели рабочего цикла"),
-    ({"kinematics"}, "движение деталей механизма"),
-    ({"dynamics", "torque"}, "силы и моменты, действующие в нём за рабочий цикл"),
-    ({"crankpin", "journals", "bearings", "running"}, "нагрузки на шейки коленчатого вала"),
-    ({"balance"}, "уравновешенность и неравномерность хода двигателя"),
-    ({"torsion"}, "крутильные колебания вала"),
-    ({"strength"}, "прочность поршня, пальца, шатуна и щёк"),
-    ({"oil"}, "толщину масляной плёнки подшипников и запасы прочности шеек"),
-)
+_OBJECT = "кривошипно-шатунный механизм"  # the first key word
+# Chapters whose aims stand for the whole mechanism where the report has none.
+_MECHANISM = ("kinematics", "dynamics", "crankpin")
 _REPORT = ("title", "institution", "department", "discipline", "student", "group", "supervisor",
            "variant", "city", "head", "issued", "due")  # fmt: skip
 # The data a task is usually given by.
@@ -91,23 +69,26 @@ def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
 def abstract(chapter: Chapter) -> Words:
     """Counts of what the report holds, and key words."""
     n = chapter.writer.n
-    names = {"", *relevant_chapters(chapter.input)}
-    words = [word for name, word in _KEYWORDS if name in names]
+    records = [record for record in chapter.records if record.name in chapter.relevant]
+    words = [_OBJECT, *(word for record in records for word in record.keywords)]
     return {
         "figures": n.count("figure"),
         "tables": n.count("table"),
         "sources": n.count("source"),
         "appendices": sum(item.title.startswith("Приложение") for item in n.contents),
-        "names": names,
+        "names": chapter.relevant,
         "keywords": [word.upper() for word in words],
-        "aim": _aim(names),
+        "aim": _aim(chapter),
     }
 
 
-def _aim(names: set[str]) -> str:
+def _aim(chapter: Chapter) -> str:
     """Aim of the work from its chapters; by default the whole mechanism."""
-    fitting = [words for chapters, words in _AIMS if chapters & names]
-    aims = fitting or [words for _, words in _AIMS[1:4]]
+
+    def of(names: Collection[str]) -> list[str]:
+        return list(dict.fromkeys(r.aim for r in chapter.records if r.aim and r.name in names))
+
+    aims = of(chapter.relevant) or of(_MECHANISM)
     if " и " in aims[-1]:
         return joined(aims, ", а также ")
     # A turn of speech has a comma at its end.

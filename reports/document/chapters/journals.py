@@ -14,7 +14,6 @@ from reports.document.chapters.chapter import (
     Chapter,
     leaders,
     pin_stems,
-    relevant_chapters,
     stretched,
     worst_pin,
 )
@@ -91,7 +90,7 @@ def crankpin(chapter: Chapter) -> Markup:
         sums=TablePlan(sums, f"Суммы удельных сил по лучам шатунной шейки{number}", keep=True),
         best=least_ray(terms, name),
         crankcase=crankcase_scavenges(chapter.input),
-        film="oil" in relevant_chapters(chapter.input)
+        film="oil" in chapter.relevant
         and terms.has("oil_film1_deg")
         and chapter.input.crankshaft.oil_hole_deg is None,
         ties=_least_rays(terms, name, rays),

@@ -10,7 +10,7 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.arrays import Array
-from reports.document.chapters.chapter import Chapter, pin_stems, relevant_chapters
+from reports.document.chapters.chapter import Chapter, pin_stems
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
@@ -116,7 +116,7 @@ class Hole:
 def hole(chapter: Chapter, pin: int) -> Hole:
     """The one verdict on the oil hole: as given, by the film, or by wear of the pin."""
     terms, given = chapter.terms, chapter.input.crankshaft.oil_hole_deg
-    if "oil" not in relevant_chapters(chapter.input) or not terms.has("oil_film1_deg"):
+    if "oil" not in chapter.relevant or not terms.has("oil_film1_deg"):
         return _by_wear(chapter, pin)
     if given is not None:
         return Hole(1, terms.val("crankshaft_oil_hole_deg"), "как задано")

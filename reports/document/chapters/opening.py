@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from reports.document.chapters.chapter import Chapter, relevant_chapters
+from reports.document.chapters.chapter import Chapter
 from reports.document.figures.schemes import engine_scheme
 from reports.document.page.blocks import (
     TableBlock,
@@ -90,28 +90,12 @@ def _occurs(tex: str, text: str, formulas: str) -> bool:
     )
 
 
-# What the introduction says was found, by chapter.
-_FOUND = (
-    ("cycle", "показатели рабочего цикла"),
-    ("kinematics", "перемещение, скорость и ускорение поршня"),
-    ("kinematics", "качание шатуна"),
-    ("dynamics", "силы в механизме"),
-    ("torque", "крутящий момент двигателя"),
-    ("crankpin", "нагрузка на шатунную шейку и условная диаграмма её износа"),
-    ("journals", "нагрузки на коренные шейки и их условные диаграммы износа"),
-    ("running", "набегающие моменты"),
-    ("balance", "уравновешенность и неравномерность хода двигателя"),
-    ("torsion", "крутильные колебания вала"),
-    ("oil", "толщина масляной плёнки подшипников и запасы прочности шеек"),
-    ("strength", "прочность поршня, кольца, пальца, шатуна, болтов и щёк"),
-)
-
-
 def introduction(chapter: Chapter) -> Markup:
     """Introduction: what is computed and how."""
-    names = relevant_chapters(chapter.input)
+    names = chapter.relevant
     # Some things have an «и» of their own.
-    results = joined([what for name, what in _FOUND if name in names], ", а также ")
+    findings = (words for each in chapter.records if each.name in names for words in each.findings)
+    results = joined(list(findings), ", а также ")
     return chapter.page(
         "introduction", found=results, cycle="cycle" in names, appended="appendices" in names
     )
@@ -148,18 +132,13 @@ def input_data(chapter: Chapter) -> Markup:
     )
 
 
-# Sections that one chapter alone reads.
-_READERS = {"balance": "balance", "torsion": "torsion", "bearings": "oil",
-            "reference": "reference"}  # fmt: skip
-
-
 def _elsewhere(chapter: Chapter) -> set[str]:
     """Names of the fields that only chapters read which this report has not."""
-    names = relevant_chapters(chapter.input)
+    readers = {section: record.name for record in chapter.records for section in record.sections}
     return {
         field.name
         for field in chapter.model.inputs
-        if _READERS.get(str(field.path[0]), "inputs") not in names
+        if readers.get(str(field.path[0]), "inputs") not in chapter.relevant
     }
 
 

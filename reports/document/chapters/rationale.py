@@ -14,7 +14,6 @@ from reports.document.chapters.chapter import (
     Chapter,
     Prototype,
     pin_stems,
-    relevant_chapters,
     worst_pin,
 )
 from reports.document.page.blocks import TableBlock, TableColumn, table_block
@@ -206,7 +205,7 @@ def concluded(chapter: Chapter) -> Markup:
         )
         for each in judge(chapter) if each.verdict != "в пределах"
     ]  # fmt: skip
-    found = "cycle" in relevant_chapters(chapter.input)
+    found = "cycle" in chapter.relevant
     if found:
         parts += cycle.outside_lines(chapter.terms, set(_OF_CYCLE.values()))
     if not parts:

@@ -15,28 +15,28 @@ DETAILS = {
     "full": "все главы, все строки таблиц",
     "short": "расчёт до коренных шеек с проверкой и выводами, без приложений",
 }
-# Chapters that a report may do without; the introduction, the input data, the conclusion and
-# the sources always stand.
+# Titles of the chapters that a report may do without; the introduction, the input data, the
+# conclusion and the sources always stand.
 CHAPTERS = {
-    "rationale": "обоснование исходных данных",
-    "cycle": "рабочий цикл",
-    "kinematics": "кинематика",
-    "dynamics": "динамика",
-    "torque": "крутящий момент",
-    "crankpin": "шатунная шейка",
-    "journals": "коренные шейки",
-    "bearings": "подшипники и изгиб вала",
-    "running": "набегающие моменты",
-    "balance": "уравновешенность и маховик",
-    "torsion": "крутильные колебания",
-    "oil": "масляная плёнка и прочность шеек",
-    "strength": "прочность поршня, пальца, шатуна и щёк",
-    "own": "расчёты из своих книг",
-    "regimes": "сравнение режимов",
-    "reference": "точность формул и справочные зависимости",
-    "companions": "гармоники момента, точное движение поршня",
-    "checks": "проверка результатов",
-    "appendices": "таблицы по углу поворота",
+    "rationale": "Обоснование исходных данных",
+    "cycle": "Расчёт рабочего цикла",
+    "kinematics": "Кинематика кривошипно-шатунного механизма",
+    "dynamics": "Динамика кривошипно-шатунного механизма",
+    "torque": "Крутящий момент двигателя",
+    "crankpin": "Нагрузка на шатунную шейку",
+    "journals": "Нагрузки на коренные шейки",
+    "bearings": "Подшипники и изгиб вала",
+    "running": "Набегающие моменты",
+    "balance": "Уравновешенность и ход двигателя",
+    "torsion": "Крутильные колебания вала",
+    "oil": "Масляная плёнка подшипников и прочность шеек",
+    "strength": "Прочность деталей",
+    "own": "Расчёты из своих книг",
+    "regimes": "Сравнение режимов работы",
+    "reference": "Точность формул и справочные зависимости",
+    "companions": "Гармоники момента и точное движение поршня",
+    "checks": "Проверка результатов",
+    "appendices": "Таблицы по углу поворота",
 }
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[

@@ -20,7 +20,7 @@ from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
-from reports.model.book_text import BookLine, shelf_of
+from reports.model.book_text import Places, shelf_of
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -197,8 +197,8 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 }
 
 
-def book_part(book: str, scope: Scope, places: dict[str, BookLine] | None = None) -> Part:
-    """Blocks and charts of a book; ``places`` takes the lines of its nodes.
+def book_part(book: str, scope: Scope, places: Places | None = None) -> Part:
+    """Blocks and charts of a book; ``places`` takes the lines of what it says.
 
     A book that replaces one of the house has the names of that subject.
     """

@@ -145,7 +145,7 @@ def check(source: Path, as_json: bool) -> int:
     import json
 
     from reports.exports.build import BOOKS, load_input
-    from reports.shared.errors import InputError
+    from reports.shared.errors import InputError, Problem
 
     if source.suffix.lower() == ".book":
         from reports.exports.book_trial import check_alone
@@ -163,9 +163,11 @@ def check(source: Path, as_json: bool) -> int:
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
         if as_json:
+            from reports.exports.own_books import failed_own_checks
             from reports.inputs.solve_input import power_problems
 
-            warnings = (*warnings, *power_problems(loaded.model))
+            own = (Problem("", each.line()) for each in failed_own_checks(loaded.model))
+            warnings = (*warnings, *power_problems(loaded.model), *own)
     except InputError as error:
         if not as_json:
             raise

@@ -40,7 +40,9 @@ def unknown_in_chapters(own: Own) -> Iterator[BookError]:
                             "назовите величину или ТАБЛИЦА.СТОЛБЕЦ", text)  # fmt: skip
         for word, key in MARK.findall(text):
             if word not in KINDS and key not in model.scalars and key not in model.fields:
-                yield own.fault(line, f"в тексте нет «{key}»", "назовите величину или исходное", key)
+                yield own.fault(
+                    line, f"в тексте нет «{key}»", "назовите величину или исходное", key
+                )
             if word in KINDS and KINDS[word] not in kinds_of(own, key):
                 yield _of_another_kind(own, line, word, key)
         odd = _ODD_MARK.search(MARK.sub("", text))

@@ -117,8 +117,8 @@ def sheets(own: Own) -> Iterator[BookError]:
             place_of(block.sheet, contents)
         except LookupError:
             what = f"лист «{block.sheet}» не назван" if block.sheet else "лист не назван"
-            yield own.fault(lines[0], f"{what}: где стоять блоку «{block.id}»",
-                            "пишите sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК", block.id)  # fmt: skip
+            form = "пишите sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"
+            yield own.fault(lines[0], f"{what}: где стоять блоку «{block.id}»", form, block.id)
 
 
 def _sheet_lines(shelf: Shelf, *, house: bool) -> Iterator[tuple[str, BookLine]]:
@@ -177,7 +177,7 @@ def odd_words(own: Own) -> Iterator[BookError]:
 def _odd(own: Own, at: str | BookLine, texts: list[str]) -> Iterator[BookError]:
     for text in texts:
         tag = re.search(r"<\s*[A-Za-z/!]|&#|javascript:", text)
-        if tag or text.startswith(_STARTS_FORMULA):
+        if tag or (len(text) > 1 and text.startswith(_STARTS_FORMULA)):
             line = own.places.line_of(at, text) if isinstance(at, str) else at
             yield own.fault(line, f"текст «{one_line(text, 40)}» похож на формулу или код",
                             "оставьте обычные слова", tag[0] if tag else text)  # fmt: skip

@@ -60,9 +60,9 @@ def _read(node: ast.expr, function: str, *, whole: bool) -> Iterator[tuple[str, 
         case ast.Attribute(value=ast.Name(id=table), attr=column):
             yield f"{table}.{column}", function, whole
         case ast.Call(func=ast.Name(id=name), args=args):
-            takes = _WHOLE.get(name, lambda at, of: False)
+            takes = _WHOLE.get(name)
             for at, arg in enumerate(args):
-                yield from _read(arg, name, whole=takes(at, len(args)))
+                yield from _read(arg, name, whole=takes is not None and takes(at, len(args)))
         case _:
             for child in ast.iter_child_nodes(node):
                 if isinstance(child, ast.expr):
@@ -110,7 +110,10 @@ def _never(model: Model, name: str, node: str, text: str) -> tuple[str, str]:
             return "", ""
         labels = list(field.choices.values())
         if text in field.choices:
-            return f"«{text}» — слово выбора, а в формуле — подпись", f"пишите «{field.choices[text]}»"
+            return (
+                f"«{text}» — слово выбора, а в формуле — подпись",
+                f"пишите «{field.choices[text]}»",
+            )
         return (f"среди подписей «{name}» нет «{one_line(text, 40)}»",
                 "есть: " + ", ".join(f"«{label}»" for label in labels))  # fmt: skip
     scalar = model.scalars.get(node)
@@ -136,7 +139,8 @@ def _in_statements(own: Own) -> Iterator[BookError]:
     """Comparisons of ``value.SECTION.KEY`` with a word that the choice has not."""
     environment = environment_of(own.shelf)
     for stem, (_, text) in zip(own.shelf.names, own.shelf.own, strict=True):
-        for node in environment.parse(text).find_all(nodes.Compare):
+        tree: nodes.Template = environment.parse(text)
+        for node in tree.find_all(nodes.Compare):
             path, words = _path(node.expr), _words(own, _path(node.expr))
             for each in node.ops if words else ():
                 word = each.expr
@@ -144,9 +148,9 @@ def _in_statements(own: Own) -> Iterator[BookError]:
                     continue
                 if word.value not in words:
                     line = BookLine(f"{stem}.book", node.lineno, "")
-                    yield own.fault(line, f"{'.'.join(path)} не бывает «{one_line(word.value, 40)}»",
-                                    "в условии — слово выбора: " + ", ".join(words),
-                                    word.value)  # fmt: skip
+                    what = f"{'.'.join(path)} не бывает «{one_line(word.value, 40)}»"
+                    mend = "в условии — слово выбора: " + ", ".join(words)
+                    yield own.fault(line, what, mend, word.value)
 
 
 def _path(node: nodes.Node) -> tuple[str, ...]:

@@ -88,8 +88,9 @@ def _unmade(own: Own, values: Values, *, whole: bool) -> Iterator[BookError]:
         ("записка", lambda: report.page("screen")),
     ]
     if whole:
+        short = short_model(own.model)
         makers += [("записка Word", lambda: report_docx(report)),
-                   ("книга Excel", lambda: workbook_bytes(short_model(own.model), values))]  # fmt: skip
+                   ("книга Excel", lambda: workbook_bytes(short, values))]  # fmt: skip
     for name, make in makers:
         try:
             make()

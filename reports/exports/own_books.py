@@ -17,11 +17,12 @@ from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
 from reports.model.book_text import BookError, Places, Shelf, shelf_of
 from reports.model.contents import contents_of
-from reports.model.evaluation import Evaluation
+from reports.model.evaluation import Evaluation, Values
 from reports.model.shape import Scope
 from reports.shared.errors import InputError, Problem
 from reports.tables.contexts import book_part
 from reports.tables.registry import kept_model
+from reports.tables.verdicts import Failed, checks_of, failed_checks
 
 _MOST_TOLD = 20
 # Each kind is asked for where the kinds before have no fault.
@@ -62,7 +63,9 @@ def read_books(model: InputFile) -> Own:
                 problems += error.problems
         elif not _serves_others(shelf, name):
             what = "нет строки place: книгу никто не читает"
-            problems += BookError(shelf.called(name), 1, 1, what, "добавьте place after 700").problems
+            problems += BookError(
+                shelf.called(name), 1, 1, what, "добавьте place after 700"
+            ).problems
     if problems:
         raise InputError(problems)
     return Own(kept_model(model), places, shelf)
@@ -88,9 +91,19 @@ def _read_faults(model: InputFile) -> Iterator[Problem]:
 
 def _checks_of(model: InputFile) -> set[str]:
     """Names of the checks of own books."""
+    return set(checks_of(kept_model(model), department=True))
+
+
+def failed_own_checks(model: InputFile) -> list[Failed]:
+    """Checks of own books that an engine does not pass and does not explain."""
+    if not model.books:
+        return []
     built = kept_model(model)
-    return {key.partition("_")[2] for key in built.own_nodes
-            if key.startswith(("check_", "allowed_"))}  # fmt: skip
+    run, names = Evaluation(built), checks_of(built, department=True)
+    scalars = {key: run.value(key) for name, verdict in names.items()
+               for key in (f"value_{name}", verdict.key)}  # fmt: skip
+    failed = failed_checks(built, Values(scalars, {}), department=True)
+    return [each for each in failed if not each.reason]
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,14 +93,16 @@ def parse(text: str) -> ast.expr:
 class _Paired(ast.NodeTransformer):
     """``a <= x <= b`` as ``a <= x and x <= b``."""
 
-    def visit_Compare(self, node: ast.Compare) -> ast.expr:  # noqa: N802 - the name that ast asks
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
         self.generic_visit(node)
         sides = [node.left, *node.comparators]
         pairs: list[ast.expr] = [
             ast.copy_location(ast.Compare(left, [op], [right]), node)
             for left, op, right in zip(sides[:-1], node.ops, sides[1:], strict=True)
         ]
-        return pairs[0] if len(pairs) == 1 else ast.copy_location(ast.BoolOp(ast.And(), pairs), node)
+        return (
+            pairs[0] if len(pairs) == 1 else ast.copy_location(ast.BoolOp(ast.And(), pairs), node)
+        )
 
 
 def _check(node: ast.expr, text: str, depth: int = 1) -> None:

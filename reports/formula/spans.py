@@ -176,8 +176,9 @@ def _joined(spans: list[Span]) -> Spans:
         if whole and _touch(whole[-1], span):
             last = whole.pop()
             high, upto = max((last.high, last.upto), (span.high, span.upto))
-            span = Span(last.low, last.above, high, upto)
-        whole.append(span)
+            whole.append(Span(last.low, last.above, high, upto))
+        else:
+            whole.append(span)
     return tuple(whole)
 
 

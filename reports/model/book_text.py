@@ -18,8 +18,8 @@ from reports.inputs.own_books import Texts, book_name
 from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of
-from reports.model.statements import said_of, unpaired
 from reports.model.sandbox import StrictEnvironment, rendered
+from reports.model.statements import said_of, unpaired
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.resources import templates_dir
 
@@ -236,14 +236,14 @@ def cause_of(error: Exception, letters: int = 80) -> str:
     text = str(error)
     if isinstance(error, FormulaError):
         return one_line(f"«{error.fragment}» не разобрано: {error.mend}", letters)
-    if isinstance(error, jinja2.TemplateError) and (said := said_of(error)):
-        return said
+    if isinstance(error, jinja2.TemplateError) and (words := said_of(error)):
+        return words
     if re.search("[а-яё]", text):
         return one_line(text, letters)
     if isinstance(error, jinja2.TemplateError):
         return ""
-    said = (words for kind, words in _CAUSES.items() if isinstance(error, kind))
-    return next(said, "действие не для этих значений")
+    usual = (cause for kind, cause in _CAUSES.items() if isinstance(error, kind))
+    return next(usual, "действие не для этих значений")
 
 
 def _cause(error: Exception) -> str:

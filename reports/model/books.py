@@ -116,9 +116,7 @@ class _Open:
 class _BookReader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(
-        self, shelf: Shelf, names: Mapping[str, Any], places: Places | None
-    ) -> None:
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: Places | None) -> None:
         self._shelf, self._names = shelf, names
         self._places = Places() if places is None else places
         self._chapters: list[OwnChapter] = []
@@ -241,7 +239,9 @@ class _BookReader:
             block.columns += columns
             return
         if table is None:
-            raise self._fault("в списке нужен столбец таблицы", "пишите extremes ТАБЛИЦА.СТОЛБЕЦ as ИМЯ")
+            raise self._fault(
+                "в списке нужен столбец таблицы", "пишите extremes ТАБЛИЦА.СТОЛБЕЦ as ИМЯ"
+            )
         scalars = extreme_scalars(table, column, name, source or "")
         self._placed(*(each.key for each in scalars))
         block.scalars += scalars

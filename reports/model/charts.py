@@ -183,7 +183,9 @@ class ChartLines:
         if not (curves or self.kind == "wear"):
             raise ValueError(f"у диаграммы «{self.id}» нет кривых; допишите curve ТАБЛИЦА.КЛЮЧ")
         if self.kind in ("polar", "wear") and not self.box:
-            raise ValueError(f"у диаграммы «{self.id}» нет осей; пишите {self.kind} ИМЯ in СЕТКА: …")
+            raise ValueError(
+                f"у диаграммы «{self.id}» нет осей; пишите {self.kind} ИМЯ in СЕТКА: …"
+            )
         if self.kind != "wear" and not self.over and any(not curve.x for curve in curves):
             raise ValueError(f"у кривых «{self.id}» нет абсциссы; пишите chart ИМЯ over phi_deg: …")
         if self.over:

@@ -211,10 +211,13 @@ def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
     names, theirs = tuple(names), shelf_of(scope.input.books).names
     parts = [book_part(name, scope) for name in names]
-    own = (part for name, part in zip(names, parts, strict=True) if name in (*theirs, *BY_FORMULAS))
+    nodes = {name: frozenset(key for block in part.blocks for key, _ in nodes_in(block))
+             for name, part in zip(names, parts, strict=True)
+             if name in (*theirs, *BY_FORMULAS)}  # fmt: skip
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),
         tuple(chapter for part in parts for chapter in part.chapters),
-        frozenset(key for part in own for block in part.blocks for key, _ in nodes_in(block)),
+        frozenset().union(*nodes.values()),
+        frozenset().union(*(keys for name, keys in nodes.items() if name in theirs)),
     )

@@ -63,22 +63,22 @@ def _of_another_kind(own: Own, line: BookLine, word: str, key: str) -> BookError
 
 def shown(own: Own) -> Iterator[BookError]:
     """What chapters show twice, cannot show, or refer to without showing it."""
-    once: dict[str, int] = {}
+    once: dict[str, dict[str, int]] = {"show": {}, "formula": {}}
     for kind, key, line in lines_of(own):
-        if kind != "show":
+        if kind not in once:
             continue
-        if key in once:
-            yield own.fault(line, f"«{key}» показано дважды",
-                            f"оставьте одно show (есть на строке {once[key]})", key)  # fmt: skip
-        once.setdefault(key, line.number)
-        chart = own.model.charts_by_id.get(key)
+        if key in once[kind]:
+            mend = f"оставьте одно {kind} (есть на строке {once[kind][key]})"
+            yield own.fault(line, f"«{key}» показано дважды", mend, key)
+        once[kind].setdefault(key, line.number)
+        chart = own.model.charts_by_id.get(key) if kind == "show" else None
         if chart is not None and not chart.drawn_by("report"):
             yield own.fault(line, f"у диаграммы «{key}» нет кривых для записки",
                             "уберите workbook у одной из них", key)  # fmt: skip
     theirs = own.places.blocks.keys() | own.places.charts.keys()
     for _, text, line in lines_of(own):
         for word, key in MARK.findall(text):
-            is_shown = key in once and kinds_of(own, key)[:1] == [KINDS.get(word)]
+            is_shown = key in once["show"] and kinds_of(own, key)[:1] == [KINDS.get(word)]
             if word in KINDS and key in theirs and not is_shown:
                 yield own.fault(line, f"«{key}» в записке не показано",
                                 f"допишите строку show {key}", f'{word}("{key}")')  # fmt: skip

@@ -79,6 +79,7 @@ def repeated(own: Own) -> Iterator[BookError]:
     """Names that stand for two things, which no workbook tells apart."""
     seen: dict[str, str] = {field.name.casefold(): field.name for field in own.model.inputs}
     ids: set[str] = set()
+    told: set[tuple[BookLine, str]] = set()  # the value and the verdict of a check are one
     for block in own.model.blocks:
         if block.id in ids:
             yield own.fault(own.places.line_of(block.id), f"блок «{block.id}» есть дважды",
@@ -86,9 +87,14 @@ def repeated(own: Own) -> Iterator[BookError]:
         ids.add(block.id)
         for key, _ in nodes_in(block):
             line = own.places.nodes.get(key)
+            if (line, short_of(key)) in told:
+                continue
             if key.casefold() in seen and line is not None:
-                yield own.fault(line, f"имя «{short_of(key)}» занято («{seen[key.casefold()]}»)",
-                                "назовите величину или проверку иначе", short_of(key))  # fmt: skip
+                told.add((line, short_of(key)))
+                name, other = short_of(key), short_of(seen[key.casefold()])
+                what = f"имя проверки «{name}» занято" if name != key else f"имя «{key}» занято"
+                more = f" («{other}»)" if other != name else ""
+                yield own.fault(line, what + more, "назовите иначе", name)
             elif line is not None and "." not in key and _CELL_LIKE.fullmatch(key):
                 yield own.fault(line, f"имя «{key}» похоже на адрес ячейки Excel",
                                 "добавьте знак подчёркивания", key)  # fmt: skip
@@ -113,6 +119,7 @@ def sheets(own: Own) -> Iterator[BookError]:
         lines = own.places.blocks.get(block.id)
         if not lines or block.sheet.casefold() in known:
             continue
+        known.add(block.sheet.casefold())
         try:
             place_of(block.sheet, contents)
         except LookupError:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from reports.document.chapters.chapter import FORMULA
 from reports.document.report import Report
 from reports.document.text.mathsvg import FormulaImageError, formula
 from reports.exports.book_chapters import KINDS, kinds_of, lines_of
@@ -74,6 +75,9 @@ def _unplaced(own: Own, values: Values) -> Iterator[BookError]:
             word = next(word for word, of in KINDS.items() if of in first)
             yield own.fault(line, f"«{text}» уже стоит в записке",
                             f'сошлитесь: {{{{ {word}("{text}") }}}}', text)  # fmt: skip
+        if kind == "formula" and ("formula", FORMULA + text) in placed:
+            yield own.fault(line, f"формула «{text}» уже стоит в записке",
+                            f'назовите значение: {{{{ eqv("{text}") }}}}', text)  # fmt: skip
         for word, key in MARK.findall(text):
             name = (KINDS.get(word, ""), key)
             if name[0] and name not in shows | placed | elsewhere:

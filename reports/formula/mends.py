@@ -55,7 +55,8 @@ _SIGNS = (
     (r";", "между числами в скобках — запятая"),
     (r"\d,\d", "в дроби — точка: 0.6; между числами — запятая с пробелом"),
     (r"\$?\b[A-Z]{1,2}\$?\d+\b", "ячейки не называют: назовите величину или столбец ТАБЛИЦА.КЛЮЧ"),
-    (r"\b\d+(?:\.\d+)?\s*[A-Za-zА-Яа-я_(]|\)\s*\(|\)\s*\w", "знак умножения пишут: 2*x"),
+    (r"\b\d+(?:\.\d+)?\s*(?!(?:if|else|and|or|not)\b)[^\W\d]|\d\s*\(|\)\s*\("
+     r"|\)\s*(?!(?:if|else|and|or)\b)\w", "знак умножения пишут: 2*x"),
 )  # fmt: skip
 _CALL = re.compile(r"(?<![\w.])([^\W\d]\w*)\s*\(")
 _QUOTED = re.compile(r'"[^"]*"')
@@ -72,6 +73,8 @@ def mended(text: str, is_function: Callable[[str], bool]) -> tuple[str, str]:
         name = call[1]
         if not is_function(name) and name not in ("if", "else", "and", "or", "not"):
             return text[call.start() : call.end()], _function(name)
+    if re.search(r"\bif\b", plain) and not re.search(r"\belse\b", plain):
+        return text, _WRITTEN["if"]
     for pattern, mend in _SIGNS:
         sign = re.search(pattern, plain)
         if sign is not None:
@@ -82,8 +85,6 @@ def mended(text: str, is_function: Callable[[str], bool]) -> tuple[str, str]:
         return text, "кавычки не парные"
     if "'" in plain:
         return text, 'текст берут в кавычки "…"'
-    if re.search(r"\bif\b", plain) and not re.search(r"\belse\b", plain):
-        return text, _WRITTEN["if"]
     return text, _USUAL
 
 

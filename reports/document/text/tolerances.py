@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 from reports.formula.numeric import Resolver
-from reports.formula.parse import parse
+from reports.formula.parse import is_condition, parse
 from reports.formula.plain import plain
 from reports.formula.spans import Span, spans_of
 from reports.shared.russian import short
@@ -27,7 +27,9 @@ def tolerance(verdict: str, value: str, resolve: Resolver, symbol: Callable[[str
         symbol: gives their symbols.
     """
     tree = parse(verdict)
-    condition = ast.unparse(tree.test if isinstance(tree, ast.IfExp) else tree)
+    if isinstance(tree, ast.IfExp) and not is_condition(verdict):
+        tree = tree.test
+    condition = ast.unparse(tree)
     spans = spans_of(condition, value, resolve)
     if spans and len(spans) <= _MOST_SPANS:
         if len(spans) == 2 and spans[0].high == spans[1].low and _is_all_else(spans):

@@ -17,7 +17,7 @@ from reports.model.blocks import Column, Grid, Model, TableSpec, nodes_in
 from reports.model.book_text import (
     BookError,
     BookLine,
-    Places,
+    BookPlaces,
     Shelf,
     at_fragment,
     book_faults,
@@ -50,7 +50,7 @@ class Own:
     """A model, the own books of which it was made, and where they say what."""
 
     model: Model
-    places: Places
+    places: BookPlaces
     shelf: Shelf
 
     def fault(self, line: BookLine | None, what: str, hint: str, fragment: str = "") -> BookError:

@@ -15,7 +15,7 @@ from reports.exports.book_faults import Own
 from reports.exports.book_meanings import compared, misread
 from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
-from reports.model.book_text import BookError, Places, Shelf, shelf_of
+from reports.model.book_text import BookError, BookPlaces, Shelf, shelf_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation, Values
 from reports.model.shape import Scope
@@ -52,7 +52,7 @@ def read_books(model: InputFile) -> Own:
     Raises:
         InputError: everything that cannot be read.
     """
-    shelf, scope, places = shelf_of(model.books), Scope(model), Places()
+    shelf, scope, places = shelf_of(model.books), Scope(model), BookPlaces()
     parts = [name for names in contents_of(shelf).parts.values() for name in names]
     problems: list[Problem] = []
     for name in shelf.names:

@@ -14,7 +14,7 @@ from reports.formula.parse import parse
 
 
 @dataclass(frozen=True, order=True, slots=True)
-class Span:
+class Interval:
     """Values between two ends, each of them in or out."""
 
     low: float
@@ -28,8 +28,8 @@ class Span:
         return self.low > self.high or (self.low == self.high and (self.above or not self.upto))
 
 
-Spans = tuple[Span, ...]
-_ALL = Span(-math.inf, True, math.inf, False)
+Spans = tuple[Interval, ...]
+_ALL = Interval(-math.inf, True, math.inf, False)
 _MIRRORED = {ast.Lt: ast.Gt, ast.LtE: ast.GtE, ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 
 
@@ -82,16 +82,16 @@ def _within(op: ast.cmpop, limit: float) -> Spans:
     """Spans of what is compared with a limit."""
     match op:
         case ast.Lt():
-            return (Span(-math.inf, True, limit, False),)
+            return (Interval(-math.inf, True, limit, False),)
         case ast.LtE():
-            return (Span(-math.inf, True, limit, True),)
+            return (Interval(-math.inf, True, limit, True),)
         case ast.Gt():
-            return (Span(limit, True, math.inf, False),)
+            return (Interval(limit, True, math.inf, False),)
         case ast.GtE():
-            return (Span(limit, False, math.inf, False),)
+            return (Interval(limit, False, math.inf, False),)
         case ast.Eq():
-            return (Span(limit, False, limit, True),)
-    return _others((Span(limit, False, limit, True),))
+            return (Interval(limit, False, limit, True),)
+    return _others((Interval(limit, False, limit, True),))
 
 
 def _solved(node: ast.expr, spans: Spans, value: str, resolve: Resolver) -> Spans:
@@ -102,7 +102,7 @@ def _solved(node: ast.expr, spans: Spans, value: str, resolve: Resolver) -> Span
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return _solved(operand, _scaled(spans, -1.0), value, resolve)
         case ast.Call(func=ast.Name(id="abs"), args=[inner]):
-            positive = _common(spans, (Span(0.0, False, math.inf, False),))
+            positive = _common(spans, (Interval(0.0, False, math.inf, False),))
             return _solved(inner, _joined([*positive, *_scaled(positive, -1.0)]), value, resolve)
         case ast.BinOp(left=left, op=op, right=right):
             first = _names(left, value)
@@ -149,12 +149,12 @@ def _moved(spans: Spans, by: float) -> Spans:
 def _scaled(spans: Spans, by: float) -> Spans:
     if by > 0:
         return _mapped(spans, lambda end: end * by)
-    turned = (Span(s.high * by, not s.upto, s.low * by, not s.above) for s in reversed(spans))
+    turned = (Interval(s.high * by, not s.upto, s.low * by, not s.above) for s in reversed(spans))
     return tuple(turned)
 
 
 def _mapped(spans: Spans, act: Callable[[float], float]) -> Spans:
-    return tuple(Span(act(s.low), s.above, act(s.high), s.upto) for s in spans)
+    return tuple(Interval(act(s.low), s.above, act(s.high), s.upto) for s in spans)
 
 
 def _common(some: Spans, others: Spans) -> Spans:
@@ -163,26 +163,26 @@ def _common(some: Spans, others: Spans) -> Spans:
     return tuple(sorted(span for span in both if not span.is_empty))
 
 
-def _cut(one: Span, other: Span) -> Span:
+def _cut(one: Interval, other: Interval) -> Interval:
     low, above = max((one.low, one.above), (other.low, other.above))
     high, upto = min((one.high, one.upto), (other.high, other.upto))
-    return Span(low, above, high, upto)
+    return Interval(low, above, high, upto)
 
 
-def _joined(spans: list[Span]) -> Spans:
+def _joined(spans: list[Interval]) -> Spans:
     """What lies in any, those that touch made one."""
-    whole: list[Span] = []
+    whole: list[Interval] = []
     for span in sorted(span for span in spans if not span.is_empty):
         if whole and _touch(whole[-1], span):
             last = whole.pop()
             high, upto = max((last.high, last.upto), (span.high, span.upto))
-            whole.append(Span(last.low, last.above, high, upto))
+            whole.append(Interval(last.low, last.above, high, upto))
         else:
             whole.append(span)
     return tuple(whole)
 
 
-def _touch(one: Span, later: Span) -> bool:
+def _touch(one: Interval, later: Interval) -> bool:
     return later.low < one.high or (later.low == one.high and (one.upto or not later.above))
 
 
@@ -190,7 +190,7 @@ def _others(spans: Spans) -> Spans:
     """What lies in none."""
     left: Spans = (_ALL,)
     for span in spans:
-        outside = (Span(-math.inf, True, span.low, span.above),
-                   Span(span.high, span.upto, math.inf, False))  # fmt: skip
+        outside = (Interval(-math.inf, True, span.low, span.above),
+                   Interval(span.high, span.upto, math.inf, False))  # fmt: skip
         left = _common(left, outside)
     return left

@@ -39,7 +39,7 @@ class BookLine:
 
 
 @dataclass(frozen=True, slots=True)
-class Places:
+class BookPlaces:
     """Where own books say what: lines of formulas by node, of blocks and charts by their names."""
 
     nodes: dict[str, BookLine] = field(default_factory=dict)

@@ -37,7 +37,7 @@ from reports.model.blocks import TableSpec as Table
 from reports.model.book_text import (
     BookError,
     BookLine,
-    Places,
+    BookPlaces,
     Shelf,
     at_fragment,
     cause_of,
@@ -78,7 +78,7 @@ def read_book(
     name: str,
     names: Mapping[str, Any],
     shelf: Shelf | None = None,
-    places: Places | None = None,
+    places: BookPlaces | dict[str, BookLine] | None = None,
 ) -> Part:
     """Blocks and charts of a book for one engine.
 
@@ -86,13 +86,16 @@ def read_book(
         name: file of the book.
         names: what its conditions may ask.
         shelf: where books lie, those of the house if none is given.
-        places: takes the lines of what the book says.
+        places: takes the lines of what the book says; a mapping, those of its formulas alone.
 
     Raises:
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    reader = _BookReader(shelf, names, places)
+    where = (
+        places if isinstance(places, BookPlaces) else BookPlaces({} if places is None else places)
+    )
+    reader = _BookReader(shelf, names, where)
     for line in lines_of(name, shelf, names):
         reader.take(line)
     return reader.part()
@@ -116,9 +119,9 @@ class _Open:
 class _BookReader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: Places | None) -> None:
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: BookPlaces | None) -> None:
         self._shelf, self._names = shelf, names
-        self._places = Places() if places is None else places
+        self._places = places
         self._chapters: list[OwnChapter] = []
         self._sheet = ""
         self._blocks: list[Block] = []

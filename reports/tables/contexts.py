@@ -20,7 +20,7 @@ from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
-from reports.model.book_text import Places, shelf_of
+from reports.model.book_text import BookLine, BookPlaces, shelf_of
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -168,7 +168,7 @@ def _cylinders(scope: Scope) -> dict[str, Any]:
 
 
 def _rounded(scope: Scope) -> dict[str, Any]:
-    """Places of a rounded diagram that a file need not give."""
+    """BookPlaces of a rounded diagram that a file need not give."""
     gas = scope.input.gas
     if not isinstance(gas, RoundedGasSection):
         return {}
@@ -197,7 +197,9 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 }
 
 
-def book_part(book: str, scope: Scope, places: Places | None = None) -> Part:
+def book_part(
+    book: str, scope: Scope, places: BookPlaces | dict[str, BookLine] | None = None
+) -> Part:
     """Blocks and charts of a book; ``places`` takes the lines of what it says.
 
     A book that replaces one of the house has the names of that subject.

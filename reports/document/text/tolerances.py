@@ -9,7 +9,7 @@ from collections.abc import Callable
 from reports.formula.numeric import Resolver
 from reports.formula.parse import is_condition, parse
 from reports.formula.plain import plain
-from reports.formula.spans import Span, spans_of
+from reports.formula.spans import Interval, spans_of
 from reports.shared.russian import short
 
 _DIGITS = 10  # significant digits of a limit
@@ -40,11 +40,11 @@ def tolerance(verdict: str, value: str, resolve: Resolver, symbol: Callable[[str
     return plain(condition, lambda name: "значение" if name == value else symbol(name))
 
 
-def _is_all_else(spans: tuple[Span, ...]) -> bool:
+def _is_all_else(spans: tuple[Interval, ...]) -> bool:
     return spans[0].low == -math.inf and spans[1].high == math.inf
 
 
-def _words(span: Span) -> str:
+def _words(span: Interval) -> str:
     """A span in words; nothing for one without ends."""
     low, high = span.low, span.high
     if math.isfinite(low) and math.isfinite(high):
@@ -58,11 +58,11 @@ def _words(span: Span) -> str:
     return _low(span) if math.isfinite(low) else ""
 
 
-def _low(span: Span) -> str:
+def _low(span: Interval) -> str:
     return f"{'более' if span.above else 'не менее'} {_short(span.low)}"
 
 
-def _high(span: Span) -> str:
+def _high(span: Interval) -> str:
     return f"{'не более' if span.upto else 'менее'} {_short(span.high)}"
 
 

@@ -119,7 +119,7 @@ class _Open:
 class _BookReader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: BookPlaces | None) -> None:
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: BookPlaces) -> None:
         self._shelf, self._names = shelf, names
         self._places = places
         self._chapters: list[OwnChapter] = []

@@ -168,7 +168,7 @@ def _cylinders(scope: Scope) -> dict[str, Any]:
 
 
 def _rounded(scope: Scope) -> dict[str, Any]:
-    """BookPlaces of a rounded diagram that a file need not give."""
+    """Places of a rounded diagram that a file need not give."""
     gas = scope.input.gas
     if not isinstance(gas, RoundedGasSection):
         return {}

@@ -87,6 +87,8 @@ def _level(pair: tuple[str, str]) -> str:
 
 @lru_cache(maxsize=4096)
 def _read(tex: str) -> _Line:
+    if tex.count("{") != tex.count("}"):
+        raise ValueError(f"symbol {tex!r}: braces do not pair up")
     return _Reader(tex).line(_ON_LINE)
 
 

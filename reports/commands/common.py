@@ -105,10 +105,12 @@ def tell_next(command: str, path: Path) -> None:
 
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     """Print remarks on a solution, on stderr if ``aside``; return whether there is a warning."""
+    from reports.exports.own_books import failed_own_checks
     from reports.inputs.solve_input import power_problems, solution_remarks
 
+    own = (f"Внимание: {failed.line()}" for failed in failed_own_checks(loaded.model))
     power = (f"Внимание: {problem.line()}" for problem in power_problems(loaded.model))
-    lines = (*power, *solution_remarks(loaded.model))
+    lines = (*power, *own, *solution_remarks(loaded.model))
     for line in lines:
         click.echo(line, err=aside)
     return any(line.startswith("Внимание") for line in lines)

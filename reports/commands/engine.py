@@ -89,8 +89,11 @@ def new(
     return DONE
 
 
-def _with_named(source: Path, loaded: Loaded) -> Loaded:
-    """Check that templates and engines named by an input exist."""
+def _with_named(source: Path, loaded: Loaded, *, whole: bool = False) -> Loaded:
+    """Check that templates and engines named by an input exist, and that own books are built.
+
+    ``whole`` tries documents that the command does not make itself.
+    """
     report = loaded.model.report
     if report.templates:
         from reports.exports.build import find_templates
@@ -100,6 +103,10 @@ def _with_named(source: Path, loaded: Loaded) -> Loaded:
         from reports.studies.comparison_page import with_others
 
         loaded = with_others(source, loaded)
+    if loaded.model.books:
+        from reports.exports.book_trial import refuse_unbuilt
+
+        refuse_unbuilt(loaded.model, whole=whole)
     return _with_prototype(source, loaded)
 
 
@@ -138,10 +145,10 @@ def check(source: Path, as_json: bool) -> int:
     import json
 
     from reports.exports.build import BOOKS, load_input
-    from reports.shared.errors import InputError
+    from reports.shared.errors import InputError, Problem
 
     if source.suffix.lower() == ".book":
-        from reports.exports.own_books import check_alone
+        from reports.exports.book_trial import check_alone
 
         for about in check_alone(source):
             click.echo(about)
@@ -152,13 +159,15 @@ def check(source: Path, as_json: bool) -> int:
         if is_work_book(source):
             return _tell_findings(source, findings(source), as_json=as_json)
     try:
-        loaded = _with_named(source, load_input(source))
+        loaded = _with_named(source, load_input(source), whole=True)
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
         if as_json:
+            from reports.exports.own_books import failed_own_checks
             from reports.inputs.solve_input import power_problems
 
-            warnings = (*warnings, *power_problems(loaded.model))
+            own = (Problem("", each.line()) for each in failed_own_checks(loaded.model))
+            warnings = (*warnings, *power_problems(loaded.model), *own)
     except InputError as error:
         if not as_json:
             raise

@@ -156,6 +156,11 @@ class Report:
         charts = (replace(chart, number=numbers.get(chart.id, "")) for chart in self.model.charts)
         return replace(self.model, charts=tuple(charts))
 
+    @property
+    def names(self) -> tuple[frozenset[Name], frozenset[Name]]:
+        """Kinds and keys of all that the report numbers, and of what is left to other documents."""
+        return frozenset(self._draft[0].declared), frozenset(self._absent)
+
     @cached_property
     def _pages(self) -> dict[tuple[str, bool], str]:
         return {}

@@ -17,11 +17,11 @@ from reports.document.figures.canvas import by_direction
 from reports.document.text.symbols import indexed
 from reports.inputs.solve_input import solution_remarks
 from reports.inputs.units import MM
-from reports.model.blocks import NO, Model, ScalarTable
+from reports.model.blocks import NO, Model, Scalar, ScalarTable
 from reports.model.charts import ChartSpec
 from reports.model.evaluation import Evaluation
 from reports.shared.russian import written
-from reports.tables.verdicts import check_value, reasons_of
+from reports.tables.verdicts import check_value, checks_of, reasons_of
 
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
@@ -32,18 +32,28 @@ _CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed
 def results(model: Model, solution: Solution) -> Iterator[Data]:
     """The summaries of workbook and report with the numbers of chain and regimes: what is quick."""
     quick = solution.scalars if solution.engine.regimes else solution.chain_scalars
+    own = Evaluation(model)
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
             values = ((each, solution.scalar(each.key)) for each in block.scalars
                      if each.key in quick)  # fmt: skip
-            rows = [
-                {"key": each.key, "title": each.note or each.quantity.title,
-                 "symbol": _symbol(each.quantity), "unit": each.quantity.unit_label,
-                 "value": value, "text": written(value, each.quantity.digits)}
-                for each, value in values
-            ]  # fmt: skip
+            rows = [_row(each, value) for each, value in values]
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}
+    for block in model.blocks:  # of own books, but for their checks
+        if isinstance(block, ScalarTable) and block.verdicts is None:
+            rows = [_row(each, own.value(each.key)) for each in block.scalars
+                    if each.key in model.department]  # fmt: skip
+            if rows:
+                yield {"id": block.id, "title": block.title, "rows": rows}
+
+
+def _row(each: Scalar, value: float | str) -> Data:
+    """A result with its words."""
+    text = value if isinstance(value, str) else written(value, each.quantity.digits)
+    return {"key": each.key, "title": each.note or each.quantity.title,
+            "symbol": _symbol(each.quantity), "unit": each.quantity.unit_label,
+            "value": value, "text": text}  # fmt: skip
 
 
 def charts(model: Model, solution: Solution, sheet: str) -> list[Data]:
@@ -65,7 +75,7 @@ def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
     vectors = [each for each in chart.series
                if chart.kind == "polar" and each.only == "workbook"
                and not each.invisible]  # fmt: skip
-    curves = [(each.name or _name(each.y), numbers(each.x), numbers(each.y))
+    curves = [(each.name or _name(each.y, formulas.model), numbers(each.x), numbers(each.y))
               for each in (*chart.drawn_by("report"), *vectors)]  # fmt: skip
     x = y = np.empty(0)
     if chart.kind == "polar":
@@ -86,7 +96,9 @@ def _symbol(each: Quantity) -> str:
     return indexed(each.tex, each.symbol)
 
 
-def _name(key: str) -> str:
+def _name(key: str, model: Model) -> str:
+    if key in model.nodes:
+        return _symbol(model.nodes[key].quantity)
     try:
         return _symbol(quantity(key.rpartition(".")[2]))
     except KeyError:
@@ -153,13 +165,11 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
 def checks(model: Model) -> Data:
     """The checks of a calculation, each with its value, and what the step leaves out."""
     value, reasons = Evaluation(model).value, reasons_of(model.input)
-    names = {key.removeprefix("check_"): scalar for key, scalar in model.scalars.items()
-             if key.startswith("check_")}  # fmt: skip
     return {
         "checks": [
             {"key": name, "title": scalar.note, "value": check_value(float(value(f"value_{name}"))),
-             "ok": value(f"check_{name}") != NO, "reason": reasons.get(name, "")}
-            for name, scalar in names.items()
+             "ok": value(scalar.key) != NO, "reason": reasons.get(name, "")}
+            for name, scalar in checks_of(model).items()
         ],
         "remarks": [*model.remarks, *solution_remarks(model.input)],
     }  # fmt: skip

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import ast
+import re
 from functools import lru_cache
 
 from kshm.nomenclature.quantity import UNITS
+from reports.formula.mends import mended
 
 # Row-wise functions and the number of their arguments (least, most).
 FUNCTIONS: dict[str, tuple[int, int]] = {
@@ -47,12 +49,15 @@ _COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 MOST_LETTERS, MOST_DEEP = 8000, 150  # of an expression: longer ones no spreadsheet takes
 
 
-class FormulaError(ValueError):
-    """An expression is not of the language; ``fragment`` is the part that is not."""
+_COMMA = re.compile(r'^(?:[^"]|"[^"]*")*?(?<![\w.])\d+,\d')  # outside of texts
 
-    def __init__(self, what: str, fragment: str = "") -> None:
+
+class FormulaError(ValueError):
+    """An expression is not of the language: the part that is not, and in Russian how to mend it."""
+
+    def __init__(self, what: str, fragment: str = "", mend: str = "") -> None:
         super().__init__(what)
-        self.fragment = fragment
+        self.fragment, self.mend = fragment, mend
 
 
 def is_known_function(name: str) -> bool:
@@ -62,26 +67,47 @@ def is_known_function(name: str) -> bool:
 
 @lru_cache(maxsize=4096)
 def parse(text: str) -> ast.expr:
-    """Parse and check an expression.
+    """Parse and check an expression; bounds on both sides of a value are two comparisons.
 
     Raises:
         FormulaError: a construct or function outside the language.
     """
     if len(text) > MOST_LETTERS:
-        raise FormulaError(f"an expression of more than {MOST_LETTERS} signs", text[:40])
+        what = f"an expression of more than {MOST_LETTERS} signs"
+        raise FormulaError(what, text[:40], "разделите формулу")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        raise FormulaError(f"not an expression: {text!r} ({error.msg})", text) from error
+        what = f"not an expression: {text!r} ({error.msg})"
+        raise FormulaError(what, *mended(text, is_known_function)) from error
     except (RecursionError, MemoryError, ValueError):
-        raise FormulaError("an expression too deep", text) from None
+        raise FormulaError("an expression too deep", text, "разделите формулу") from None
+    if _COMMA.search(text):
+        raise FormulaError(f"a comma within a number: {text!r}", *mended(text, is_known_function))
+    if any(isinstance(node, ast.Compare) and len(node.ops) > 1 for node in ast.walk(tree)):
+        tree = _Paired().visit(tree)
     _check(tree, text)
     return tree
 
 
+class _Paired(ast.NodeTransformer):
+    """``a <= x <= b`` as ``a <= x and x <= b``."""
+
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
+        self.generic_visit(node)
+        sides = [node.left, *node.comparators]
+        pairs: list[ast.expr] = [
+            ast.copy_location(ast.Compare(left, [op], [right]), node)
+            for left, op, right in zip(sides[:-1], node.ops, sides[1:], strict=True)
+        ]
+        return (
+            pairs[0] if len(pairs) == 1 else ast.copy_location(ast.BoolOp(ast.And(), pairs), node)
+        )
+
+
 def _check(node: ast.expr, text: str, depth: int = 1) -> None:
     if depth >= MOST_DEEP:  # below it the operators
-        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text)
+        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text, "разделите формулу")
     children: list[ast.expr] = []
     match node:
         case ast.Constant(value=bool()):
@@ -103,7 +129,8 @@ def _check(node: ast.expr, text: str, depth: int = 1) -> None:
         case ast.Call(func=ast.Name(id=name), keywords=[]) if is_known_function(name):
             least, most = FUNCTIONS.get(name, (1, 1))
             if not least <= len(node.args) <= most:
-                _refuse(node, text)
+                count = str(least) if least == most else f"от {least} до {most}"
+                _refuse(node, text, f"у {name} чисел в скобках {len(node.args)}, а нужно {count}")
             children = node.args
         case _:
             _refuse(node, text)
@@ -111,11 +138,32 @@ def _check(node: ast.expr, text: str, depth: int = 1) -> None:
         _check(child, text, depth + 1)
 
 
-def _refuse(node: ast.expr, text: str) -> None:
-    raise FormulaError(
-        f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}",
-        ast.get_source_segment(text.strip(), node) or "",
-    )
+def _refuse(node: ast.expr, text: str, mend: str = "") -> None:
+    fragment = ast.get_source_segment(text.strip(), node) or ""
+    if not mend:
+        fragment, mend = mended(fragment, is_known_function)
+    what = f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}"
+    raise FormulaError(what, fragment, mend)
+
+
+def is_condition(text: str) -> bool:
+    """Whether an expression is true or false, and no number.
+
+    Raises:
+        FormulaError: it is no expression.
+    """
+    return _is_condition(parse(text))
+
+
+def _is_condition(node: ast.expr) -> bool:
+    match node:
+        case ast.BoolOp(values=parts):
+            return all(map(_is_condition, parts))
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return _is_condition(operand)
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            return all(map(_is_condition, (test, body, orelse)))
+    return isinstance(node, ast.Compare)
 
 
 def scales(text: str) -> list[str]:

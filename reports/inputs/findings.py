@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -109,16 +109,29 @@ def check_accepted(values: ValidValues) -> Iterator[Finding]:
     entries: Sequence[AcceptedEntry] = values.get("checks", "accepted") or ()
     for index, entry in enumerate(entries):
         path = ("checks", "accepted", index)
-        if not _known(entry.what) and not values.get(
-            "report", "books"
-        ):  # they have checks of theirs
-            what = f"нет проверки или ключа {shown(entry.what)}"
-            likely = likely_word(entry.what, (*CHECKS, *_keys()))
-            hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join(CHECKS)
-            yield Finding((*path, "what"), what, hint)
+        # Own books have checks of theirs, which `check_names` knows once the books are read.
+        if not values.get("report", "books") and (unknown := _unknown(entry.what, ())):
+            yield Finding((*path, "what"), *unknown)
         if not entry.reason.strip():
             what = "причина не названа"
             yield Finding((*path, "reason"), what, "напишите, почему это верно")
+
+
+def check_names(model: InputFile, own: Collection[str]) -> Iterator[Problem]:
+    """Accepted entries that name no check, key or check of own books, whose names are ``own``."""
+    entries = () if model.checks is None else model.checks.accepted
+    for index, entry in enumerate(entries):
+        if unknown := _unknown(entry.what, own):
+            yield Problem(key_text(("checks", "accepted", index, "what")), *unknown)
+
+
+def _unknown(name: str, own: Collection[str]) -> tuple[str, str] | None:
+    """What is said of an accepted entry that names nothing; None of one that does."""
+    if name in own or _known(name):
+        return None
+    likely = likely_word(name, (*CHECKS, *own, *_keys()))
+    hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join((*CHECKS, *own))
+    return f"нет проверки или ключа {shown(name)}", hint
 
 
 def _known(name: str) -> bool:

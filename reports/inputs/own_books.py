@@ -19,13 +19,13 @@ from typing import Any, Literal
 from pydantic import create_model
 
 from kshm.nomenclature.digits import Digits
-from kshm.nomenclature.quantity import UNITS, Quantity
+from kshm.nomenclature.quantity import UNITS, Quantity, quantity
 from kshm.nomenclature.symbols import plain_symbol
 from reports.inputs.meta import MAX_TEXT, Strictly, choice, number
 from reports.inputs.registry import SECTIONS
 from reports.inputs.units import InputUnit
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.file_types import CALLED, TEXT, kind_of, read_bytes
+from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
 
 Texts = tuple[tuple[str, str], ...]
 
@@ -63,6 +63,14 @@ class DeclarationError(ValueError):
         self.line, self.column, self.what, self.hint = line, column, what, hint
 
 
+class Misdeclared(ValueError):  # noqa: N818 - a part of DeclarationError
+    """What is wrong with a declaration of the right form, and how to mend it."""
+
+    def __init__(self, what: str, hint: str) -> None:
+        super().__init__(what)
+        self.hint = hint
+
+
 @dataclass(frozen=True)
 class Declared:
     """What a book declares: section of inputs with its title and model, quantities by key."""
@@ -88,7 +96,8 @@ class Declarations:
         {"section": self._titled, "input": self._input, "choice": self._choice,
          "quantity": self._quantity}[word](rest)  # fmt: skip
         if len(self.fields) + len(self.quantities) > MOST_DECLARED:
-            raise ValueError(f"объявлено больше {MOST_DECLARED} величин и исходных")
+            what = f"объявлено больше {MOST_DECLARED} величин и исходных"
+            raise Misdeclared(what, "разделите книгу")
 
     def _titled(self, rest: str) -> None:
         heading = _matched(_SECTION, rest, "section")
@@ -126,12 +135,19 @@ class Declarations:
         row = _matched(_QUANTITY, rest, "quantity")
         key, (title, tex, unit, digits) = row["key"], _parts(row["rest"], 4)
         if key in self.quantities:
-            raise ValueError(f"величина «{key}» объявлена дважды")
+            raise Misdeclared(f"величина «{key}» объявлена дважды", "уберите одну строку")
+        if _is_of_program(key):
+            what = f"величину «{key}» объявляет сама программа"
+            raise Misdeclared(what, "назовите свою иначе; программную берут без quantity")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
             raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
         if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
             raise ValueError(f"обозначение «{one_line(tex, 60)}» не годится")
-        label = _unit(unit)
+        label, symbol = _unit(unit), plain_symbol(tex)
+        twin = next((each.key for each in self.quantities.values() if each.symbol == symbol), "")
+        if twin:
+            what = f"обозначение «{symbol}» уже у «{twin}»"
+            raise Misdeclared(what, "дайте величинам разные обозначения")
         known = next((name for name, unit in UNITS.items() if unit.label == label), label)
         self.quantities[key] = Quantity(key, tex, known, safe_text(title), Digits(int(digits)))
 
@@ -141,17 +157,18 @@ class Declarations:
         self._named(head["section"])
         key = head["key"]
         if key in self.fields:
-            raise ValueError(f"исходное «{key}» объявлено дважды")
+            raise Misdeclared(f"исходное «{key}» объявлено дважды", "уберите одну строку")
         if re.search(r"_r\d+$", key) or hasattr(Strictly, key):
-            raise ValueError(f"имя «{key}» занято программой")
+            raise Misdeclared(f"имя «{key}» занято программой", "назовите ключ иначе")
         return key, _parts(head["rest"], parts)
 
     def _named(self, section: str) -> None:
         """Keep the name of the section, the same on all lines."""
         if self.section and section != self.section:
-            raise ValueError(f"в книге два раздела исходных: {self.section} и {section}")
+            raise Misdeclared(f"в книге два раздела исходных: {self.section} и {section}",
+                              f"пишите {self.section}.КЛЮЧ или заведите вторую книгу")  # fmt: skip
         if section in _taken():
-            raise ValueError(f"имя раздела «{section}» занято программой")
+            raise Misdeclared(f"имя раздела «{section}» занято программой", "назовите раздел иначе")
         self.section = section
 
 
@@ -181,6 +198,8 @@ def declared(text: str) -> Declared:
             continue
         try:
             reader.take(statement[1], statement[2].strip())
+        except Misdeclared as error:
+            raise DeclarationError(at, 1, str(error), error.hint) from None
         except ValueError as error:
             raise DeclarationError(at, 1, str(error), f"пишите {FORMS[statement[1]]}") from None
     if not reader.fields:
@@ -191,7 +210,7 @@ def declared(text: str) -> Declared:
 
 
 def quantities_of(books: Texts) -> Mapping[str, Quantity]:
-    """Quantities of all books by key; a later book's takes the place of an earlier one's."""
+    """Quantities of all books by key; what two books declare they declare alike."""
     return {key: each for _, text in books for key, each in declared(text).quantities.items()}
 
 
@@ -299,11 +318,38 @@ def checked_texts(raw: object, names: Sequence[str]) -> Texts:
     if problems:
         raise InputError(problems)
     books = tuple((name, texts[name]) for name in names)
+    _refuse_twins(books)
     sections = [each for each in (declared(text).section for _, text in books) if each]
     if len(set(sections)) < len(sections):
         what = "у двух книг один раздел исходных данных"
         raise InputError(Problem("report.books", what, "назовите разделы по-разному"))
     return books
+
+
+def _refuse_twins(books: Texts) -> None:
+    """Refuse quantities of two books that have one key or one symbol.
+
+    Raises:
+        InputError: two have, the line of the second.
+    """
+    keys: dict[str, Quantity] = {}
+    symbols: dict[str, str] = {}
+    for name, text in books:
+        for key, each in declared(text).quantities.items():
+            what = ""
+            if keys.setdefault(key, each) != each:
+                what = f"величина «{key}» объявлена и в другой книге"
+            elif symbols.setdefault(each.symbol, key) != key:
+                what = f"обозначение «{each.symbol}» уже у «{symbols[each.symbol]}»"
+            if what:
+                at = f"{one_line(name, 60)}: строка {line_of_quantity(text, key)}, столбец 1"
+                raise InputError(Problem(at, what, "назовите её иначе"))
+
+
+def line_of_quantity(text: str, key: str) -> int:
+    """Line on which a text declares a quantity."""
+    lines = enumerate(text.splitlines(), 1)
+    return next((at for at, line in lines if line.startswith(f"quantity {key}:")), 1)
 
 
 def allowed_texts(texts: Mapping[str, str], names: Sequence[str]) -> dict[str, str]:
@@ -327,21 +373,28 @@ def read_text(folder: Path, name: str, source: str) -> str:
     Raises:
         InputError: it is missing, elsewhere or no text.
     """
-    where = ": ".join(part for part in (source, f"report.books: {one_line(name, 80)}") if part)
+    name_of = one_line(name, 80)
+    where = f"{source}: report.books: {name_of}" if source else name_of
     path = PurePosixPath(name.replace("\\", "/"))
     if path.is_absolute() or ".." in path.parts or path.suffix != SUFFIX or ":" in name:
         what = "книга должна лежать рядом с исходными данными"
         raise InputError(Problem(where, what, f"укажите имя файла с окончанием {SUFFIX}"))
-    data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
+    try:
+        data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
+    except InputError as error:  # the place of the folder is no one's business
+        raise InputError(Problem(where, error.problems[0].what, error.problems[0].hint)) from None
     kind = kind_of(data)
-    if kind != TEXT:
+    if kind not in (TEXT, UTF16):
         raise InputError(
             Problem(where, f"{CALLED[kind]}, а нужна книга текстом", "сохраните UTF-8")
         )
     try:
         return data.decode("utf-8-sig").replace("\r\n", "\n")
-    except UnicodeDecodeError:
-        raise InputError(Problem(where, "не UTF-8", "сохраните книгу в UTF-8")) from None
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        called = "UTF-16" if kind == UTF16 else "не UTF-8 (возможно, Windows-1251)"
+        what = f"строка {line}, столбец 1: кодировка {called}"
+        raise InputError(Problem(where, what, "сохраните книгу в UTF-8")) from None
 
 
 def _taken() -> frozenset[str]:
@@ -365,6 +418,13 @@ def safe_text(text: str, *, empty: bool = False) -> str:
     if text.startswith(("=", "+", "@")) or _TAG.search(text):
         raise ValueError(f"текст «{one_line(text, 40)}» похож на формулу или код")
     return text
+
+
+def _is_of_program(key: str) -> bool:
+    try:
+        return bool(quantity(key))
+    except KeyError:
+        return False
 
 
 def _is_symbol(tex: str) -> bool:

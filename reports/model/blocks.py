@@ -173,7 +173,8 @@ class Model:
     charts: tuple[ChartSpec, ...]
     remarks: tuple[str, ...] = ()
     chapters: tuple[OwnChapter, ...] = ()
-    own_nodes: frozenset[str] = frozenset()  # of own books: what no solver knows
+    own_nodes: frozenset[str] = frozenset()  # what no solver knows
+    department: frozenset[str] = frozenset()  # those of them that own books have
     left_out: tuple[str, ...] = ()
     folded: frozenset[str] = frozenset()
 
@@ -256,7 +257,7 @@ class Model:
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
         """The same specifications for an input of the same structure."""
         copy = Model(input_file, inputs, self.blocks, self.charts, self.remarks, self.chapters,
-                     self.own_nodes)  # fmt: skip
+                     self.own_nodes, self.department)  # fmt: skip
         # What follows from the blocks and from the names of the inputs is the same as well.
         for name in (
             "tables", "scalars", "input_runs", "sheets", "nodes", "grid_runs", "whole_tables",

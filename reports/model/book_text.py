@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Set
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
-from reports.formula.parse import names
+from reports.formula.parse import FormulaError, names
 from reports.inputs.own_books import Texts, book_name
+from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of
 from reports.model.sandbox import StrictEnvironment, rendered
+from reports.model.statements import said_of, unpaired
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.resources import templates_dir
 
@@ -33,6 +36,23 @@ class BookLine:
     book: str
     number: int
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class BookPlaces:
+    """Where own books say what: lines of formulas by node, of blocks and charts by their names."""
+
+    nodes: dict[str, BookLine] = field(default_factory=dict)
+    blocks: dict[str, tuple[BookLine, ...]] = field(default_factory=dict)
+    charts: dict[str, tuple[BookLine, ...]] = field(default_factory=dict)
+
+    def line_of(self, name: str, word: str = "") -> BookLine | None:
+        """Line of a node, block or chart; of several the first that has a word."""
+        if name in self.nodes:
+            return self.nodes[name]
+        lines = self.blocks.get(name) or self.charts.get(name) or ()
+        having = (line for line in lines if word and word in line.text)
+        return next(having, lines[0] if lines else None)
 
 
 class BookError(InputError):
@@ -185,8 +205,11 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
         raise BookError(shelf.called(name), 1, 1, "слишком глубокая вложенность",
                         "уберите вызов себя через себя") from None  # fmt: skip
     except jinja2.TemplateSyntaxError as error:
-        book = shelf.called(error.name or name)
-        raise BookError(book, error.lineno, 1, f"условие Jinja2 не разобрано{_cause(error)}",
+        book = error.name or name
+        for line, what, hint in unpaired(shelf.source(book)[0]):
+            raise BookError(shelf.called(book), line, 1, what, hint) from error
+        raise BookError(shelf.called(book), error.lineno, 1,
+                        f"условие Jinja2 не разобрано{_cause(error)}",
                         "проверьте % if, % for и скобки") from error  # fmt: skip
     except jinja2.TemplateNotFound as error:
         book, number = _raised_at(error, name)
@@ -208,17 +231,19 @@ _CAUSES: dict[type[Exception], str] = {
 }
 
 
-def cause_of(error: Exception) -> str:
+def cause_of(error: Exception, letters: int = 80) -> str:
     """What went wrong in a book: in Russian as it was said, or by the kind of the error."""
     text = str(error)
+    if isinstance(error, FormulaError):
+        return one_line(f"«{error.fragment}» не разобрано: {error.mend}", letters)
+    if isinstance(error, jinja2.TemplateError) and (words := said_of(error)):
+        return words
     if re.search("[а-яё]", text):
-        return one_line(text, 80)
+        return one_line(text, letters)
     if isinstance(error, jinja2.TemplateError):
-        names = re.findall(r"'([^']*)'", text)
-        undefined = isinstance(error, jinja2.UndefinedError)
-        return f"{'нет имени' if undefined else 'непонятно'} «{names[-1]}»" if names else ""
-    said = (words for kind, words in _CAUSES.items() if isinstance(error, kind))
-    return next(said, "действие не для этих значений")
+        return ""
+    usual = (cause for kind, cause in _CAUSES.items() if isinstance(error, kind))
+    return next(usual, "действие не для этих значений")
 
 
 def _cause(error: Exception) -> str:
@@ -276,7 +301,7 @@ def at_fragment(
 
 
 def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
-    """Mistakes in the formulas of books; ``places`` are the lines of their nodes."""
+    """Names that formulas of books do not know, circles; ``places`` are the lines of nodes."""
     known = model.nodes.keys() | model.fields.keys() | model.grid_runs.keys()
     known |= model.input_runs.keys()
     for key, line in places.items():
@@ -286,9 +311,28 @@ def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> I
         table = key.partition(".")[0] if "." in key else ""
         for name in sorted(names(node.expr)):
             if node_of(name, table, model) not in known:
-                hint = "назовите величину книги, исходное или столбец таблицы"
-                yield at_fragment(line, shelf, f"имя «{name}» неизвестно", hint, name)
+                yield at_fragment(line, shelf, f"имя «{name}» неизвестно",
+                                  _likely(name, known), name)  # fmt: skip
     yield from _circles(model, places, shelf)
+
+
+_MIXED = re.compile("[а-яё]", re.IGNORECASE)
+
+
+def _likely(name: str, known: Set[str]) -> str:
+    """How to mend a name that nobody knows."""
+    if name == "value":
+        return "value стоит только в условии проверки; назовите величину"
+    if _MIXED.search(name):
+        return "в имени русские буквы; наберите его латиницей"
+    section, _, key = name.partition("_")
+    if section in SECTIONS and any(key in model.model_fields for model in SECTIONS[section].models):
+        at = f"{section}.{key}"
+        return f"{at} у этого двигателя не задано; спросите % if given.{at} или возьмите другое"
+    column = next((each for each in sorted(known) if each.endswith(f".{name}")), None)
+    near = column or next(iter(difflib.get_close_matches(name, known, n=1, cutoff=0.8)), "")
+    usual = "назовите величину книги, исходное или столбец таблицы"
+    return f"возможно, {near}; {usual}" if near else usual
 
 
 def _circles(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from kshm.arrays import Columns
 from kshm.nomenclature.quantity import UNITS
-from reports.formula.parse import FormulaError, parse
+from reports.formula.parse import FormulaError, is_condition, names, parse
 from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import solved
@@ -31,13 +31,16 @@ from reports.model.blocks import (
     extreme_columns,
     extreme_scalars,
     judged,
+    nodes_in,
 )
 from reports.model.blocks import TableSpec as Table
 from reports.model.book_text import (
     BookError,
     BookLine,
+    BookPlaces,
     Shelf,
     at_fragment,
+    cause_of,
     house_shelf,
     lines_of,
 )
@@ -75,7 +78,7 @@ def read_book(
     name: str,
     names: Mapping[str, Any],
     shelf: Shelf | None = None,
-    places: dict[str, BookLine] | None = None,
+    places: BookPlaces | dict[str, BookLine] | None = None,
 ) -> Part:
     """Blocks and charts of a book for one engine.
 
@@ -83,13 +86,16 @@ def read_book(
         name: file of the book.
         names: what its conditions may ask.
         shelf: where books lie, those of the house if none is given.
-        places: takes the line of each scalar and ``table.column``.
+        places: takes the lines of what the book says; a mapping, those of its formulas alone.
 
     Raises:
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    reader = _BookReader(shelf, names, places)
+    where = (
+        places if isinstance(places, BookPlaces) else BookPlaces({} if places is None else places)
+    )
+    reader = _BookReader(shelf, names, where)
     for line in lines_of(name, shelf, names):
         reader.take(line)
     return reader.part()
@@ -113,15 +119,15 @@ class _Open:
 class _BookReader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(
-        self, shelf: Shelf, names: Mapping[str, Any], places: dict[str, BookLine] | None
-    ) -> None:
-        self._shelf, self._names, self._places = shelf, names, places
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: BookPlaces) -> None:
+        self._shelf, self._names = shelf, names
+        self._places = places
         self._chapters: list[OwnChapter] = []
         self._sheet = ""
         self._blocks: list[Block] = []
         self._charts: list[ChartSpec] = []
         self._open: _Open | ChartLines | None = None
+        self._lines: list[BookLine] = []  # of the block that is open
         self._line = BookLine("", 1, "")
 
     def part(self) -> Part:
@@ -134,7 +140,7 @@ class _BookReader:
         """One line: a heading, or a line of the block that is open."""
         self._line = line
         with self._told():
-            self._take(line.text)
+            self._take(line)
 
     @contextmanager
     def _told(self) -> Iterator[None]:
@@ -145,32 +151,36 @@ class _BookReader:
             raise
         except FormulaError as error:
             part = error.fragment
-            raise self._fault(f"в формуле не разобрано «{part}»",
-                              "язык формул — в docs/books.md", part) from error  # fmt: skip
+            raise self._fault(f"в формуле не разобрано «{part}»", error.mend, part) from error
         except KeyError as error:
             key = str(error.args[0]) if error.args else ""
             raise self._fault(f"величина «{key}» неизвестна",
                               "назовите известную после of", key) from error  # fmt: skip
-        except ValueError as error:
-            raise self._fault(str(error)) from error
+        except (ValueError, IndexError) as error:
+            raise self._fault(cause_of(error, 200)) from error
 
-    def _take(self, text: str) -> None:
+    def _take(self, line: BookLine) -> None:
+        text = line.text
         word, _, rest = text.partition(" ")
         if DECLARATION.fullmatch(text):
             pass  # read before any engine, see reports.inputs.own_books
         elif word in _HEADS and not rest.startswith(("=", "of ", "every ")):
             self._close()
             self._head(word, rest)
+            self._lines = [line]
         elif word in ChartLines.HEADS and not rest.startswith("="):
             self._close()
             self._open = ChartLines.opened(word, rest, self._sheet)
+            self._lines = [line]
         elif isinstance(self._open, ChartLines):
             self._open = self._open.take(word, rest)
+            self._lines.append(line)
         elif self._open is None:
             raise self._fault(f"строка «{text}» стоит вне блока", "начните с list, table или grid")
         elif self._open.word == "text":
             self._said(self._open, word, rest, text)
         else:
+            self._lines.append(line)
             self._body(self._open, word, rest, text)
 
     def _said(self, block: _Open, word: str, rest: str, text: str) -> None:
@@ -190,10 +200,12 @@ class _BookReader:
         elif word in ("place", "chapter"):
             pass  # read before any engine, see reports.model.contents
         elif word == "box":
-            self._blocks.append(
-                corners(about["id"], about["title"], self._sheet, about["key"], about["size"],
-                        about["of"] or "box", about["source"] or "оси диаграммы")
-            )  # fmt: skip
+            parse(about["size"])
+            grid = corners(about["id"], about["title"], self._sheet, about["key"], about["size"],
+                           about["of"] or "box", about["source"] or "оси диаграммы")  # fmt: skip
+            self._placed(*(key for key, _ in nodes_in(grid)))
+            self._places.blocks[grid.id] = (self._line,)
+            self._blocks.append(grid)
         else:
             self._open = _Open(word, about, self._sheet)
 
@@ -225,9 +237,17 @@ class _BookReader:
             raise self._fault(f"«extremes {rest}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
         table, column, name, source = match.groups()
         if block.word == "table":
-            block.columns += extreme_columns(column, name)
-        else:
-            block.scalars += extreme_scalars(table or "", column, name, source or "")
+            columns = extreme_columns(column, name)
+            self._placed(*(f"{block.about['id']}.{each.key}" for each in columns))
+            block.columns += columns
+            return
+        if table is None:
+            raise self._fault(
+                "в списке нужен столбец таблицы", "пишите extremes ТАБЛИЦА.СТОЛБЕЦ as ИМЯ"
+            )
+        scalars = extreme_scalars(table, column, name, source or "")
+        self._placed(*(each.key for each in scalars))
+        block.scalars += scalars
 
     def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
@@ -238,9 +258,17 @@ class _BookReader:
         key, value_key, value, test, title, source = match.groups()
         verdict = key if value_key else f"check_{key}"
         own = value_key or f"value_{key}"
+        if value_key and key.startswith("check_"):
+            raise self._fault(f"имя «{key}» занято", f"пишите check {key[6:]} = … без of", key)
+        parse(value)
+        if not (is_condition(test) and "value" in names(test)):
+            raise self._fault(f"«{test}» — не условие о проверяемом значении",
+                              "назовите его value: value <= 120", test)  # fmt: skip
         test = renamed(test, lambda name: own if name == "value" else name)
+        self._placed(own, verdict)
         words = self._words(block)
-        return judged(own, verdict, value, test, title, source or "проверка", words or (YES, NO))
+        return judged(own, verdict, value, _plain(test), title, source or "проверка",
+                      words or (YES, NO))  # fmt: skip
 
     def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
         """``KEY = value | title``, held to the limit of the heading."""
@@ -249,6 +277,8 @@ class _BookReader:
             raise self._fault(f"строка «{text}» не разобрана", "пишите ИМЯ = ВЕЛИЧИНА | ЧТО ЭТО")
         key, value, title = found.groups()
         own, limit = f"value_{key}", block.about["limit"]
+        parse(value)
+        self._placed(own, f"allowed_{key}")
         return judged(own, f"allowed_{key}", value, f"{own} {limit}", title,
                       "сравнение с допускаемым")  # fmt: skip
 
@@ -267,23 +297,40 @@ class _BookReader:
         if node.expr is not None and not node.source:
             raise self._fault(f"у «{node.key}» нет источника",
                               "после черты | назовите источник или -", node.key)  # fmt: skip
-        if self._places is not None and isinstance(self._open, _Open):
+        if isinstance(self._open, _Open):
             table = f"{self._open.about['id']}." if isinstance(node, Column) else ""
-            self._places[f"{table}{node.key}"] = self._line
+            self._placed(f"{table}{node.key}")
         return replace(node, source="") if node.source == "-" else node
 
+    def _placed(self, *keys: str) -> None:
+        """Keep where formulas are written."""
+        self._places.nodes.update(dict.fromkeys(keys, self._line))
+
     def _close(self) -> None:
+        """End the block that is open; what is wrong with it as a whole stands in its heading."""
         block, self._open = self._open, None
-        if isinstance(block, ChartLines):
-            self._charts.append(block.made())
-        elif block is not None and block.word == "text":
-            self._chapters.append(OwnChapter(block.about["title"], tuple(block.lines)))
-        elif block is not None:
-            self._blocks.append(self._made(block))
+        if block is None:
+            return
+        here, self._line = self._line, self._lines[0]
+        with self._told():
+            if isinstance(block, ChartLines):
+                self._charts.append(block.made())
+                self._places.charts[block.id] = tuple(self._lines)
+            elif block.word == "text":
+                if not block.lines:
+                    raise self._fault("в главе нет ни строки", "напишите абзац или show")
+                self._chapters.append(OwnChapter(block.about["title"], tuple(block.lines)))
+                self._places.blocks[f"text {block.about['title']}"] = tuple(self._lines)
+            else:
+                self._blocks.append(self._made(block))
+                self._places.blocks[block.about["id"]] = tuple(self._lines)
+        self._line = here
 
     def _made(self, block: _Open) -> Block:
         about, note = block.about, " ".join(block.notes)
         head = (about["id"], about["title"])
+        if not (block.scalars or block.columns or block.members or self._shelf.trusted):
+            raise ValueError(f"в блоке «{about['id']}» нет ни одной величины; допишите её")
         if block.word == "grid":
             return Grid(*head, block.sheet, tuple(label for label, _ in block.members),
                         _rows_of(block), note=note)  # fmt: skip
@@ -295,15 +342,13 @@ class _BookReader:
     def _table(self, block: _Open, note: str) -> Table:
         about, step = block.about, None
         if "…" in about["rows"]:
-            span, _, by = about["rows"].partition(" by ")
-            first, last = map(float, span.split("…"))
-            step = float(by)
-            if not (step > 0 and 0 <= last - first <= MOST_ROWS * step):
-                raise ValueError(f"строк «{about['rows']}» нет или больше {MOST_ROWS}")
+            first, last, step = _rows_between(about["rows"])
             rows = stepped(first, last, step)
         else:
             rows = self._names[about["rows"]]
         options = about["options"].split()
+        if block.columns and not self._shelf.trusted:
+            _refuse_odd_columns(block.columns, computed="computed" in options)
         return Table(
             about["id"], about["number"], about["title"], block.sheet, tuple(block.columns), rows,
             note=note, helper="helper" in options, step=step,
@@ -313,6 +358,40 @@ class _BookReader:
     def _fault(self, what: str, hint: str = "", fragment: str = "") -> BookError:
         """A mistake in the line taken."""
         return at_fragment(self._line, self._shelf, what, hint, fragment)
+
+
+def _rows_between(text: str) -> tuple[float, float, float]:
+    """First row, last row and step of ``0…180 by 10``.
+
+    Raises:
+        ValueError: they are none, or there are too many.
+    """
+    match = re.fullmatch(r"(-?\d+(?:\.\d+)?)…(-?\d+(?:\.\d+)?) by (\d+(?:\.\d+)?)", text)
+    if match is None:
+        raise ValueError(f"строки таблицы «{text}» не разобраны; пишите 0…180 by 10")
+    first, last, step = map(float, match.groups())
+    if not (step > 0 and 0 <= last - first <= MOST_ROWS * step):
+        raise ValueError(f"строк «{text}» нет или больше {MOST_ROWS}; возьмите шаг крупнее")
+    return first, last, step
+
+
+def _refuse_odd_columns(columns: list[Column], *, computed: bool) -> None:
+    """Refuse a table whose first column is calculated, or another one is not.
+
+    Raises:
+        ValueError: it is so.
+    """
+    if columns[0].expr is not None:
+        raise ValueError(f"первый столбец «{columns[0].key}» с формулой; начните с phi_deg")
+    bare = next((each.key for each in columns[1:] if each.expr is None), "")
+    if bare and not computed:
+        raise ValueError(f"у столбца «{bare}» нет формулы; пишите {bare} = ФОРМУЛА | ИСТОЧНИК")
+
+
+def _plain(test: str) -> str:
+    """A condition whose braces are no places to fill in, and whose choice is one condition."""
+    test = f"({test})" if re.search(r"\bif\b", test) else test
+    return test.replace("{", "{{").replace("}", "}}")
 
 
 def solved_columns(table: str, model: InputFile) -> Columns:
@@ -354,6 +433,7 @@ def _known(node: Kind, books: Texts) -> Kind:
     """
     if node.expr is not None:
         parse(node.expr)
+    parse(node.every)
     if books:
         node = replace(node, own=quantities_of(books).get(node.of or node.key))
     _ = node.quantity

@@ -163,7 +163,7 @@ class ChartLines:
         if word in _FLAGS:
             return {word: True}
         if word == "x_step":
-            return {word: float(rest)}
+            return {word: _step(rest)}
         if word == "floating":
             return {"from_zero": False}
         if word in ("levels", "contact"):
@@ -174,8 +174,20 @@ class ChartLines:
         raise ValueError(f"слово «{word}» диаграмме неизвестно; слова диаграмм — в docs/books.md")
 
     def made(self) -> ChartSpec:
-        """The description."""
+        """The description.
+
+        Raises:
+            ValueError: there is nothing to draw.
+        """
         curves, more = self.curves, dict(self.more)
+        if not (curves or self.kind == "wear"):
+            raise ValueError(f"у диаграммы «{self.id}» нет кривых; допишите curve ТАБЛИЦА.КЛЮЧ")
+        if self.kind in ("polar", "wear") and not self.box:
+            raise ValueError(
+                f"у диаграммы «{self.id}» нет осей; пишите {self.kind} ИМЯ in СЕТКА: …"
+            )
+        if self.kind != "wear" and not self.over and any(not curve.x for curve in curves):
+            raise ValueError(f"у кривых «{self.id}» нет абсциссы; пишите chart ИМЯ over phi_deg: …")
         if self.over:
             key = f"{curves[0].y.split('.')[0]}.{self.over}"
             curves = tuple(replace(curve, x=curve.x or key) for curve in curves)
@@ -186,6 +198,18 @@ class ChartLines:
             curves = _wear_curves(self.box)
             more["x_reversed"] = True
         return ChartSpec(self.id, self.sheet, self.title, self.kind, curves, **more)  # type: ignore[arg-type]
+
+
+def _step(text: str) -> float:
+    """A step of an axis.
+
+    Raises:
+        ValueError: it is none.
+    """
+    step = float(text) if re.fullmatch(r"\d+(?:\.\d+)?", text) else 0.0
+    if not step > 0:
+        raise ValueError(f"шаг оси «{text}» не разобран; пишите x_step 30")
+    return step
 
 
 def _curve(rest: str) -> Series:

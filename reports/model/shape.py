@@ -286,7 +286,8 @@ class Part:
     blocks: tuple[Block, ...] = ()
     charts: tuple[ChartSpec, ...] = ()
     chapters: tuple[OwnChapter, ...] = ()
-    own: frozenset[str] = frozenset()  # nodes of own books
+    own: frozenset[str] = frozenset()  # nodes of books whose numbers no solver gives
+    department: frozenset[str] = frozenset()  # those of them that own books have
 
 
 def stepped(first: float, last: float, step: float) -> tuple[float, ...]:

@@ -20,7 +20,7 @@ from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
-from reports.model.book_text import BookLine, shelf_of
+from reports.model.book_text import BookLine, BookPlaces, shelf_of
 from reports.model.books import read_book
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -197,8 +197,10 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 }
 
 
-def book_part(book: str, scope: Scope, places: dict[str, BookLine] | None = None) -> Part:
-    """Blocks and charts of a book; ``places`` takes the lines of its nodes.
+def book_part(
+    book: str, scope: Scope, places: BookPlaces | dict[str, BookLine] | None = None
+) -> Part:
+    """Blocks and charts of a book; ``places`` takes the lines of what it says.
 
     A book that replaces one of the house has the names of that subject.
     """
@@ -211,10 +213,13 @@ def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
     names, theirs = tuple(names), shelf_of(scope.input.books).names
     parts = [book_part(name, scope) for name in names]
-    own = (part for name, part in zip(names, parts, strict=True) if name in (*theirs, *BY_FORMULAS))
+    nodes = {name: frozenset(key for block in part.blocks for key, _ in nodes_in(block))
+             for name, part in zip(names, parts, strict=True)
+             if name in (*theirs, *BY_FORMULAS)}  # fmt: skip
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),
         tuple(chapter for part in parts for chapter in part.chapters),
-        frozenset(key for part in own for block in part.blocks for key, _ in nodes_in(block)),
+        frozenset().union(*nodes.values()),
+        frozenset().union(*(keys for name, keys in nodes.items() if name in theirs)),
     )

@@ -42,7 +42,9 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
     chapters = tuple(chapter for part in parts for chapter in part.chapters)
     own = frozenset().union(*(part.own for part in parts))
-    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks, chapters, own)
+    department = frozenset().union(*(part.department for part in parts))
+    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks, chapters, own,
+                 department)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reports.inputs.sections.input_file import InputFile
-from reports.model.blocks import NO, Block, Model, scalars_of
+from reports.model.blocks import NO, Block, Model, Scalar, scalars_of
 from reports.model.evaluation import Values
 from reports.shared.russian import fixed
 
-_PREFIX = "check_"
+_PREFIX, _ALLOWED = "check_", "allowed_"
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,28 +30,39 @@ class Failed:
         return f'{text}; исправьте данные или объясните: [[checks.accepted]], what = "{self.key}"'
 
 
-def failed_checks(model: Model, values: Values) -> list[Failed]:
-    """The checks that did not pass, in their order."""
-    reasons = reasons_of(model.input)
+def checks_of(model: Model, *, department: bool = False) -> dict[str, Scalar]:
+    """Verdicts by the names of their checks, in order; of own books what is allowed as well.
+
+    ``department`` leaves those of own books alone.
+    """
+    names: dict[str, Scalar] = {}
+    for key, scalar in model.scalars.items():
+        theirs = key in model.department
+        prefixes = (_PREFIX, _ALLOWED) if theirs else (_PREFIX,)
+        if key.startswith(prefixes) and (theirs or not department):
+            names[key.partition("_")[2]] = scalar
+    return names
+
+
+def failed_checks(model: Model, values: Values, *, department: bool = False) -> list[Failed]:
+    """The checks that did not pass, in their order; ``department`` leaves those of own books."""
+    reasons, value = reasons_of(model.input), values.scalars
     return [
-        Failed(
-            key.removeprefix(_PREFIX),
-            scalar.note,
-            check_value(float(values.scalars[f"value_{key.removeprefix(_PREFIX)}"])),
-            reasons.get(key.removeprefix(_PREFIX), ""),
-        )
-        for key, scalar in model.scalars.items()
-        if key.startswith(_PREFIX) and values.scalars[key] == NO
+        Failed(name, scalar.note, check_value(float(value[f"value_{name}"])), reasons.get(name, ""))
+        for name, scalar in checks_of(model, department=department).items()
+        if value[scalar.key] == NO
     ]
 
 
 def accepted_checks(model: InputFile, blocks: Sequence[Block]) -> tuple[str, ...]:
     """Lines about the checks whose failure the input explains."""
-    titles = {scalar.key: scalar.note for block in blocks for scalar in scalars_of(block)}
+    titles = {scalar.key.partition("_")[2]: scalar.note for block in blocks
+              for scalar in scalars_of(block)
+              if scalar.key.startswith((_PREFIX, _ALLOWED))}  # fmt: skip
     return tuple(
-        f"Принято расхождение «{titles[_PREFIX + name]}»: {reason}"
+        f"Принято расхождение «{titles[name]}»: {reason}"
         for name, reason in reasons_of(model).items()
-        if _PREFIX + name in titles
+        if name in titles
     )
 
 

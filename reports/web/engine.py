@@ -16,6 +16,7 @@ from reports.commands.common import error_text
 from reports.commands.engine import new
 from reports.commands.new_engine import new_text
 from reports.exports import live
+from reports.exports.own_books import refuse_faults
 from reports.inputs.fields import to_mapping
 from reports.inputs.form_fields import Data, absent, groups, without_foreign
 from reports.inputs.load import load_remote, parsed
@@ -26,7 +27,8 @@ from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.solve_input import solved
 from reports.inputs.template import list_samples, new_file
-from reports.model.contents import contents_of
+from reports.model.book_text import shelf_of
+from reports.model.contents import Contents, contents_of
 from reports.new.generate import NewEngine, file_text
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
@@ -92,17 +94,20 @@ def start(raw: Mapping[str, Any]) -> Data:
     try:
         model = load_remote(plain).model
         plain = to_mapping(model)
+        refuse_faults(model)
         drawn = dict.fromkeys(chart.sheet for chart in kept_model(model).charts)
-        state["sheets"] = sorted(map(_sheet, drawn), key=lambda sheet: not sheet[0])
+        contents = contents_of(shelf_of(model.books))
+        state["sheets"] = sorted((_sheet(title, contents) for title in drawn),
+                                 key=lambda sheet: not sheet[0])  # fmt: skip
     except InputError as error:
         state["errors"] = [asdict(problem) for problem in error.problems]
     return {**state, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
 
 
-def _sheet(title: str) -> tuple[str, str, str]:
+def _sheet(title: str, contents: Contents) -> tuple[str, str, str]:
     """A sheet, what stands on it in words, its chapter; a journal's number goes with the words."""
     plain, _, number = title.partition(" (")
-    for chapter in contents_of().chapters:
+    for chapter in contents.chapters:
         for name, heading in chapter.sheets:
             rest = title.removeprefix(name)
             if name in (plain, title) or (rest != title and rest.strip().isdigit()):

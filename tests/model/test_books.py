@@ -88,7 +88,7 @@ MISTAKES = {
     "curve of three": ("sheet С\nchart a: Д\ncurve a.b c.d e.f\n", 3, 1, "curve"),
     "check without a test": (HEAD + "check a = lam\n", 3, 1, "check ИМЯ"),
     "extremes without a name": (HEAD + "extremes a.b\n", 3, 1, "extremes"),
-    "if without end": (HEAD + "% if engine.offset\nr_crank = 1 | -\n", 4, 1, "Jinja2"),
+    "if without end": (HEAD + "% if engine.offset\nr_crank = 1 | -\n", 3, 1, "% endif"),
     "unknown name of a condition": (HEAD + "% if motor.offset\n% endif\n", 3, 1, "motor"),
     "unknown key of the input": (HEAD + "\n% if given.gas.bohrung\n% endif\n", 4, 1, "bohrung"),
     "number divided by nothing": (HEAD + "lam = {{ 1/0 }} | -\n", 3, 1, "Jinja2"),

@@ -214,3 +214,21 @@ def test_usual_spans_are_no_checks_of_the_calculation():
     assert list(check_lists(writer)) == ["checks"]
     terms = Terms(model, values)
     assert not {key for key in check_keys(terms) if key.startswith("range_")}
+
+
+@pytest.mark.parametrize(("name", "kind"), [("vw-1600", "petrol"), ("gots-diesel", "diesel")])
+def test_a_web_is_bent_by_the_support_and_pressed_by_the_pin(name: str, kind: str):
+    """A throw as a beam on two supports; the web is cut between journal and pin."""
+    run = Evaluation(model_of(name, kind))
+    arm, right, length = (run.value(f"throw1_{key}") / 1000
+                          for key in ("arm_left", "arm_right", "length"))  # fmt: skip
+    area = run.value("F_piston")
+    pin = (run.value("P4_1.K_MPa") - run.value("K_r_rod") - run.value("K_r_throw")) * area * 1e6
+    weights = run.value("throw1_C1"), run.value("throw1_C7")
+    # Moments about the far support: half of the pin's force by the split of the books.
+    support = pin / 2 + (weights[0] * (length - arm) + weights[1] * right) / length
+    through = pin / 2  # the counterweight stands on the journal's side of the cut
+    width, thick = run.value("st_web_width_mm") / 1000, run.value("st_web_thickness_mm") / 1000
+    stress = support * arm / (width * thick**2 / 6) + through / (width * thick)
+    assert run.value("webs_load.st_web_bend1_MPa") == pytest.approx(stress / 1e6, rel=1e-9)
+    assert (sum(weights) > 0) == (name != "vw-1600")  # which has none

@@ -30,10 +30,11 @@ from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
 from reports.document.text.terms import Terms, crankcase_scavenges, with_unit
 from reports.document.text.texts import of_digits
+from reports.document.text.tolerances import tolerance
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import NO, YES
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
-from reports.shared.russian import NBSP, capital, fixed, short
+from reports.shared.russian import NBSP, capital, fixed
 from reports.tables.left_out import without_orders
 from reports.tables.verdicts import check_value, reasons_of
 
@@ -183,7 +184,7 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
         [
             titled_html(terms.model.scalars[f"check_{key}"].note),
             fixed(terms.value(f"value_{key}"), _CHECKED),
-            tolerance(str(terms.model.scalars[f"check_{key}"].expr)),
+            allows(terms, key),
             "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
         ]
         for key in keys
@@ -192,24 +193,12 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
 
 
 _CHECKED = 3  # decimals of all checks, in one column
-_BOUND = re.compile(r"(<=|>=|<|>) (-?[\d.e-]+)")
-_SIGNS = {"<=": "не более", ">=": "не менее", "<": "менее", ">": "более"}
 
 
-def tolerance(condition: str) -> str:
-    """What a check allows, from its condition: «±2», «не более 0,01», «0,2…0,3», «720»."""
-    exact = re.search(r"abs\(\w+ - ([\d.]+)\)", condition)
-    if exact is not None:
-        return short(float(exact[1]))
-    bounds = [(sign, float(size)) for sign, size in _BOUND.findall(condition)]
-    if len(bounds) == 2:
-        return "…".join(short(size) for _, size in bounds)
-    ((sign, size),) = bounds
-    if "abs(" in condition:
-        return f"±{short(size)}"
-    if sign == "<=" and size < 10.0**-_CHECKED:
-        return "0"
-    return f"{_SIGNS[sign]} {short(size)}"
+def allows(terms: Terms, key: str) -> str:
+    """What a check allows, in words."""
+    verdict = str(terms.model.scalars[f"check_{key}"].expr)
+    return tolerance(verdict, f"value_{key}", terms.value, terms.symbol)
 
 
 def conclusion(chapter: Chapter) -> Markup:

@@ -13,7 +13,9 @@ from reports.document.page.blocks import grid_table
 from reports.document.page.numbering import TablePlan
 from reports.formula.tex import NotPrintable
 from reports.model.blocks import Grid, OwnChapter, ScalarTable, TableSpec, TextLine
+from reports.model.book_text import BookError, cause_of, shelf_of
 from reports.model.context import MARK
+from reports.shared.errors import KshmError
 
 _KINDS = {"tab": "table", "fig": "figure"}
 _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "Кривые — на рисунке {}."}
@@ -29,7 +31,14 @@ def _chapter(chapter: Chapter, about: OwnChapter) -> Markup:
     named: set[str] = set()
     for line in about.lines:
         named |= {key for word, key in MARK.findall(line.text) if word in _KINDS}
-        parts += _LINES[line.kind](chapter, line, named)
+        try:
+            parts += _LINES[line.kind](chapter, line, named)
+        except KshmError:
+            raise
+        except Exception as error:
+            book = shelf_of(chapter.input.books).called(line.book)
+            what = f"строка главы не печатается: {cause_of(error)}"
+            raise BookError(book, line.number, 1, what, "проверьте, что она называет") from error
     return Markup("\n").join(parts)
 
 

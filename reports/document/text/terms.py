@@ -166,6 +166,11 @@ class Terms:
         family = key.split("_", 1)[1] if key.startswith("throw") else key
         return _SYMBOLS[family] if family in _SYMBOLS else self.quantity(name).tex
 
+    def symbol(self, name: str) -> str:
+        """Symbol in plain text."""
+        given = self.model.fields.get(name)
+        return self.quantity(name).symbol if given is None else given.symbol or given.title
+
     def sym(self, name: str) -> Markup:
         """Symbol for running text."""
         return inline_html(self.tex(name))

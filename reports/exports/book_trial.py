@@ -1,0 +1,150 @@
+"""A trial of the documents of own books: what ``build`` could not build, ``check`` tells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from reports.document.chapters.chapter import FORMULA
+from reports.document.report import Report
+from reports.document.text.mathsvg import FormulaImageError, formula
+from reports.exports.book_chapters import KINDS, kinds_of, lines_of
+from reports.exports.book_faults import Own
+from reports.exports.own_books import read_books, refuse_faults
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping, load_toml
+from reports.inputs.own_books import declared, line_of_quantity, read_text
+from reports.inputs.sections.input_file import InputFile
+from reports.model.blocks import Model
+from reports.model.book_text import BookError, BookLine, cause_of
+from reports.model.context import MARK
+from reports.model.evaluation import Values, evaluate_model
+from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.resources import samples_dir
+from reports.word.omml import omath
+from reports.word.write import report_docx
+from reports.workbook.course import short_model
+from reports.workbook.write import workbook_bytes
+
+_CHAPTERS = ("own", "checks")  # what a book adds to a report
+
+
+def refuse_unbuilt(model: InputFile, *, whole: bool) -> None:
+    """Refuse own books, read without a fault, of which a document cannot be made.
+
+    Args:
+        model: a checked input.
+        whole: whether the workbook and the Word document are tried besides the page.
+
+    Raises:
+        InputError: a line for each fault.
+    """
+    if not model.books:
+        return
+    own = read_books(model)
+    values = evaluate_model(own.model)
+    for faults in (_unset_symbols(own), _unplaced(own, values), _unmade(own, values, whole=whole)):
+        problems = [fault.problems[0] for fault in faults]
+        if problems:
+            raise InputError(problems)
+
+
+def _unset_symbols(own: Own) -> Iterator[BookError]:
+    """Symbols that are no TeX."""
+    for stem, (_, text) in zip(own.shelf.names, own.shelf.own, strict=True):
+        for key, about in declared(text).quantities.items():
+            try:
+                formula(about.tex)
+                omath(about.tex)
+            except (FormulaImageError, ValueError, KeyError, IndexError):
+                line = BookLine(f"{stem}.book", line_of_quantity(text, key), "")
+                yield own.fault(line, f"обозначение «{about.tex}» не набирается",
+                                "проверьте скобки и команды TeX", about.tex)  # fmt: skip
+
+
+def _unplaced(own: Own, values: Values) -> Iterator[BookError]:
+    """What a chapter shows again or refers to though the report has it nowhere."""
+    report = Report(replace(own.model, chapters=()), values)
+    placed, elsewhere = report.names
+    shows = {(of, text) for kind, text, _ in lines_of(own) if kind == "show"
+             for of in kinds_of(own, text)[:1]}  # fmt: skip
+    for kind, text, line in lines_of(own):
+        first = kinds_of(own, text)[:1] if kind == "show" else []
+        if any((of, text) in placed for of in first):
+            word = next(word for word, of in KINDS.items() if of in first)
+            yield own.fault(line, f"«{text}» уже стоит в записке",
+                            f'сошлитесь: {{{{ {word}("{text}") }}}}', text)  # fmt: skip
+        if kind == "formula" and ("formula", FORMULA + text) in placed:
+            yield own.fault(line, f"формула «{text}» уже стоит в записке",
+                            f'назовите значение: {{{{ eqv("{text}") }}}}', text)  # fmt: skip
+        for word, key in MARK.findall(text):
+            name = (KINDS.get(word, ""), key)
+            if name[0] and name not in shows | placed | elsewhere:
+                yield own.fault(line, f"«{key}» в записке нигде нет",
+                                f"допишите строку show {key}", key)  # fmt: skip
+
+
+def _unmade(own: Own, values: Values, *, whole: bool) -> Iterator[BookError]:
+    """Documents that are not made."""
+    report = Report(_alone(own.model), values)
+    makers: list[tuple[str, Callable[[], object]]] = [
+        ("записка", lambda: report.page("screen")),
+    ]
+    if whole:
+        short = short_model(own.model)
+        makers += [("записка Word", lambda: report_docx(report)),
+                   ("книга Excel", lambda: workbook_bytes(short, values))]  # fmt: skip
+    for name, make in makers:
+        try:
+            make()
+        except BookError as error:
+            yield error
+            return
+        except KshmError:
+            raise
+        except Exception as error:
+            yield own.fault(None, f"{name} с этой книгой не складывается: {cause_of(error)}",
+                            "уберите последнее, что написали, и проверьте снова")  # fmt: skip
+            return
+
+
+def _alone(model: Model) -> Model:
+    """The model of a report of little else than own chapters."""
+    report = model.input.report.model_copy(update={"chapters": _CHAPTERS})
+    return replace(model, input=model.input.model_copy(update={"report": report}))
+
+
+# Engines of every kind that a book alone is tried on.
+TRIED = ("gots-diesel", "yamz-236", "two-stroke", "vw-1600", "cycle-petrol", "cycle-turbo-diesel",
+         "mwm-6", "gots-regimes")  # fmt: skip
+
+
+def check_alone(path: Path) -> Iterator[str]:
+    """Lines on a book alone: what it declares, and on which samples it was tried.
+
+    Raises:
+        InputError: what is wrong with it.
+    """
+    text = read_text(path.parent, path.name, "")
+    raw = {"report": {"books": [path.name]}, "books": {path.name: text}}
+    for sample in TRIED:
+        base = to_mapping(load_toml(samples_dir() / f"{sample}.toml").model)
+        base["report"] |= raw["report"]
+        model = load_mapping({**base, "books": raw["books"]}, source=path.name).model
+        try:
+            refuse_faults(model)
+            refuse_unbuilt(model, whole=sample == TRIED[0])
+        except InputError as error:
+            if sample == TRIED[0]:
+                raise
+            raise InputError([_on_sample(each, sample) for each in error.problems]) from None
+    about = declared(text)
+    inputs = len(about.model.model_fields) if about.model is not None else 0
+    yield f"{path}: ошибок нет; исходных {inputs}, своих величин {len(about.quantities)}"
+    yield f"Проверено на образцах: {', '.join(TRIED)}"
+
+
+def _on_sample(problem: Problem, sample: str) -> Problem:
+    """A fault that the samples before have not, with the sample that has it."""
+    return Problem(problem.where, f"на образце {sample}: {problem.what}", problem.hint)

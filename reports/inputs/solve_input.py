@@ -355,6 +355,24 @@ def _shown(model: InputFile, value: float) -> str:
     return f"{written(value, about.digits)}{NBSP}{about.unit_label}"
 
 
+def webs_remark(model: InputFile) -> str:
+    """Line about a size of the webs that stands beside another one which counts, or nothing."""
+    drawn = {t for arms in model.crankshaft.arms for t in (arms.left_web_mm, arms.right_web_mm)}
+    first = {"web_thickness_mm": ("crankshaft.arms", drawn)} if all(drawn) else {}
+    for name, section in (("torsion", model.torsion), ("strength", model.strength)):
+        for key in ("web_thickness_mm", "web_width_mm"):
+            size = getattr(section, key, None)
+            where, sizes = first.setdefault(key, (name, {size})) if size else (name, {size})
+            if size not in sizes:
+                other = "…".join(map(number_text, sorted({min(sizes), max(sizes)})))
+                return (
+                    f"Внимание: {name}.{key}: {number_text(size)}{NBSP}мм, а в {where} щёки "
+                    f"{other}{NBSP}мм; в расчёт идут они, удалите ключ"
+                )
+    return ""
+
+
 def solution_remarks(model: InputFile) -> tuple[str, ...]:
     """Remarks that need a solution, a line each."""
-    return tuple(filter(None, (flywheel_remark(model), grid_remark(model))))
+    remarks = (flywheel_remark(model), webs_remark(model), grid_remark(model))
+    return tuple(filter(None, remarks))

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 STEEL = 7800.0  # density [kg/m³]
 
+FINE_STEP = 1  # of the crank angle that extremes are held against [deg]
+
 # Balancing and flywheel, without a source.
 COUNTERWEIGHT_SHARE = 0.5  # of the inertia forces of the first order
 SUPPRESSION = 0.5  # of the second-order rolling moment

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.nomenclature.digits import Row, scientific
+from kshm.nomenclature.digits import TEXT, Row, scientific
 
 ROWS: tuple[Row, ...] = (
     ("I_rod_kgm2", r"I_{\mathrm{ш.пр}}", "kgm2", "приведённый момент инерции шатуна", 6),
@@ -45,6 +45,10 @@ ROWS: tuple[Row, ...] = (
     ("delta_I_engine", r"\delta_{I\Sigma}", "", "коэффициент изменения момента инерции двигателя", 4),
     ("I_error_max", r"\delta_{I\,\max}", "percent", "наибольшая погрешность приближённой формулы", 2),
     ("W_range", r"\Delta L_{\mathrm{изб}}", "J", "размах избыточной работы суммарного момента", 1),
+    ("W_fine", r"\Delta L_{1^{\circ}}", "J", "размах избыточной работы при шаге 1°", 1),
+    ("W_step_deg", r"\Delta\varphi", "deg", "шаг таблиц", 0),
+    ("W_step_J", r"\Delta L_{\mathrm{изб}}", "J", "размах избыточной работы при этом шаге", 1),
+    ("W_fresh", "", "", "отвечает ли поправка на шаг исходным данным", TEXT),
     ("Wgas_range", r"\Delta A_{\mathrm{г}}", "J", "размах избыточной работы газовых сил", 1),
     ("I_flywheel", r"I_{\mathrm{м}}", "kgm2", "момент инерции маховика для требуемой неравномерности хода", 6),
     ("delta_work", r"\delta_{\mathrm{х}}", "", "коэффициент неравномерности хода по избыточной работе", 5),

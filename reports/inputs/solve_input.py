@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from kshm.arrays import Array, Tables
+from kshm.defaults import FINE_STEP
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.mechanics.wear import ray_sums
 from kshm.nomenclature.digits import Digits
@@ -116,7 +117,6 @@ def _kw(value: float) -> str:
 
 
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
-FINE = 1  # step that the others are held against [deg]
 MOST_GRID_ERROR = 2.0  # difference that is told [%]
 _FINEST = 9  # decimals beyond which nothing is told apart
 _TOLD = 4  # differences in the one line; the report has them all
@@ -124,7 +124,7 @@ _TOLD = 4  # differences in the one line; the report has them all
 _KINDS = tuple(
     re.compile(kind)
     for kind in (
-        "M_(mean|max|min)", "I_flywheel|delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
+        "M_(mean|max|min)", "delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
         "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
         "hole_pin[0-9]*_deg", "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean",
         "Rpin[_0-9]*_min|Rmain[0-9]+_min", "Malpha_(max|min|swing|mean)",
@@ -185,7 +185,7 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     Both are found by the solver.  Nothing for a step of a degree or less, nor for an input
     that has no solution.
     """
-    if model.calculation.step_deg <= FINE:
+    if model.calculation.step_deg <= FINE_STEP:
         return ()
     try:
         rough, exact = solved(model), solved(refined(model))
@@ -218,7 +218,7 @@ def refined(model: InputFile) -> InputFile:
 
     Its oil hole stays where the model's own tables put it: in another plane is another moment.
     """
-    calculation = model.calculation.model_copy(update={"step_deg": FINE})
+    calculation = model.calculation.model_copy(update={"step_deg": FINE_STEP})
     hole = {"oil_hole_deg": solved(model).scalars.get("alpha_oil_deg")}
     crankshaft = model.crankshaft.model_copy(update=hole)
     other = {"torsion": None, "bearings": None}
@@ -227,7 +227,7 @@ def refined(model: InputFile) -> InputFile:
 
 def fine_columns(model: InputFile) -> Tables:
     """Tables of the solver at the fine step, in their units; none where the grid is as fine."""
-    if model.calculation.step_deg <= FINE:
+    if model.calculation.step_deg <= FINE_STEP:
         return {}
     # Orbits are the same on any grid; their curves are drawn through more points.
     return solved(refined(model).model_copy(update={"bearings": model.bearings})).columns

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from markupsafe import Markup
 
+from kshm.defaults import FINE_STEP
 from kshm.nomenclature.quantity import UNITS
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
@@ -22,7 +23,7 @@ from reports.document.text.texts import of_digits
 from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
-from reports.inputs.solve_input import FINE, MOST_GRID_ERROR, GridError, refined, solved
+from reports.inputs.solve_input import MOST_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
@@ -413,7 +414,7 @@ class Chapter:
 
     def fine_value(self, name: str) -> float:
         """A scalar by the solution with the fine step; on a grid as fine the table's own."""
-        if self.input.calculation.step_deg <= FINE:
+        if self.input.calculation.step_deg <= FINE_STEP:
             return self.terms.value(name)
         return float(solved(refined(self.input)).scalars[name])
 

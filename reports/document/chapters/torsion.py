@@ -126,7 +126,6 @@ def torsion(chapter: Chapter) -> Markup:
         change_text=with_unit(fixed(abs(terms.value("tor_f1_change")), 1), "%"),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
-        fine_flywheel=_fine_flywheel(chapter),
         light_flywheel=_lighter_than(chapter),
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
@@ -283,18 +282,6 @@ def _resonance_table(terms: Terms, resonances: list[tuple[int, int]]) -> TableBl
         for m, k in sorted(resonances)
     ]
     return table_block(heads, rows)
-
-
-def _fine_flywheel(chapter: Chapter) -> Markup:
-    """The flywheel of the chapter on balance, by the fine step, where the train's is another."""
-    terms = chapter.terms
-    if not terms.has("I_flywheel") or terms.value("I_flywheel") <= 0:
-        return Markup("")
-    fine = chapter.by_fine("I_flywheel")
-    if fine == terms.val("I_flywheel"):
-        return Markup("")
-    step = fixed(chapter.input.calculation.step_deg, 0)
-    return Markup(" (с шагом {}°; при шаге 1° — {})").format(step, fine)
 
 
 def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:

@@ -382,7 +382,9 @@ class Chapter:
 
     def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
         if name.startswith("q_"):  # a pressure is off as its load is
-            load = next((e for e in self.grid_errors if e.key == f"R{name[2:]}"), None)
+            one_rod = name.startswith("q_main") or self.shape.rods_beside == 1
+            key = f"R{name[2:]}" if one_rod else f"B_{name.rpartition('_')[2]}"
+            load = next((e for e in self.grid_errors if e.key == key), None)
             return value if load is None else self._beside_load(value, name, load)
         for error in self.grid_errors:
             if error.key == name:

@@ -241,6 +241,7 @@ def conclusion(chapter: Chapter) -> Markup:
         pins=pins,
         pins_count=len(names),
         worst_pins=leaders(terms, [f"R{name}_max" for name in names]),
+        own_rods=chapter.shape.rods_beside > 1,
         pressed=leaders(terms, [f"q_{name}_max" for name in names]),
         names_of_pins=names,
         pin_number=pin,

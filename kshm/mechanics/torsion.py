@@ -39,8 +39,8 @@ class Train:
 
     ``inertias`` [kg·m²], shape (masses,); ``stiffnesses`` [N·m/rad] between neighbours, shape
     (masses − 1,); ``left`` and ``right`` from the end masses to the ground, 0 where free.
-    ``moduli`` are the least W_p [m³] of the shafts between, shape (masses − 1,); ``throws`` the throw
-    of each mass, −1 where no rod acts.
+    ``moduli`` are the least W_p [m³] of the shafts between, shape (masses − 1,); ``throws`` the
+    throw of each mass, −1 where no rod acts.
     """
 
     inertias: Array
@@ -197,7 +197,6 @@ def train_of(
         flywheel: inertia of the flywheel where none is given [kg·m²].
         formula: of the stiffness, in place of the chosen one.
     """
-    shaft = engine.crankshaft
     if torsion.masses:
         moduli = _given_moduli(engine, torsion)
         return Train(

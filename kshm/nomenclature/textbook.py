@@ -121,6 +121,7 @@ _SCALARS: tuple[Row, ...] = (
     ("K_r_throw", r"K'_{r\mathrm{к}}", "MPa", "удельная центробежная сила массы колена", 3),
     ("phi_c_deg", r"\varphi_{c}", "deg", "начало видимого сгорания", 1),
     ("phi_open_deg", r"\varphi_{\mathrm{в.о}}", "deg", "начало выпуска", 1),
+    ("phi_shut_deg", r"\varphi_{\mathrm{в.з}}", "deg", "закрытие выпуска", 1),
     ("phi_close_deg", r"\varphi_{\mathrm{в.з}}", "deg", "конец падения давления при выпуске", 1),
     ("x_start", "x_c", "", "относительный объём в начале сгорания", 4),
     ("p_rise", r"\Delta p/\Delta\varphi", "MPa_deg", "скорость нарастания давления при сгорании", 4),

@@ -29,7 +29,14 @@ from reports.inputs.template import NUMBER_WORDS
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, Sizes
 from reports.inputs.units import number_text, span_text
 from reports.new.default_firing import Phases, phases
-from reports.new.sizing import EngineTask, main_sizes, pin_within, pressures_for, size_notes, usual_for
+from reports.new.sizing import (
+    EngineTask,
+    main_sizes,
+    pin_within,
+    pressures_for,
+    size_notes,
+    usual_for,
+)
 
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4

@@ -64,7 +64,6 @@ def relevant_chapters(model: InputFile) -> set[str]:
     return chosen(model) - lacking
 
 
-_PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
 
 
@@ -116,18 +115,6 @@ def pin_stems(shape: Shape) -> list[str]:
 def worst_pin(terms: Terms) -> int:
     """Number of the most loaded crankpin by the workbook."""
     return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
-
-
-def greatest_pressure(terms: Terms) -> tuple[Markup, str, Markup | str]:
-    """Greatest tabulated pressure, its angle, the greatest between rows where it is higher."""
-    column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
-    row = int(column.argmax())
-    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
-    most = terms.value(names[0]) if names else 0.0
-    in_table, peak = (fixed(float(value), _PRESSURE) for value in (column[row], most))
-    missed = most > column[row] + 0.5 * 10.0**-_PRESSURE
-    angle = fixed(terms.model.tables["gas"].rows[row], 0)
-    return with_unit(in_table, unit), angle, with_unit(peak, unit) if missed else ""
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
@@ -379,6 +366,19 @@ class Chapter:
         name = f"dM_pin{number}"
         swing = pin_swing(self.terms, self.shape.throws, number)
         return self._beside_fine(with_unit(swing, self.terms.unit(name)), name)
+
+    def told_range(self, most: str, least: str) -> Markup:
+        """Range of a scalar between two others, with the fine one where either is off."""
+        terms, errors = self.terms, {error.key: error.fine for error in self.grid_errors}
+        shown = [
+            with_unit(of_digits(high - low, terms.quantity(most).digits), terms.unit(most))
+            for high, low in (
+                (terms.value(most), terms.value(least)),
+                (errors.get(most, terms.value(most)), errors.get(least, terms.value(least))),
+            )
+        ]
+        told = Markup("{} (при шаге 1° — {})").format(*shown)
+        return shown[0] if shown[0] == shown[1] else told
 
     def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
         if name.startswith("q_"):  # a pressure is off as its load is

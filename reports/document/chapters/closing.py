@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from reports.document.chapters import (
     balance,
+    dynamics,
     journals,
     oil,
     rationale,
@@ -23,7 +24,6 @@ from reports.document.chapters.chapter import (
     STATICS,
     Chapter,
     chosen,
-    greatest_pressure,
     leaders,
     pin_stems,
     pin_torque,
@@ -229,6 +229,7 @@ def conclusion(chapter: Chapter) -> Markup:
     names, pin = pin_stems(chapter.shape), worst_pin(terms)
     names_of_chapters = relevant_chapters(chapter.input)
     mains, pins = worst_running(terms, throws)
+    peak = dynamics.greatest_pressure(chapter)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
@@ -252,10 +253,17 @@ def conclusion(chapter: Chapter) -> Markup:
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        pz=greatest_pressure(terms),
+        pz=peak,
+        pz_printed=_is_printed(chapter, peak.angle),
         powers=terms.has("cyc_N_gas"),
         hole=oil.hole(chapter, pin),
     )
+
+
+def _is_printed(chapter: Chapter, angle: float | None) -> bool:
+    """Whether the printed tables have a row of the angle [deg]."""
+    step = chapter.printed_step
+    return angle is not None and (not step or angle % step == 0)
 
 
 def _further(chapter: Chapter) -> list[Markup]:

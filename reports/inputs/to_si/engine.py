@@ -195,9 +195,7 @@ def _numbers(section: BaseModel) -> dict[str, Any]:
     return solver_values(section, Engine)
 
 
-def _balancing(
-    section: BalanceSection, parts: StrengthSection | None, bore: float
-) -> Balancing:
+def _balancing(section: BalanceSection, parts: StrengthSection | None, bore: float) -> Balancing:
     """Choices of balancing, with the webs of the strength where their sizes are given [m]."""
     sizes = {} if parts is None else {
         "web_width_share": parts.web_width_mm, "web_thickness_share": parts.web_thickness_mm,

@@ -362,7 +362,9 @@ def webs_remark(model: InputFile) -> str:
     for name, section in (("torsion", model.torsion), ("strength", model.strength)):
         for key in ("web_thickness_mm", "web_width_mm"):
             size = getattr(section, key, None)
-            where, sizes = first.setdefault(key, (name, {size})) if size else (name, {size})
+            if size is None:
+                continue
+            where, sizes = first.setdefault(key, (name, {size}))
             if size not in sizes:
                 other = "…".join(map(number_text, sorted({min(sizes), max(sizes)})))
                 return (

@@ -135,7 +135,7 @@ def generate_engine(
         data["regime"]["indicated_power_kw"] = found_gas.indicated_kw
         notes |= found_gas.notes
         model = load_mapping(data, source="kshm new").model
-    if (pin := pin_within(model, kind)) is not None:
+    if (pin := pin_within(model, kind, bore)) is not None:
         sizes = larger_pin(sizes, *pin)
         data["crankshaft"] = shaft(layout, timing, sizes, throw)
     head = (

@@ -217,7 +217,7 @@ def _no_such_bore(bore: float, task: EngineTask) -> InputError:
     return InputError(Problem(where, what, hint))
 
 
-def pin_within(model: InputFile, kind: str) -> tuple[float, float] | None:
+def pin_within(model: InputFile, kind: str, bore_mm: float) -> tuple[float, float] | None:
     """Diameter and length [mm] of crankpins that keep the big-end bearings' usual pressure.
 
     A pin is lengthened first, as far as is usual, then thickened; None where it is large enough,
@@ -233,7 +233,7 @@ def pin_within(model: InputFile, kind: str) -> tuple[float, float] | None:
     diameter, length = shaft.pin_diameter_mm, shaft.pin_length_mm
     rods = rods_beside(arrangement_of(model), 0)
     longest, area = rods * usual_span("pin_length", kind)[1], over * diameter * length
-    thickest = usual_span("pin", kind)[1] * float(model.geometry.bore_mm)
+    thickest = usual_span("pin", kind)[1] * bore_mm
     if area > longest * diameter**2:
         diameter = min(_up(math.sqrt(area / longest)), _down(thickest))
     return diameter, min(_up(area / diameter), _down(longest * diameter))

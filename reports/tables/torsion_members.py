@@ -108,7 +108,7 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
     journals = [f"main_diameter_{k}_mm" for k in ([1] if alike else scope.shape.journal_numbers)]
     mean = f"total({', '.join(journals)})/{len(journals)}"
     count = len(section.masses)
-    journals = [
+    shafts: list[tuple[tuple[str, str], ...]] = [
         _pinned(mean, int(mass.throw), int(behind.throw))
         if mass.diameter_mm is None
         else ((f"torsion_mass_{k}_diameter_mm", _MAIN_BORE),)
@@ -116,7 +116,7 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
     ]
     masses = (
         TorsionMass(
-            mass.name or f"масса {k}", "given", int(mass.throw), journals[min(k, count - 1) - 1]
+            mass.name or f"масса {k}", "given", int(mass.throw), shafts[min(k, count - 1) - 1]
         )
         for k, mass in enumerate(section.masses, 1)
     )

@@ -165,7 +165,7 @@ def dynamics(chapter: Chapter) -> Markup:
 
 
 @dataclass(frozen=True, slots=True)
-class Peak:
+class GasPeak:
     """The greatest pressure of the gases, printed, with its place in words.
 
     ``angle`` [deg] is its row in the table, None where it stands in none; ``between`` is the
@@ -178,7 +178,7 @@ class Peak:
     between: Markup | str
 
 
-def greatest_pressure(chapter: Chapter) -> Peak:
+def greatest_pressure(chapter: Chapter) -> GasPeak:
     """Greatest pressure: that after a jump in the dead centre, else that of the table."""
     terms = chapter.terms
     column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
@@ -187,11 +187,11 @@ def greatest_pressure(chapter: Chapter) -> Peak:
     most = terms.value(names[0]) if names else 0.0
     angle = float(terms.model.tables["gas"].rows[row])
     if not isinstance(chapter.input.gas, TableGasSection | RoundedGasSection) and _jump(terms):
-        return Peak(with_unit(fixed(most, _DIGITS), unit), "в ВМТ после скачка", None, "")
+        return GasPeak(with_unit(fixed(most, _DIGITS), unit), "в ВМТ после скачка", None, "")
     in_table, peak = (fixed(float(value), _DIGITS) for value in (column[row], most))
     missed = most > column[row] + 0.5 * 10.0**-_DIGITS
     between = with_unit(peak, unit) if missed else ""
-    return Peak(with_unit(in_table, unit), f"при φ = {fixed(angle, 0)}°", angle, between)
+    return GasPeak(with_unit(in_table, unit), f"при φ = {fixed(angle, 0)}°", angle, between)
 
 
 _DIGITS = 2  # decimals of a pressure in a sentence

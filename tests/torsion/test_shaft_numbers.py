@@ -1,4 +1,4 @@
-"""One web, one inertia of a throw, one flywheel, the weakest journal of a shaft: both statements."""
+"""One web, inertia of a throw and flywheel, the weakest journal of a shaft: both statements."""
 
 from __future__ import annotations
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 STEEL = 7800.0  # density [kg/m³]
 
+FINE_STEP = 1  # of the crank angle that extremes are held against [deg]
+
 # Balancing and flywheel, without a source.
 COUNTERWEIGHT_SHARE = 0.5  # of the inertia forces of the first order
 SUPPRESSION = 0.5  # of the second-order rolling moment
@@ -63,8 +65,6 @@ PART_SHARES: dict[str, tuple[str, Span, Span]] = {
     "bolts_apart": ("crankpin", (1.30, 1.75), (1.30, 1.75)),
     "cap_length": ("crankpin", (0.45, 0.95), (0.45, 0.95)),
     "shell": ("crankpin", (0.03, 0.05), (0.03, 0.05)),
-    "web_width": ("bore", (1.00, 1.25), (1.05, 1.30)),
-    "web_thickness": ("bore", (0.15, 0.20), (0.20, 0.28)),
 }
 PISTON_SHARE = 0.65  # of the reciprocating mass, without a source
 CAP_SHARE = 0.22  # of the rod's big end, without a source

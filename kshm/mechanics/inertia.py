@@ -23,6 +23,7 @@ from kshm.engine.arrangement import pin_counts
 from kshm.engine.engine import Engine
 from kshm.engine.masses import RodMasses
 from kshm.mechanics import dimensionless
+from kshm.mechanics.webs import web_thickness, web_width
 
 _WEB_ALLOWANCE = 0.01  # m, in the height of the web under (34)
 
@@ -79,16 +80,14 @@ def throw_inertias(engine: Engine) -> Array:
     parts one beside another.
     """
     shaft, r = engine.crankshaft, engine.geometry.crank_radius
-    bore, choice = engine.geometry.bore, engine.balancing
     pin = np.array(shaft.pin_diameters)
     pin_length = np.array(shaft.pin_lengths) * pin_counts(engine.arrangement)
     main, main_length = np.array(shaft.main_diameters), np.array(shaft.main_lengths)
     pins = cylinder_inertia(pin, pin_length) + STEEL * np.pi * pin**2 / 4 * pin_length * r**2
     height = r + (pin + main.mean()) / 2 + _WEB_ALLOWANCE
-    width, thickness = choice.web_width_share * bore, choice.web_thickness_share * bore
-    web_mass = STEEL * height * width * thickness
-    web = web_mass * ((height**2 + width**2) / 12 + r**2 / 4)
-    inertias: Array = cylinder_inertia(main, main_length).mean() + pins + 2 * web
+    width, both = web_width(engine), web_thickness(engine).sum(axis=1)
+    webs = STEEL * height * width * both * ((height**2 + width**2) / 12 + r**2 / 4)
+    inertias: Array = cylinder_inertia(main, main_length).mean() + pins + webs
     return inertias
 
 
@@ -135,6 +134,15 @@ def exact(phi: Array, parts: Parts) -> tuple[Array, Array]:
     rod = parts.rod_mass * centre**2 + parts.rod_inertia * turning**2
     piston = parts.piston_mass * (parts.radius * piston_speed(phi, lam, k)) ** 2
     return rod, piston
+
+
+_TURN = np.linspace(0.0, 2 * np.pi, 720, endpoint=False)
+
+
+def moving_mean(engine: Engine) -> float:
+    """Mean over a turn of the reduced inertia of a rod with its piston [kg·m²], Ilchenko (10)."""
+    rod, piston = exact(_TURN, parts_of(engine))
+    return float((rod + piston).mean())
 
 
 def approximate(phi: Array, parts: Parts) -> Array:

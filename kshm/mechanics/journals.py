@@ -20,7 +20,9 @@ from typing import NamedTuple
 import numpy as np
 
 from kshm.arrays import Array
+from kshm.engine.arrangement import rods_beside
 from kshm.engine.crankshaft import Places
+from kshm.engine.engine import Engine
 from kshm.mechanics.kinematics import Position
 
 
@@ -250,6 +252,17 @@ def rod_bearing(inward: Array, ahead: Array, at: Position) -> tuple[Array, Array
         across * at.cos_beta + along * at.sin_beta,
         along * at.cos_beta - across * at.sin_beta,
     )
+
+
+def rod_width(engine: Engine, cylinder: int) -> float:
+    """Width of the big-end bearing of a cylinder's (from 0) pin that carries [m], Gots 2.6.
+
+    That of the data on bearings, else the pin's part under one of its rods; less the groove.
+    """
+    data, shaft = engine.bearings, engine.crankshaft
+    rods = rods_beside(engine.arrangement, cylinder)
+    width = shaft.pin_lengths[engine.arrangement[cylinder].throw] / rods
+    return width if data is None else (data.pin_width or width) - data.pin_groove
 
 
 def on_plane(inward: Array, ahead: Array, angle: float) -> Array:

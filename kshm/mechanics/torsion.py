@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,9 @@ from kshm.defaults import PULLEY_SHARE
 from kshm.engine.arrangement import hung, pin_counts
 from kshm.engine.engine import Engine
 from kshm.engine.torsion import StiffnessFormula, Torsion
+from kshm.mechanics import inertia as reduced
 from kshm.mechanics.masses import point_masses
+from kshm.mechanics.webs import web_thickness, web_width
 
 FORMULAS: tuple[StiffnessFormula, ...] = ("wilson", "carter", "zimanenko")
 
@@ -36,8 +39,8 @@ class Train:
 
     ``inertias`` [kg·m²], shape (masses,); ``stiffnesses`` [N·m/rad] between neighbours, shape
     (masses − 1,); ``left`` and ``right`` from the end masses to the ground, 0 where free.
-    ``moduli`` are W_p [m³] of the shafts between, shape (masses − 1,); ``throws`` the throw
-    of each mass, −1 where no rod acts.
+    ``moduli`` are the least W_p [m³] of the shafts between, shape (masses − 1,); ``throws`` the
+    throw of each mass, −1 where no rod acts.
     """
 
     inertias: Array
@@ -141,12 +144,9 @@ def compliances(engine: Engine, torsion: Torsion, formula: StiffnessFormula) -> 
 
 def sections(engine: Engine, torsion: Torsion) -> Sections:
     """Sizes of the throws [m]; the main journal of a throw is the mean of its two."""
-    shaft, bore, choice = engine.crankshaft, engine.geometry.bore, engine.balancing
+    shaft = engine.crankshaft
     count = len(shaft.throws)
     main, length = np.array(shaft.main_diameters), np.array(shaft.main_lengths)
-    webs = [(t.left_web_thickness + t.right_web_thickness) / 2 for t in shaft.throws]
-    share = choice.web_thickness_share * bore
-    thickness = [torsion.web_thickness or web or share for web in webs]
     return Sections(
         main_diameter=(main[:-1] + main[1:]) / 2,
         main_bore=np.full(count, torsion.main_bore),
@@ -154,8 +154,8 @@ def sections(engine: Engine, torsion: Torsion) -> Sections:
         pin_diameter=np.array(shaft.pin_diameters),
         pin_bore=np.full(count, torsion.pin_bore),
         pin_length=np.array(shaft.pin_lengths) * pin_counts(engine.arrangement),
-        thickness=np.array(thickness),
-        width=np.full(count, torsion.web_width or choice.web_width_share * bore),
+        thickness=web_thickness(engine, torsion).mean(axis=1),
+        width=np.full(count, web_width(engine, torsion)),
         radius=np.full(count, engine.geometry.crank_radius),
     )
 
@@ -163,26 +163,26 @@ def sections(engine: Engine, torsion: Torsion) -> Sections:
 def throw_inertias(engine: Engine) -> Array:
     """Mean reduced inertia of every throw with rods and pistons [kg·m²], shape (throws,).
 
-    (m_ш.ш + Σm_щ + Σm_пр) r² + Σ m_2 r² + Σ m_j r² (1/2 + λ²/8).  An estimate: the masses of
-    webs and counterweights are those reduced to r by their centrifugal force, as in Gots 2.3.
+    Its part of the engine's mean reduced inertia: the throw, Ilchenko (35), counterweights at r,
+    those beyond the ends on the end throws, the means of its rods and pistons.  Articulated rods
+    have no sums there: Σ m_2 r² + Σ m_j r² (1/2 + λ²/8) of the point masses of all rods.
     """
     r, lam, shaft = engine.geometry.crank_radius, engine.geometry.lam, engine.crankshaft
-    m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
-    own = [
-        throw.pin_mass
-        + throw.left_web.mass
-        + throw.right_web.mass
-        + throw.left_web.counterweight_mass
-        + throw.right_web.counterweight_mass
+    weights = np.array([
+        throw.left_web.counterweight_mass + throw.right_web.counterweight_mass
         for throw in shaft.throws
-    ]
-    masses = np.array(own)
+    ])  # fmt: skip
+    weights[0] += shaft.nose.mass
+    weights[-1] += shaft.rear.mass
+    inertias: Array = reduced.throw_inertias(engine) + weights * r**2
     articulated = dict(zip(hung(engine.arrangement), engine.articulated, strict=True))
+    whole = None if articulated else reduced.moving_mean(engine)
+    m_j, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
     for number, cylinder in enumerate(engine.arrangement):
         rod = articulated.get(number)
         moving, turning = (m_j, m_2) if rod is None else (rod.reciprocating, rod.big_end)
-        masses[cylinder.throw] += turning + moving * (1 / 2 + lam**2 / 8)
-    inertias: Array = masses * r**2
+        points = (turning + moving * (1 / 2 + lam**2 / 8)) * r**2
+        inertias[cylinder.throw] += points if whole is None else whole
     return inertias
 
 
@@ -197,11 +197,8 @@ def train_of(
         flywheel: inertia of the flywheel where none is given [kg·m²].
         formula: of the stiffness, in place of the chosen one.
     """
-    shaft = engine.crankshaft
     if torsion.masses:
-        mean = float(np.mean(shaft.main_diameters))
-        sizes = [mass.diameter or mean for mass in torsion.masses[:-1]]
-        moduli = modulus(np.array(sizes), torsion.main_bore)
+        moduli = _given_moduli(engine, torsion)
         return Train(
             np.array([mass.inertia for mass in torsion.masses]),
             np.array([mass.stiffness for mass in torsion.masses[:-1]]),
@@ -213,15 +210,13 @@ def train_of(
     throws = throw_inertias(engine) if torsion.throws is None else np.array(torsion.throws)
     inertias = [torsion.pulley or PULLEY_SHARE * throws.mean(), *throws]
     inertias.append(torsion.flywheel or flywheel)
-    diameters = [*shaft.main_diameters]
     springs = _springs(engine, torsion, formula or torsion.formula)
     numbers = [-1, *range(len(throws)), -1]
     if torsion.driven:
         inertias.append(torsion.driven)
         springs.append(torsion.driven_stiffness or springs[-1])
-        diameters.append(diameters[-1])
         numbers.append(-1)
-    moduli = modulus(np.array(diameters), torsion.main_bore)
+    moduli = _moduli(engine, torsion)[: len(springs)]
     return Train(np.array(inertias), np.array(springs), torsion.ground, 0.0, moduli, tuple(numbers))
 
 
@@ -237,6 +232,36 @@ def _springs(engine: Engine, torsion: Torsion, formula: StiffnessFormula) -> lis
         *(float(value) for value in between),
         torsion.rear_stiffness or float(1 / (soft[-1] / 2 + flange)),
     ]
+
+
+def _moduli(engine: Engine, torsion: Torsion) -> Array:
+    """W_p of the weakest journal of every shaft from the nose [m³], shape (throws + 2,).
+
+    A shaft between two masses runs from crankpin to crankpin over the main journal between; the
+    last one is behind the flywheel, as thick as the last main journal.
+    """
+    shaft = engine.crankshaft
+    main = modulus(np.array(shaft.main_diameters), torsion.main_bore)
+    pin = modulus(np.array(shaft.pin_diameters), torsion.pin_bore)
+    before = np.concatenate([[np.inf], pin])
+    behind = np.concatenate([pin, [np.inf]])
+    return np.append(np.minimum(main, np.minimum(before, behind)), main[-1])
+
+
+def _given_moduli(engine: Engine, torsion: Torsion) -> Array:
+    """W_p of the shafts of a train given by masses [m³], shape (masses − 1,).
+
+    Where no diameter is given it is the mean main journal or, weaker, a crankpin at its ends.
+    """
+    shaft = engine.crankshaft
+    mean = float(modulus(np.mean(shaft.main_diameters, keepdims=True), torsion.main_bore)[0])
+    pin = modulus(np.array(shaft.pin_diameters), torsion.pin_bore)
+    moduli = []
+    for mass, following in pairwise(torsion.masses):
+        pins = [float(pin[each.throw]) for each in (mass, following) if each.throw is not None]
+        moduli.append(min([mean, *pins]) if mass.diameter is None else float(
+            modulus(np.array([mass.diameter]), torsion.main_bore)[0]))  # fmt: skip
+    return np.array(moduli)
 
 
 def modulus(diameter: Array, bore: float) -> Array:

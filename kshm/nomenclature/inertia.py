@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.nomenclature.digits import Row, scientific
+from kshm.nomenclature.digits import TEXT, Row, scientific
 
 ROWS: tuple[Row, ...] = (
     ("I_rod_kgm2", r"I_{\mathrm{ш.пр}}", "kgm2", "приведённый момент инерции шатуна", 6),
@@ -22,6 +22,9 @@ ROWS: tuple[Row, ...] = (
     ("tilt#", r"\beta_{\mathrm{ц}#}", "rad", "угол шатуна цилиндра #", 4),
     ("swing#", r"\dot\beta_{\mathrm{ц}#}/(\lambda\omega)", "", "отношение угловых скоростей шатуна и вала цилиндра #, делённое на λ", 4),
     ("Mgas#_Nm", r"M_{\mathrm{г}#}", "Nm", "крутящий момент газовых сил цилиндра #", 1),
+    ("web_left_mm", r"h_{\mathrm{щ.л}}", "mm", "толщина левой щеки", 2),
+    ("web_right_mm", r"h_{\mathrm{щ.п}}", "mm", "толщина правой щеки", 2),
+    ("web_width_mm", r"b_{\mathrm{щ}}", "mm", "ширина щеки", 2),
     ("web_height", r"H_{\mathrm{щ}}", "m", "высота щеки", 4),
     ("web_weight", r"m_{\mathrm{щ}}", "kg", "масса щеки по её размерам", 3),
     ("main_d", r"d_{\mathrm{к.ш}}", "m", "диаметр коренной шейки", 4),
@@ -42,6 +45,10 @@ ROWS: tuple[Row, ...] = (
     ("delta_I_engine", r"\delta_{I\Sigma}", "", "коэффициент изменения момента инерции двигателя", 4),
     ("I_error_max", r"\delta_{I\,\max}", "percent", "наибольшая погрешность приближённой формулы", 2),
     ("W_range", r"\Delta L_{\mathrm{изб}}", "J", "размах избыточной работы суммарного момента", 1),
+    ("W_fine", r"\Delta L_{1^{\circ}}", "J", "размах избыточной работы при шаге 1°", 1),
+    ("W_step_deg", r"\Delta\varphi", "deg", "шаг таблиц", 0),
+    ("W_step_J", r"\Delta L_{\mathrm{изб}}", "J", "размах избыточной работы при этом шаге", 1),
+    ("W_fresh", "", "", "отвечает ли поправка на шаг исходным данным", TEXT),
     ("Wgas_range", r"\Delta A_{\mathrm{г}}", "J", "размах избыточной работы газовых сил", 1),
     ("I_flywheel", r"I_{\mathrm{м}}", "kgm2", "момент инерции маховика для требуемой неравномерности хода", 6),
     ("delta_work", r"\delta_{\mathrm{х}}", "", "коэффициент неравномерности хода по избыточной работе", 5),

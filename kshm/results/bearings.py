@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from kshm.arrays import Array, Columns, Results, Scalars, Tables
 from kshm.defaults import CLEARANCE_SHARES, FILLET_SHARE
-from kshm.engine.arrangement import hung, rods_beside
+from kshm.engine.arrangement import hung
 from kshm.engine.bearings import Bearings
 from kshm.mechanics import bearings, journals
 from kshm.mechanics.bearings import (
@@ -26,7 +26,7 @@ from kshm.mechanics.bearings import (
     safety,
     together,
 )
-from kshm.mechanics.journals import rod_bearing
+from kshm.mechanics.journals import rod_bearing, rod_width
 from kshm.mechanics.kinematics import Position
 from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
 from kshm.nomenclature.quantity import UNITS
@@ -239,18 +239,15 @@ class BearingStudy:
         rows = []
         for k in self.numbers:
             if k == 0:
-                throw, rods = engine.arrangement[0].throw, rods_beside(engine.arrangement, 0)
-                d, width = shaft.pin_diameters[throw], shaft.pin_lengths[throw] / rods
-                given, groove, clearances = (
-                    inputs.pin_width, inputs.pin_groove, inputs.pin_clearances,
-                )  # fmt: skip
+                d = shaft.pin_diameters[engine.arrangement[0].throw]
+                width, groove = rod_width(engine, 0), inputs.pin_groove
+                clearances = inputs.pin_clearances
             else:
-                d, width = shaft.main_diameters[k - 1], shaft.main_lengths[k - 1]
-                given, groove, clearances = (
-                    inputs.main_width, inputs.main_groove, inputs.main_clearances,
-                )  # fmt: skip
+                d, groove = shaft.main_diameters[k - 1], inputs.main_groove
+                width = (inputs.main_width or shaft.main_lengths[k - 1]) - groove
+                clearances = inputs.main_clearances
             lands = 2 if groove else 1
-            land = ((given or width) - groove) / lands
+            land = width / lands
             for rule, clearance in zip(tuple(CLEARANCE_SHARES.values()), clearances, strict=True):
                 gap = clearance or rule * np.sqrt(1000 * d) / 1000
                 rows.append((d, land, lands, gap, engine.omega, inputs.hole))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.chain.solve import ChainArrays
+from kshm.chain.solve import ChainArrays, solve_batch
+from kshm.defaults import FINE_STEP
 from kshm.engine.arrangement import pins, throws
 from kshm.engine.engine import Engine
 from kshm.mechanics import balance, kinematics
@@ -157,6 +158,15 @@ class Case:
     def inertia_unit(self) -> float:
         """First-order inertia force of one cylinder m_j r ω² [N]."""
         return balance.inertia_unit(self.engine)
+
+    @cached_property
+    def fine_torque(self) -> tuple[Array, Array]:
+        """Torque of the engine [N·m] and crank angles [rad] at the fine step, (angles,)."""
+        if self.engine.step_deg <= FINE_STEP:
+            return self.raw.torque_sum[self.index], self.raw.phi
+        alone = replace(self.engine, step_deg=FINE_STEP, regimes=(), torsion=None, bearings=None)
+        fine = solve_batch([alone])
+        return fine.torque_sum[0], fine.phi
 
     def orders(self, last: float) -> Array:
         """Orders of the cycle up to the last [-], as far as the grid resolves them."""

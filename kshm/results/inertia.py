@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kshm.arrays import Array, Results, Scalars
+from kshm.defaults import FINE_STEP
 from kshm.engine.arrangement import rods_beside
 from kshm.engine.engine import Engine
 from kshm.engine.masses import Estimate, RodMasses, Swinging
@@ -75,7 +76,8 @@ def inertia_results(case: Case) -> Results:
     work = inertia.excess_work(raw.torque_sum[case.index], phi)
     gas_work = inertia.excess_work(gas, phi)
     mean, delta = float(whole[:-1].mean()), engine.balancing.irregularity
-    flywheel = inertia.flywheel_inertia(work, mean, engine.omega, delta)
+    fine = inertia.excess_work(*case.fine_torque)
+    flywheel = inertia.flywheel_inertia(fine, mean, engine.omega, delta)
     omega = inertia.speed(gas_work, whole + flywheel, engine.omega)
     near = reduced.approximate(phi, parts)
     error = near / exact - 1
@@ -96,14 +98,21 @@ def inertia_results(case: Case) -> Results:
         **({"I_error_max": float(np.abs(error).max())} if central else {}),
         **_range("_engine", whole),
         "W_range": float(np.ptp(work)),
+        "W_fine": float(np.ptp(fine)),
         "Wgas_range": float(np.ptp(gas_work)),
         "I_flywheel": flywheel,
-        "delta_work": inertia.irregularity(work, mean + flywheel, engine.omega),
+        "delta_work": inertia.irregularity(fine, mean + flywheel, engine.omega),
         "omega_max": float(omega.max()),
         "omega_min": float(omega.min()),
         "delta_speed": float(np.ptp(omega) / omega[:-1].mean()),
     }
-    return {"inertia": table}, scalars | _rod_model(engine)
+    steps = {}
+    if engine.step_deg > FINE_STEP:
+        steps["inertia_steps"] = {
+            "W_step_deg": np.radians([FINE_STEP, engine.step_deg]),
+            "W_step_J": np.array([scalars["W_fine"], scalars["W_range"]]),
+        }
+    return {"inertia": table} | steps, scalars | _rod_model(engine)
 
 
 def _range(which: str, inertia: Array) -> Scalars:

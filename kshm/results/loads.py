@@ -8,9 +8,11 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.chain.solve import ChainArrays
+from kshm.engine.arrangement import rods_beside
 from kshm.engine.engine import Engine
 from kshm.mechanics import kinematics, masses
-from kshm.results.case import first_number, least_loaded, shown_pins, summary_of
+from kshm.mechanics.journals import rod_width
+from kshm.results.case import first_number, least_loaded, mean_of, shown_pins, summary_of
 from kshm.results.motion import central_scalars
 
 Numbers = dict[str, Array]
@@ -114,17 +116,32 @@ def _torque(of: Engines) -> Numbers:
 
 def _pins(of: Engines) -> Numbers:
     groups, raw = shown_pins(of.first), of.raw
-    size = of.each(lambda e: (e.crankshaft.pin_diameters, e.crankshaft.pin_lengths)).prod(axis=1)
     scalars: Numbers = {}
     for pin, group in enumerate(groups):
-        projected = size[:, of.first.arrangement[group[0]].throw]
         number = "" if pin == 0 else str(pin + 1)
-        wear = raw.pin_wear[of.at, pin]
-        scalars |= _bearing(of, f"pin{number}", raw.pin_load[of.at, pin], projected, wear)
+        load, wear = raw.pin_load[of.at, pin], raw.pin_wear[of.at, pin]
+        scalars |= _bearing(of, f"pin{number}", load, wear)
+        scalars |= _rod_pressure(of, number, load, group[0])
     if len(groups) > 1:
         peaks = raw.pin_load[of.at, : len(groups)].max(axis=-1)
         scalars["worst_pin_load"] = first_number(peaks)
     return scalars
+
+
+def _rod_pressure(of: Engines, number: str, load: Array, cylinder: int) -> Numbers:
+    """Pressures of a rod's bearing: its own rod's force, of the projected area of its width."""
+    scalars: Numbers = {}
+    if rods_beside(of.first.arrangement, cylinder) > 1:
+        raw, at = of.raw, (of.at, cylinder)
+        spin = raw.batch.pin_mass[at] * (of.r * of.omega**2 / of.area)[:, None]
+        load = np.hypot(raw.K[at] - spin, raw.T[at])
+        scalars = {f"Rrod{number}_mean": mean_of(load), f"Rrod{number}_max": load.max(axis=-1)}
+    throw = of.first.arrangement[cylinder].throw
+    projected = of.each(lambda e: e.crankshaft.pin_diameters[throw] * rod_width(e, cylinder))
+    return scalars | {
+        f"q_pin{number}_mean": mean_of(load) * of.area / projected,
+        f"q_pin{number}_max": load.max(axis=-1) * of.area / projected,
+    }
 
 
 def _journals(of: Engines) -> Numbers:
@@ -132,25 +149,22 @@ def _journals(of: Engines) -> Numbers:
     size = of.each(lambda e: (e.crankshaft.main_diameters, e.crankshaft.main_lengths)).prod(axis=1)
     for k in range(raw.journal_load.shape[1]):
         load, wear = raw.journal_load[of.at, k], raw.journal_wear[of.at, k]
-        scalars |= _bearing(of, f"main{k + 1}", load, size[:, k], wear)
+        name, force = f"main{k + 1}", of.area / size[:, k]
+        scalars |= _bearing(of, name, load, wear)
+        scalars[f"q_{name}_mean"] = scalars[f"R{name}_mean"] * force
+        scalars[f"q_{name}_max"] = scalars[f"R{name}_max"] * force
     peaks = raw.journal_load[of.at].max(axis=-1)
     return scalars | {"worst_main_load": first_number(peaks)}
 
 
-def _bearing(of: Engines, name: str, load: Array, projected: Array, wear: Array) -> Numbers:
-    """Specific load, force, pressure over the projected area and oil hole of one journal."""
+def _bearing(of: Engines, name: str, load: Array, wear: Array) -> Numbers:
+    """Specific load, force and oil hole of one journal."""
     scalars = summary_of(f"R{name}", load, of.raw.phi)
-    mean, largest = scalars[f"R{name}_mean"] * of.area, scalars[f"R{name}_max"] * of.area
-    scalars[f"R{name}_max_kN"] = largest
+    scalars[f"R{name}_max_kN"] = scalars[f"R{name}_max"] * of.area
     if name.startswith("pin"):
         scalars[f"R{name}_min_kN"] = scalars[f"R{name}_min"] * of.area
     ray, angle = least_loaded(wear)
-    return scalars | {
-        f"q_{name}_mean": mean / projected,
-        f"q_{name}_max": largest / projected,
-        f"hole_{name}_ray": ray,
-        f"hole_{name}_deg": angle,
-    }
+    return scalars | {f"hole_{name}_ray": ray, f"hole_{name}_deg": angle}
 
 
 def _running(of: Engines) -> Numbers:

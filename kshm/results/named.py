@@ -42,7 +42,7 @@ NAMES: dict[str, dict[str, str]] = {
         "first_order_force": "F1_after_max", "first_order_moment": "L1_after_max",
     },
     "flywheel": {
-        "inertia": "I_flywheel", "excess_work": "W_range", "engine_inertia": "I_engine_mean",
+        "inertia": "I_flywheel", "excess_work": "W_fine", "engine_inertia": "I_engine_mean",
         "irregularity": "delta_speed",
     },
 }  # fmt: skip

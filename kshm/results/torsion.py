@@ -73,7 +73,7 @@ class TorsionStudy:
         share = FLYWHEEL_SHARE * float(self._throws.sum())
         if hung(engine.arrangement):
             return share
-        work = inertia.excess_work(self.case.raw.torque_sum[self.case.index], self.case.raw.phi)
+        work = inertia.excess_work(*self.case.fine_torque)
         own = float(inertia.of_engine(self.case.raw.phi, engine)[:-1].mean())
         wanted = engine.balancing.irregularity
         return inertia.flywheel_inertia(work, own, engine.omega, wanted) or share

@@ -117,7 +117,7 @@ def chain(
         canvas.line((x, y - 0.5 * letters), (x, y + 3 * letters), layer=SIZES)
 
 
-_THIN_WEB = 0.35  # of the arms beside it: a web whose thickness is not given
+_MOST_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
 _ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
 
 
@@ -132,6 +132,7 @@ class ThrowSizes:
     mains: tuple[float, float]  # diameters
     lengths: tuple[float, float]  # of the main journals
     weights: tuple[bool, bool] = (False, False)
+    usual: tuple[float, float] = (0.0, 0.0)  # h of the webs of the calculation where ``webs`` is 0
 
     @property
     def size(self) -> float:
@@ -171,7 +172,9 @@ def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0
     rod = l1 + left_web + l2
     right = rod + l3 + l4 + l5
     end = right + right_web + l6
-    shown = [left_web or _THIN_WEB * min(l1, l2), right_web or _THIN_WEB * min(l5, l6)]
+    room = _MOST_WEB * min(l1, l2), _MOST_WEB * min(l5, l6)
+    usual = [min(scale * h or 1.0, most) for h, most in zip(throw.usual, room, strict=True)]
+    shown = [left_web or usual[0], right_web or usual[1]]
     faces = [(l1 if left_web else l1 - shown[0] / 2, shown[0]),
              (right if right_web else right - shown[1] / 2, shown[1])]  # fmt: skip
     low = 0.0

@@ -129,10 +129,10 @@ REASONS: tuple[Reason, ...] = (
            (f"crankshaft_pin_length_mm/{RODS}/crankshaft_pin_diameter_mm",),
            (0.35, 0.65), (0.4, 0.7), "", 2, "",
            "растут длина вала и его прогиб", "растёт давление на подшипник, плёнка тоньше"),
-    Reason("pin_pressure", "Среднее давление на шатунную шейку", r"q_{\mathrm{ср}}",
+    Reason("pin_pressure", "Среднее давление на шатунный подшипник", r"q_{\mathrm{ср}}",
            ("q_pin_mean",), (4, 16), (4, 16), "МПа", 2, "",
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
-    Reason("pin_peak", "Наибольшее давление на шатунную шейку", r"q_{\max}",
+    Reason("pin_peak", "Наибольшее давление на шатунный подшипник", r"q_{\max}",
            ("q_pin_max",), (7, 30), (10, 50), "МПа", 2, "",
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
@@ -148,6 +148,11 @@ _COMMENTED = {
     "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
     "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
 }  # fmt: skip
+
+
+def usual_span(key: str, kind: str) -> Span:
+    """Usual span of a reason for a kind of engine."""
+    return _BY_KEY[key].span(kind)
 
 
 def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:

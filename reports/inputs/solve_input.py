@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from kshm.arrays import Array, Tables
+from kshm.defaults import FINE_STEP
 from kshm.mechanics.oil_orbit import FilmError
 from kshm.mechanics.wear import ray_sums
 from kshm.nomenclature.digits import Digits
@@ -116,7 +117,6 @@ def _kw(value: float) -> str:
 
 
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
-FINE = 1  # step that the others are held against [deg]
 MOST_GRID_ERROR = 2.0  # difference that is told [%]
 _FINEST = 9  # decimals beyond which nothing is told apart
 _TOLD = 4  # differences in the one line; the report has them all
@@ -124,7 +124,7 @@ _TOLD = 4  # differences in the one line; the report has them all
 _KINDS = tuple(
     re.compile(kind)
     for kind in (
-        "M_(mean|max|min)", "I_flywheel|delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
+        "M_(mean|max|min)", "delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
         "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
         "hole_pin[0-9]*_deg", "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean",
         "Rpin[_0-9]*_min|Rmain[0-9]+_min", "Malpha_(max|min|swing|mean)",
@@ -185,7 +185,7 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
     Both are found by the solver.  Nothing for a step of a degree or less, nor for an input
     that has no solution.
     """
-    if model.calculation.step_deg <= FINE:
+    if model.calculation.step_deg <= FINE_STEP:
         return ()
     try:
         rough, exact = solved(model), solved(refined(model))
@@ -218,7 +218,7 @@ def refined(model: InputFile) -> InputFile:
 
     Its oil hole stays where the model's own tables put it: in another plane is another moment.
     """
-    calculation = model.calculation.model_copy(update={"step_deg": FINE})
+    calculation = model.calculation.model_copy(update={"step_deg": FINE_STEP})
     hole = {"oil_hole_deg": solved(model).scalars.get("alpha_oil_deg")}
     crankshaft = model.crankshaft.model_copy(update=hole)
     other = {"torsion": None, "bearings": None}
@@ -227,7 +227,7 @@ def refined(model: InputFile) -> InputFile:
 
 def fine_columns(model: InputFile) -> Tables:
     """Tables of the solver at the fine step, in their units; none where the grid is as fine."""
-    if model.calculation.step_deg <= FINE:
+    if model.calculation.step_deg <= FINE_STEP:
         return {}
     # Orbits are the same on any grid; their curves are drawn through more points.
     return solved(refined(model).model_copy(update={"bearings": model.bearings})).columns
@@ -267,7 +267,7 @@ def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
     return bool(taken - sums.min() > 1e-6 * sums.mean())
 
 
-_USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
+_USED = re.compile(r"M_(mean|max|min)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
 
 
 def grid_remark(model: InputFile) -> str:
@@ -355,6 +355,26 @@ def _shown(model: InputFile, value: float) -> str:
     return f"{written(value, about.digits)}{NBSP}{about.unit_label}"
 
 
+def webs_remark(model: InputFile) -> str:
+    """Line about a size of the webs that stands beside another one which counts, or nothing."""
+    drawn = {t for arms in model.crankshaft.arms for t in (arms.left_web_mm, arms.right_web_mm)}
+    first = {"web_thickness_mm": ("crankshaft.arms", drawn)} if all(drawn) else {}
+    for name, section in (("torsion", model.torsion), ("strength", model.strength)):
+        for key in ("web_thickness_mm", "web_width_mm"):
+            size = getattr(section, key, None)
+            if size is None:
+                continue
+            where, sizes = first.setdefault(key, (name, {size}))
+            if size not in sizes:
+                other = "…".join(map(number_text, sorted({min(sizes), max(sizes)})))
+                return (
+                    f"Внимание: {name}.{key}: {number_text(size)}{NBSP}мм, а в {where} щёки "
+                    f"{other}{NBSP}мм; в расчёт идут они, удалите ключ"
+                )
+    return ""
+
+
 def solution_remarks(model: InputFile) -> tuple[str, ...]:
     """Remarks that need a solution, a line each."""
-    return tuple(filter(None, (flywheel_remark(model), grid_remark(model))))
+    remarks = (flywheel_remark(model), webs_remark(model), grid_remark(model))
+    return tuple(filter(None, remarks))

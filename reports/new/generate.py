@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -29,7 +29,14 @@ from reports.inputs.template import NUMBER_WORDS
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, Sizes
 from reports.inputs.units import number_text, span_text
 from reports.new.default_firing import Phases, phases
-from reports.new.sizing import EngineTask, main_sizes, pressures_for, size_notes, usual_for
+from reports.new.sizing import (
+    EngineTask,
+    main_sizes,
+    pin_within,
+    pressures_for,
+    size_notes,
+    usual_for,
+)
 
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
@@ -127,6 +134,10 @@ def generate_engine(
         data["gas"] |= found_gas.gas
         data["regime"]["indicated_power_kw"] = found_gas.indicated_kw
         notes |= found_gas.notes
+        model = load_mapping(data, source="kshm new").model
+    if (pin := pin_within(model, kind, bore)) is not None:
+        sizes = larger_pin(sizes, *pin)
+        data["crankshaft"] = shaft(layout, timing, sizes, throw)
     head = (
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
@@ -182,6 +193,19 @@ def usual_shaft(layout: str, kind: str, bore: float, throws: int) -> ShaftSizes:
         pin, round(ratios.pin_length * pin, 1), main, (length,) * (throws + 1),
         round(ratios.web * bore, 1), notes,
     )  # fmt: skip
+
+
+def larger_pin(sizes: ShaftSizes, diameter: float, length: float) -> ShaftSizes:
+    """Sizes with another crankpin [mm], the main journals as thick at least."""
+    words = "по давлению на подшипник шатуна"
+    notes = {
+        "crankshaft.pin_diameter_mm": words if diameter > sizes.pin else "",
+        "crankshaft.pin_length_mm": words,
+        "crankshaft.main_diameter_mm": "не тоньше шатунной" if diameter > sizes.main else "",
+    }
+    told = {key: text for key, text in notes.items() if text}
+    return replace(sizes, pin=diameter, pin_length=length, main=max(sizes.main, diameter),
+                   notes=sizes.notes | told)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,13 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from kshm.engine.arrangement import rods_beside
 from kshm.results.solution import solve
+from reports.inputs.firing import arrangement_of
+from reports.inputs.reasons import usual_span
 from reports.inputs.sections.gas import PolytropicGasSection
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solve_input import refined, solved
 from reports.inputs.to_si.engine import to_engine
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
@@ -213,6 +217,37 @@ def _no_such_bore(bore: float, task: EngineTask) -> InputError:
     return InputError(Problem(where, what, hint))
 
 
+def pin_within(model: InputFile, kind: str, bore_mm: float) -> tuple[float, float] | None:
+    """Diameter and length [mm] of crankpins that keep the big-end bearings' usual pressure.
+
+    A pin is lengthened first, as far as is usual, then thickened; None where it is large enough,
+    the largest usual one where that is not.
+    """
+    shaft, scalars = model.crankshaft, solved(refined(model)).scalars
+    over = max(
+        scalars[key] / usual_span(reason, kind)[1]
+        for key, reason in (("q_pin_mean", "pin_pressure"), ("q_pin_max", "pin_peak"))
+    )
+    if over <= 1 or shaft.pin_diameter_mm is None or shaft.pin_length_mm is None:
+        return None
+    diameter, length = shaft.pin_diameter_mm, shaft.pin_length_mm
+    rods = rods_beside(arrangement_of(model), 0)
+    longest, area = rods * usual_span("pin_length", kind)[1], over * diameter * length
+    thickest = usual_span("pin", kind)[1] * bore_mm
+    if area > longest * diameter**2:
+        diameter = min(_up(math.sqrt(area / longest)), _down(thickest))
+    return diameter, min(_up(area / diameter), _down(longest * diameter))
+
+
+def _up(value: float) -> float:
+    return math.ceil(10 * value - _NOISE) / 10
+
+
+def _down(value: float) -> float:
+    return math.floor(10 * value + _NOISE) / 10
+
+
+_NOISE = 1e-6  # of a tenth of a millimetre
 Gas = dict[str, float]
 _POWER = "regime.indicated_power_kw"
 _ADVICE = "проверьте мощность и частоту, задайте другие размеры или число цилиндров"

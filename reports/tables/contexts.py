@@ -10,6 +10,7 @@ from typing import Any
 from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
+from kshm.defaults import FINE_STEP
 from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from kshm.mechanics.journals import PLANES
 from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
@@ -186,6 +187,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "cycle": _cycle,
     "cycle_results": _cycle,
     "cycle_speed": _cycle,
+    "inertia": lambda _: {"fine_step": FINE_STEP},
     "oil": oil_names,
     "rod_masses": _table_4,
     "safety": safety_names,

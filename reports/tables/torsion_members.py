@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 from kshm.defaults import (
@@ -26,12 +27,15 @@ _MODES = 3
 
 @dataclass(frozen=True, slots=True)
 class TorsionMass:
-    """A mass of the train: what it is, its throw from 1 or 0, diameter of the shaft behind [mm]."""
+    """A mass of the train: what it is, its throw from 1 or 0, journals of the shaft behind.
+
+    ``journals`` are the diameters [mm] of those that the shaft consists of, each with its bore.
+    """
 
     label: str
     kind: Kind
     throw: int
-    diameter: str
+    journals: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,18 +103,20 @@ def torsion_names(scope: Scope) -> dict[str, object]:
 
 
 def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
-    """The train of the input; where no diameter is given it is the mean of the journals'."""
+    """The train of the input; without a diameter the mean main journal and the pins at its ends."""
     alike = scope.input.crankshaft.main_diameters_mm is None
     journals = [f"main_diameter_{k}_mm" for k in ([1] if alike else scope.shape.journal_numbers)]
     mean = f"total({', '.join(journals)})/{len(journals)}"
     count = len(section.masses)
-    diameters = [
-        mean if mass.diameter_mm is None else f"torsion_mass_{k}_diameter_mm"
-        for k, mass in enumerate(section.masses[:-1], 1)
+    shafts: list[tuple[tuple[str, str], ...]] = [
+        _pinned(mean, int(mass.throw), int(behind.throw))
+        if mass.diameter_mm is None
+        else ((f"torsion_mass_{k}_diameter_mm", _MAIN_BORE),)
+        for k, (mass, behind) in enumerate(pairwise(section.masses), 1)
     ]
     masses = (
         TorsionMass(
-            mass.name or f"масса {k}", "given", int(mass.throw), diameters[min(k, count - 1) - 1]
+            mass.name or f"масса {k}", "given", int(mass.throw), shafts[min(k, count - 1) - 1]
         )
         for k, mass in enumerate(section.masses, 1)
     )
@@ -118,18 +124,30 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
     return TrainMasses(tuple(masses), free, own=True)
 
 
+_MAIN_BORE, _PIN_BORE = "torsion_main_bore_mm", "torsion_pin_bore_mm"
+
+
+def _pinned(main: str, *throws: int) -> tuple[tuple[str, str], ...]:
+    """Journals of a shaft with a main one between the crankpins of throws; 0 stands for none."""
+    pins = ((f"pin_diameter_{throw}_mm", _PIN_BORE) for throw in throws if throw)
+    return ((main, _MAIN_BORE), *pins)
+
+
 def _equivalent(section: TorsionSection, scope: Scope) -> TrainMasses:
     """Pulley, throws, flywheel and what is driven behind it."""
     last = scope.shape.throws
-    rear = f"main_diameter_{last + 1}_mm"
+    rear = _pinned(f"main_diameter_{last + 1}_mm")
     masses = [
-        TorsionMass("шкив", "pulley", 0, "main_diameter_1_mm"),
+        TorsionMass("шкив", "pulley", 0, _pinned("main_diameter_1_mm", 1)),
         *(
-            TorsionMass(f"колено {k}", "throw", k, f"main_diameter_{k + 1}_mm")
+            TorsionMass(
+                f"колено {k}", "throw", k,
+                _pinned(f"main_diameter_{k + 1}_mm", k, k + 1 if k < last else 0),
+            )
             for k in scope.shape.throw_numbers
         ),
         TorsionMass("маховик", "flywheel", 0, rear),
-    ]
+    ]  # fmt: skip
     if section.driven_kg_m2 is not None:
         masses.append(TorsionMass("за маховиком", "driven", 0, rear))
     return TrainMasses(tuple(masses), section.ground_nm_rad == 0, own=False)

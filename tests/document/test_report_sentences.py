@@ -160,7 +160,7 @@ def test_the_chapter_is_of_the_most_loaded_pin(detail):
     text = text_of(light_first(report__detail=detail))
     assert_pins_agree(light_first(), text)
     assert "Ниже рассмотрена шейка 2, одна из наиболее нагруженных." in text
-    told = re.search(r"Среднее давление на шатунную шейку, МПа\s*qср2\s*([\d]+,\d\d)", text)
+    told = re.search(r"Среднее давление на шатунный подшипник, МПа\s*qср2\s*([\d]+,\d\d)", text)
     assert told and f"среднее {told[1]} МПа" in text  # in the conclusion
     assert "Развёрнутая диаграмма нагрузки на шатунную шейку 2" in text
 

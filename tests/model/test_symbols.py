@@ -88,7 +88,9 @@ def test_words_stand_where_symbols_cannot():
     assert len(WORDS) <= 40
     about = rows()
     assert WORDS.keys() <= about.keys()
-    assert {key for key, each in about.items() if not each.symbol} == {"tor_fresh", "oil_fresh"}
+    assert {key for key, each in about.items() if not each.symbol} == {
+        "tor_fresh", "oil_fresh", "W_fresh",
+    }  # fmt: skip
     told = {"check_value", "oil_open", "governs", "verdict"}
     assert told <= {key for key in WORDS if not about[key].tex}
 

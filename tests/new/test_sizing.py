@@ -12,8 +12,9 @@ import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
-from reports.inputs.load import Loaded, load_text, load_toml
-from reports.inputs.solve_input import flywheel_remark, power_problems, solved
+from reports.inputs.load import Loaded, load_mapping, load_text, load_toml
+from reports.inputs.reasons import usual_span
+from reports.inputs.solve_input import flywheel_remark, power_problems, refined, solved
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.new.generate import file_text, generate_engine
 from reports.new.scale_engine import kind_of
@@ -293,3 +294,26 @@ def test_an_alternative_has_the_power_that_was_asked_for(tmp_path: Path, sample:
     assert effective_kw(found) == pytest.approx(60.5, rel=2e-3)
     assert power_problems(found.model) == ()
     assert found.model.regime.indicated_power_kw is not None
+
+
+_BOOSTED = [
+    (6, "petrol", {"power_kw": 250, "speed_rpm": 5800, "bore_mm": 86, "stroke_mm": 86}),
+    (12, "diesel", {"power_kw": 3600, "speed_rpm": 750, "bore_mm": 300, "stroke_mm": 380}),
+    (8, "petrol", {"power_kw": 230, "speed_rpm": 5500, "bore_mm": 84, "stroke_mm": 80}),
+]
+
+
+@pytest.mark.parametrize(("cylinders", "kind", "task"), _BOOSTED)
+def test_the_bearings_of_a_boosted_engine_are_within_the_usual_pressure(cylinders, kind, task):
+    data = generate_engine(cylinders, layout="v", kind=kind, **task).data
+    model = load_mapping(data, source="own.toml").model
+    scalars, shaft = solved(refined(model)).scalars, model.crankshaft
+    for key, reason in (("q_pin_max", "pin_peak"), ("q_pin_mean", "pin_pressure")):
+        low, high = usual_span(reason, kind)
+        assert low <= scalars[key] <= high
+    rod = shaft.pin_length_mm / 2
+    low, high = usual_span("pin_length", kind)
+    assert low <= rod / shaft.pin_diameter_mm <= high
+    low, high = usual_span("pin", kind)
+    assert low <= shaft.pin_diameter_mm / model.geometry.bore_mm <= high
+    assert all(arms.l2_mm == pytest.approx(rod / 2, abs=1e-5) for arms in shaft.arms)

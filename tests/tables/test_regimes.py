@@ -61,7 +61,7 @@ def test_one_regime_is_the_model_it_was() -> None:
     assert not any(name.endswith(("_R2", "_R3")) for name in (*plain.tables, *plain.scalars))
     several = build_model(read(coarse()))
     for key, table in plain.tables.items():
-        assert several.tables[key] == table
+        assert replace(several.tables[key], computed=None) == replace(table, computed=None)
     for key, scalar in plain.scalars.items():
         assert several.scalars[key] == scalar
 

@@ -109,6 +109,7 @@ def balance(chapter: Chapter) -> Markup:
         },
         own_flywheel=_own_flywheel(chapter),
         flywheel_needed=is_flywheel_needed(chapter),
+        coarse=chapter.terms.has("W_fresh"),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
 
@@ -146,7 +147,7 @@ def flywheel(chapter: Chapter) -> Markup:
     needed, own = is_flywheel_needed(chapter), _own_flywheel(chapter)
     line = Markup("маховик для неравномерности хода {}{} {}").format(
         terms.val("balance_irregularity"), ":" if needed else "",
-        chapter.by_fine("I_flywheel") if needed else "не нужен",
+        terms.val("I_flywheel") if needed else "не нужен",
     )  # fmt: skip
     if own:
         line += Markup(", принятый {} {} требуемого").format(
@@ -176,7 +177,7 @@ def _own_flywheel(chapter: Chapter) -> str:
     given = None if section is None else section.flywheel_kg_m2
     if given is None or not is_flywheel_needed(chapter):
         return ""
-    return "меньше" if given < chapter.fine_value("I_flywheel") else "не меньше"
+    return "меньше" if given < chapter.terms.value("I_flywheel") else "не меньше"
 
 
 def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
@@ -306,7 +307,7 @@ def _devices(chapter: Chapter, devices: set[str]) -> TablePlan | None:
 
 def is_flywheel_needed(chapter: Chapter) -> bool:
     """Whether the required evenness asks for a flywheel that can be printed."""
-    value, digits = chapter.fine_value("I_flywheel"), chapter.terms.quantity("I_flywheel").digits
+    value, digits = chapter.terms.value("I_flywheel"), chapter.terms.quantity("I_flywheel").digits
     return bool(str(of_digits(value, digits.within(value))).strip(_ZERO))
 
 

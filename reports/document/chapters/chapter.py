@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from markupsafe import Markup
 
+from kshm.defaults import FINE_STEP
 from kshm.nomenclature.quantity import UNITS
 from reports.document.chapters.record import Record, chosen, relevant
 from reports.document.page.blocks import angle_table, scalar_table
@@ -24,7 +25,7 @@ from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
 from reports.inputs.sections.report import CHAPTERS
-from reports.inputs.solve_input import FINE, MOST_GRID_ERROR, GridError, refined, solved
+from reports.inputs.solve_input import MOST_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, pin_name
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 STATICS = "P4_5s"  # table of the crankpins' torques by statics
-_PRESSURE = 2  # decimals of the greatest pressure in a sentence
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
 
 
@@ -86,18 +86,6 @@ def pin_stems(shape: Shape) -> list[str]:
 def worst_pin(terms: Terms) -> int:
     """Number of the most loaded crankpin by the workbook."""
     return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
-
-
-def greatest_pressure(terms: Terms) -> tuple[Markup, str, Markup | str]:
-    """Greatest tabulated pressure, its angle, the greatest between rows where it is higher."""
-    column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
-    row = int(column.argmax())
-    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
-    most = terms.value(names[0]) if names else 0.0
-    in_table, peak = (fixed(float(value), _PRESSURE) for value in (column[row], most))
-    missed = most > column[row] + 0.5 * 10.0**-_PRESSURE
-    angle = fixed(terms.model.tables["gas"].rows[row], 0)
-    return with_unit(in_table, unit), angle, with_unit(peak, unit) if missed else ""
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
@@ -362,9 +350,24 @@ class Chapter:
         swing = pin_swing(self.terms, self.shape.throws, number)
         return self._beside_fine(with_unit(swing, self.terms.unit(name)), name)
 
+    def told_range(self, most: str, least: str) -> Markup:
+        """Range of a scalar between two others, with the fine one where either is off."""
+        terms, errors = self.terms, {error.key: error.fine for error in self.grid_errors}
+        shown = [
+            with_unit(of_digits(high - low, terms.quantity(most).digits), terms.unit(most))
+            for high, low in (
+                (terms.value(most), terms.value(least)),
+                (errors.get(most, terms.value(most)), errors.get(least, terms.value(least))),
+            )
+        ]
+        told = Markup("{} (при шаге 1° — {})").format(*shown)
+        return shown[0] if shown[0] == shown[1] else told
+
     def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
         if name.startswith("q_"):  # a pressure is off as its load is
-            load = next((e for e in self.grid_errors if e.key == f"R{name[2:]}"), None)
+            one_rod = name.startswith("q_main") or self.shape.rods_beside == 1
+            key = f"R{name[2:]}" if one_rod else f"B_{name.rpartition('_')[2]}"
+            load = next((e for e in self.grid_errors if e.key == key), None)
             return value if load is None else self._beside_load(value, name, load)
         for error in self.grid_errors:
             if error.key == name:
@@ -396,7 +399,7 @@ class Chapter:
 
     def fine_value(self, name: str) -> float:
         """A scalar by the solution with the fine step; on a grid as fine the table's own."""
-        if self.input.calculation.step_deg <= FINE:
+        if self.input.calculation.step_deg <= FINE_STEP:
             return self.terms.value(name)
         return float(solved(refined(self.input)).scalars[name])
 

@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from reports.document.chapters import (
     balance,
+    dynamics,
     oil,
 )
 from reports.document.chapters.chapter import (
@@ -17,7 +18,6 @@ from reports.document.chapters.chapter import (
     ELSEWHERE,
     STATICS,
     Chapter,
-    greatest_pressure,
     leaders,
     pin_stems,
     pin_torque,
@@ -206,6 +206,7 @@ def conclusion(chapter: Chapter) -> Markup:
     terms, throws = chapter.terms, chapter.shape.throws
     names, pin = pin_stems(chapter.shape), worst_pin(terms)
     mains, pins = worst_running(terms, throws)
+    peak = dynamics.greatest_pressure(chapter)
     return chapter.page(
         "conclusion",
         count=chapter.input.engine.cylinders,
@@ -218,6 +219,7 @@ def conclusion(chapter: Chapter) -> Markup:
         pins=pins,
         pins_count=len(names),
         worst_pins=leaders(terms, [f"R{name}_max" for name in names]),
+        own_rods=chapter.shape.rods_beside > 1,
         pressed=leaders(terms, [f"q_{name}_max" for name in names]),
         names_of_pins=names,
         pin_number=pin,
@@ -228,10 +230,17 @@ def conclusion(chapter: Chapter) -> Markup:
         further=_further(chapter),
         step=chapter.input.calculation.step_deg,
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
-        pz=greatest_pressure(terms),
+        pz=peak,
+        pz_printed=_is_printed(chapter, peak.angle),
         powers=terms.has("cyc_N_gas"),
         hole=oil.hole(chapter, pin),
     )
+
+
+def _is_printed(chapter: Chapter, angle: float | None) -> bool:
+    """Whether the printed tables have a row of the angle [deg]."""
+    step = chapter.printed_step
+    return angle is not None and (not step or angle % step == 0)
 
 
 def _further(chapter: Chapter) -> list[Markup]:

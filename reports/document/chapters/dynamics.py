@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
@@ -10,7 +11,6 @@ from markupsafe import Markup
 
 from reports.document.chapters.chapter import (
     Chapter,
-    greatest_pressure,
     half_torque_gap,
     pin_torque,
     worst_running,
@@ -145,7 +145,7 @@ def dynamics(chapter: Chapter) -> Markup:
     polytropic = not isinstance(gas, TableGasSection | RoundedGasSection)
     return chapter.page(
         "dynamics",
-        peak=greatest_pressure(terms)[2],
+        peak=greatest_pressure(chapter).between,
         corners=_corners(terms, two_stroke=chapter.shape.strokes == 2),
         points=chapter.scalars("Характерные точки индикаторной диаграммы", _POINTS, keep=True),
         polytropic=polytropic,
@@ -163,6 +163,37 @@ def dynamics(chapter: Chapter) -> Markup:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class GasPeak:
+    """The greatest pressure of the gases, printed, with its place in words.
+
+    ``angle`` [deg] is its row in the table, None where it stands in none; ``between`` is the
+    greatest one that stands between the rows, empty without.
+    """
+
+    pressure: Markup
+    where: str
+    angle: float | None
+    between: Markup | str
+
+
+def greatest_pressure(chapter: Chapter) -> GasPeak:
+    """Greatest pressure: that after a jump in the dead centre, else that of the table."""
+    terms = chapter.terms
+    column, unit = terms.column("gas.p_MPa"), terms.unit("gas.p_MPa")
+    row = int(column.argmax())
+    names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
+    most = terms.value(names[0]) if names else 0.0
+    angle = float(terms.model.tables["gas"].rows[row])
+    if not isinstance(chapter.input.gas, TableGasSection | RoundedGasSection) and _jump(terms):
+        return GasPeak(with_unit(fixed(most, _DIGITS), unit), "в ВМТ после скачка", None, "")
+    in_table, peak = (fixed(float(value), _DIGITS) for value in (column[row], most))
+    missed = most > column[row] + 0.5 * 10.0**-_DIGITS
+    between = with_unit(peak, unit) if missed else ""
+    return GasPeak(with_unit(in_table, unit), f"при φ = {fixed(angle, 0)}°", angle, between)
+
+
+_DIGITS = 2  # decimals of a pressure in a sentence
 _TDC = "(360 + phi_tdc_deg)"
 _BEFORE = "min({pz}, p_start + ({pz} - p_start)*({tdc} - phi_c_deg)/gas_injection_advance_deg)"
 
@@ -345,9 +376,7 @@ def torque(chapter: Chapter) -> Markup:
         accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
         powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
         coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.grid_errors),
-        swing=of_digits(
-            terms.value("M_max") - terms.value("M_min"), terms.quantity("M_max").digits
-        ),
+        swing=chapter.told_range("M_max", "M_min"),
         ratio=fixed(terms.value("M_max") / mean, 1) if mean > 0 else "",
     )
 

@@ -68,6 +68,7 @@ def crankpin(chapter: Chapter) -> Markup:
     return chapter.page(
         "crankpin",
         several=pins[worst - 1] if len(pins[worst - 1]) > 1 else (),
+        own_rods=chapter.shape.rods_beside > 1,
         pin=worst,
         name=name,
         own=pin_table(worst),

@@ -13,6 +13,7 @@ from reports.document.chapters import cycle
 from reports.document.chapters.chapter import (
     Chapter,
     Prototype,
+    leaders,
     pin_stems,
     worst_pin,
 )
@@ -248,11 +249,16 @@ def several_rods(model: InputFile) -> bool:
 
 
 def _of_worst_pin(reason: Reason, chapter: Chapter) -> Reason:
-    """A reason on the pressure of a crankpin: of the most loaded one, as its chapter is."""
+    """A reason on the pressure of a big-end bearing: of the greatest among the pins.
+
+    Of equal ones it is that of the pin whose loads the chapter tells.
+    """
     if not reason.value[0].startswith("q_pin_"):
         return reason
-    stem = pin_stems(chapter.shape)[worst_pin(chapter.terms) - 1]
-    key = reason.value[0].replace("q_pin_", f"q_{stem}_")
+    terms, stems = chapter.terms, pin_stems(chapter.shape)
+    keys = [reason.value[0].replace("q_pin_", f"q_{stem}_") for stem in stems]
+    first, leading = worst_pin(terms), leaders(terms, keys)
+    key = keys[(first if first in leading else leading[0]) - 1]
     return replace(reason, value=(key,), tex=chapter.terms.quantity(key).tex)
 
 

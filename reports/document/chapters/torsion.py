@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from kshm.defaults import DAMPING_SHARE, FLYWHEEL_SHARE, PULLEY_SHARE, SPEED_RANGE, SPEEDS
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import (
     TableBlock,
@@ -20,9 +21,10 @@ from reports.document.page.numbering import TablePlan
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits, significant, to_tex
 from reports.formula.tex import number_tex
+from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.solve_input import INERTIAS, lighter_than
 from reports.model.charts import Series
-from reports.shared.russian import fixed, short
+from reports.shared.russian import NBSP, fixed, short
 from reports.tables.torsion_members import ray_of
 
 _HOLZER = (
@@ -51,11 +53,15 @@ _FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the tw
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """The greatest stress of a curve over the speeds, printed, and where it stands."""
+    """The greatest stress of a curve over the speeds, printed, and where it stands.
+
+    ``edge`` names the end of the range where it stands there: no resonance is met then.
+    """
 
     stress: float
     text: str
     speed: str
+    edge: str = ""
 
     @property
     def shown(self) -> Markup:
@@ -64,8 +70,11 @@ class Peak:
 
     @property
     def at(self) -> Markup:
-        """The speed with its unit."""
-        return with_unit(self.speed, "мин⁻¹")
+        """The speed with its unit, and that it is the end of the range."""
+        shown = with_unit(self.speed, "мин⁻¹")
+        return (
+            Markup("{}, в {} рабочего диапазона").format(shown, self.edge) if self.edge else shown
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +101,10 @@ def torsion(chapter: Chapter) -> Markup:
         section=section,
         formula=_NAMED[section.formula],
         own=bool(section.masses),
+        assumed=_assumed(section),
+        range_words=_range_words(section),
+        throws_share=short(FLYWHEEL_SHARE),
+        speeds=SPEEDS,
         free=section.ground_nm_rad + (section.masses[-1].stiffness_nm_rad
                                       if section.masses else 0) == 0,
         train=TablePlan(partial(grid_table, terms, chapter.grid("torsion_train"), _TRAIN),
@@ -126,7 +139,6 @@ def torsion(chapter: Chapter) -> Markup:
         change_text=with_unit(fixed(abs(terms.value("tor_f1_change")), 1), "%"),
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
-        fine_flywheel=_fine_flywheel(chapter),
         light_flywheel=_lighter_than(chapter),
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
@@ -134,6 +146,33 @@ def torsion(chapter: Chapter) -> Markup:
         work=_energy(terms),
         beyond=_beyond(terms, modes),
     )  # fmt: skip
+
+
+def _assumed(section: TorsionSection) -> str:
+    """What the file leaves out of the train, with its estimate, in a sentence; empty without."""
+    parts = []
+    if section.pulley_kg_m2 is None and not section.masses:
+        parts.append(f"момент инерции шкива — {short(PULLEY_SHARE)} среднего момента инерции колен")
+    if section.damping_nms_rad is None:
+        share = short(DAMPING_SHARE / 1000)
+        parts.append(
+            f"сопротивление в каждом цилиндре — {share}{NBSP}кН·с/м³, умноженные на площадь поршня "
+            "и квадрат радиуса кривошипа, как у дизеля MWM"
+        )
+    return " и ".join(parts)
+
+
+def _range_words(section: TorsionSection) -> str:
+    """Where the bounds of the working range come from."""
+    given = (section.speed_min_rpm is not None, section.speed_max_rpm is not None)
+    shares = [short(share) for share in SPEED_RANGE]
+    if all(given):
+        return "задан"
+    if not any(given):
+        return f"принят: {shares[0]}…{shares[1]} расчётной частоты вращения"
+    taken = given.index(False)
+    bound = ("нижняя", "верхняя")[taken]
+    return f"{bound} граница принята: {shares[taken]} расчётной частоты вращения"
 
 
 def _lighter_than(chapter: Chapter) -> str:
@@ -166,7 +205,8 @@ def _peak(terms: Terms, which: str) -> Peak:
     stresses = terms.column(f"torsion_response.tor_tau{which}_MPa")
     row = int(stresses.argmax())
     speed = terms.column("torsion_response.tor_speed_rpm")[row]
-    return Peak(float(stresses[row]), fixed(float(stresses[row]), 1), fixed(float(speed), 0))
+    edge = {0: "начале", len(stresses) - 1: "конце"}.get(row, "")
+    return Peak(float(stresses[row]), fixed(float(stresses[row]), 1), fixed(float(speed), 0), edge)
 
 
 def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
@@ -283,18 +323,6 @@ def _resonance_table(terms: Terms, resonances: list[tuple[int, int]]) -> TableBl
         for m, k in sorted(resonances)
     ]
     return table_block(heads, rows)
-
-
-def _fine_flywheel(chapter: Chapter) -> Markup:
-    """The flywheel of the chapter on balance, by the fine step, where the train's is another."""
-    terms = chapter.terms
-    if not terms.has("I_flywheel") or terms.value("I_flywheel") <= 0:
-        return Markup("")
-    fine = chapter.by_fine("I_flywheel")
-    if fine == terms.val("I_flywheel"):
-        return Markup("")
-    step = fixed(chapter.input.calculation.step_deg, 0)
-    return Markup(" (с шагом {}°; при шаге 1° — {})").format(step, fine)
 
 
 def _flywheels(terms: Terms, bare: Peak, other: Peak) -> TableBlock:

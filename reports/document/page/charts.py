@@ -45,6 +45,7 @@ def throw_of(terms: Terms, number: int = 1) -> ThrowSizes:
         mains=(main(number), main(number + 1)),
         lengths=(shaft.main_lengths_mm[number - 1], shaft.main_lengths_mm[number]),
         weights=(bool(webs[0].counterweight_kg), bool(webs[1].counterweight_kg)),
+        usual=(terms.value(f"web{number}_left_mm"), terms.value(f"web{number}_right_mm")),
     )
 
 

@@ -124,6 +124,8 @@ class StrengthSection(Strictly):
     bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, 1.0)
     bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
     bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, 0.2)
-    web_width_mm: float | None = _size("web_width", "b_щ")
-    web_thickness_mm: float | None = _size("web_thickness", "h_щ")
+    web_width_mm: float | None = number(title_of("web_width_mm"), "b_щ", MM, 2, 5000, None)
+    web_thickness_mm: float | None = number(
+        "Толщина щеки, где её не задают размеры колена", "h_щ", MM, 1, 2000, None
+    )
     safety_allowed: float = number("Допускаемый запас прочности частей", "[n]_д", NONE, 1, 10, 1.5)

@@ -45,6 +45,7 @@ from reports.inputs.sections.mechanism import (
     CrankshaftSection,
     WebSection,
 )
+from reports.inputs.sections.strength import StrengthSection
 from reports.inputs.sections.torsion import MassSection, TorsionSection
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.masses import crank_radius_mm, rod_length_mm, to_masses, with_masses
@@ -183,7 +184,7 @@ def _engine(model: InputFile, run: CycleRun | None, kept: Callable[..., Any] = _
         "articulated": kept(_articulated, model.articulated, len(hung(places))),
         "torsion": kept(to_torsion, model.torsion),
         "bearings": kept(to_bearings, model.bearings),
-        "balancing": kept(_balancing, model.balance),
+        "balancing": kept(_balancing, model.balance, model.strength, geometry.bore),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,
     }
@@ -194,8 +195,13 @@ def _numbers(section: BaseModel) -> dict[str, Any]:
     return solver_values(section, Engine)
 
 
-def _balancing(section: BalanceSection) -> Balancing:
-    return Balancing(**solver_values(section, Balancing))
+def _balancing(section: BalanceSection, parts: StrengthSection | None, bore: float) -> Balancing:
+    """Choices of balancing, with the webs of the strength where their sizes are given [m]."""
+    sizes = {} if parts is None else {
+        "web_width_share": parts.web_width_mm, "web_thickness_share": parts.web_thickness_mm,
+    }  # fmt: skip
+    shares = {key: MM.to_si(size) / bore for key, size in sizes.items() if size is not None}
+    return Balancing(**solver_values(section, Balancing) | shares)
 
 
 def _regime(section: RegimeSection, strokes: int) -> OperatingPoint:

@@ -187,3 +187,5 @@ def test_what_fits_nothing_has_no_cause():
     assert cause(V1, noise) == ""
     assert cause(V1, np.full(right(V1).size, np.nan)) == ""
     assert cause(V1, right(V1)) == ""  # what is right is no mistake
+    # A choice of the input, of which there is no square, is in this formula.
+    assert cause("P4_1.j_m_s2", right("P4_1.j_m_s2") * 7 + 3) == ""

@@ -75,10 +75,7 @@ class Causes:
         known = self._known(judgement)
         for base in [known, {}] if known else [{}]:
             run = self.student.expected.fork(base)
-            try:
-                attempt = self._rewritten(item, run, lambda _: parse(text))
-            except (KeyError, ValueError, TypeError, FormulaError):  # no formula of this table
-                return False
+            attempt = self._rewritten(item, run, lambda _: parse(text))
             if attempt is not None and self._fits(item, values, attempt, judgement.expected, ()):
                 return True
         return False
@@ -230,6 +227,15 @@ class Causes:
         return names(self.student.assignment.graph.expression(node) or "0")
 
     def _rewritten(
+        self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
+    ) -> Array | None:
+        """Values of a changed formula, None where it stays the same or is no formula of numbers."""
+        try:
+            return self._calculated(item, run, change)
+        except (ArithmeticError, FormulaError, LookupError, TypeError, ValueError):
+            return None
+
+    def _calculated(
         self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
     ) -> Array | None:
         parts = []

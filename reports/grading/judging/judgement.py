@@ -16,8 +16,10 @@ from reports.formula.parse import parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import StudentBook
 from reports.model.evaluation import Evaluation
+from reports.shared.errors import one_line
 
 Array = NDArray[np.float64]
+_FAULT = 200  # signs of an error
 
 RIGHT, CARRIED, TYPED, STILL, WRONG, EMPTY, GROUNDLESS, BROKEN, UNKNOWN = (
     "right", "carried", "typed", "still", "wrong", "empty", "groundless", "error", "unknown",
@@ -37,6 +39,17 @@ WORDS = {
 
 
 E = TypeVar("E")
+
+
+def fault(error: Exception) -> str:
+    """Words on an error of the program's own: a person looks, whatever it was.
+
+    Raises:
+        MemoryError: it was one, and the next step would meet it too.
+    """
+    if isinstance(error, MemoryError):
+        raise error
+    return one_line(f"внутренняя ошибка проверки ({type(error).__name__}: {error})", _FAULT)
 
 
 @dataclass(frozen=True)

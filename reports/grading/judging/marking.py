@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
+from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN, Judgement, fault
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
@@ -187,19 +187,19 @@ class Marker:
         student = self.student(book, grid, package)
         response = self.response(student)
         student.settle(response.settled)
-        judgements = judge_all(student, response)
-        tampered = response.tampered
+        judged = judge_all(student, response)
+        for text in judged.faults:
+            _doubt(result, text)
+        tampered = _attempted(result, lambda: response.tampered, [])
         if tampered:
             # A row within a table makes the ranges of given look-ups longer, whoever meant no harm.
             moved = "выданные формулы изменены или сбиты вставкой строк: "
             text = moved if student.placement.moved else "изменены выданные формулы: "
-            text += ", ".join(tampered[:4])
-            result["doubts"].append(text)
-            result["manual"].append(text)
+            _doubt(result, text + ", ".join(tampered[:4]))
         others, titles = self.others(book.number), self.titles(assignment)
         tables = self._tables(assignment)
         causes = Causes(student, others, titles, tables.variants, response)
-        items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
+        items = [feedback(student, judgement, causes, assignment) for judgement in judged.judgements]
         result |= {
             "status": "graded",
             "feedback": self.register.rubric.feedback.mode,
@@ -209,20 +209,16 @@ class Marker:
                 {"where": c.where, "name": c.name, "was": c.was, "now": c.now}
                 for c in student.changed[:50]
             ],
-            "altered": altered(student, read_grid(package) if student.changed else None)[:50],
+            "altered": _attempted(
+                result, lambda: altered(student, read_grid(package) if student.changed else None), []
+            )[:50],
         }
         notes = result["notes"]
         theirs = self._variant_of(student, book)
         if theirs:
-            text = f"исходные данные заменены данными другого варианта: {theirs}"
-            result["doubts"].append(text)
-            result["manual"].append(text)
-        result["formulas"] = formula_marks(student, tables.own)
-        own = OwnFormulas(student, tables.textbook)
-        result["traits"] = traits_of(own, items)
-        for text in _of_the_program(own, result["formulas"]):
-            result["doubts"].append(text)
-            result["manual"].append(text)
+            _doubt(result, f"исходные данные заменены данными другого варианта: {theirs}")
+        result |= {"formulas": {}, "traits": []}
+        _attempted(result, lambda: self._compare(result, student, tables), None)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
@@ -231,6 +227,15 @@ class Marker:
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    @staticmethod
+    def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:
+        """Marks and traits of a work for the comparison with others, and with the program."""
+        result["formulas"] = formula_marks(student, tables.own)
+        own = OwnFormulas(student, tables.textbook)
+        result["traits"] = traits_of(own, result["items"])
+        for text in _of_the_program(own, result["formulas"]):
+            _doubt(result, text)
 
     def _variant_of(self, student: StudentBook, book: Issued) -> str:
         """Owners of the variant typed over the issued input data."""
@@ -267,6 +272,35 @@ class Marker:
     def titles(assignment: Assignment) -> dict[str, str]:
         """Name of an input → its title."""
         return {name: field.title for name, field in assignment.model.fields.items()}
+
+
+T = TypeVar("T")
+
+
+def _doubt(result: Result, text: str) -> None:
+    """Leave a work to a person."""
+    result["doubts"].append(text)
+    result["manual"].append(text)
+
+
+def _attempted(result: Result, step: Callable[[], T], otherwise: T) -> T:
+    """The outcome of a step on a whole work; an error of the program's leaves it to a person."""
+    try:
+        return step()
+    except Exception as error:
+        _doubt(result, fault(error))
+        return otherwise
+
+
+def feedback(
+    student: StudentBook, judgement: Judgement, causes: Causes, assignment: Assignment
+) -> Result:
+    """One item of the feedback, left to a person where the program itself fails on it."""
+    try:
+        return feedback_line(student, judgement, causes, assignment)
+    except Exception as error:
+        unknown = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=fault(error))
+        return feedback_line(student, unknown, causes, assignment)
 
 
 def _of_the_program(own: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:

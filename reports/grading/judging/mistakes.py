@@ -330,6 +330,11 @@ Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
 def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     """What may have become of the formula of a value of a block, the likeliest first."""
     used = names(ast.unparse(tree))
+    texts = frozenset(name for name in used if _is_text(name, block, model))
+
+    def is_number(text: str) -> bool:
+        return texts.isdisjoint(names(text))
+
     yield "градусы вместо радиан в sin, cos", without_radians
     for which in (None, 0, 1, 2):
         yield "sin и cos взяты друг вместо друга", OtherRatio(which).visit
@@ -339,7 +344,7 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for value, words in _ROUGH:
         yield f"π взято как {words}", OtherPi(value).visit
     for text in factors(tree):
-        if not text.startswith(_UNSQUARED) and not is_known_function(text):
+        if not text.startswith(_UNSQUARED) and not is_known_function(text) and is_number(text):
             symbol = _symbols(parse(text), block, model)
             yield f"{symbol} в квадрате, а надо в первой степени", Squared(text).visit
     for wrong_for, taken, words in MIXED:
@@ -354,6 +359,14 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     yield from _columns(table, used) if table is not None else ()
     for number in range(_PRODUCTS):
         yield "деление вместо умножения или наоборот", Flipped(number, ast.Mult, ast.Div).visit
+
+
+def _is_text(name: str, block: str, model: Model) -> bool:
+    """Whether a name of a formula is a choice of the input, or a result in words."""
+    node = model.nodes.get(node_of(name, block, model))
+    if node is not None:
+        return node.quantity.digits.kind == "text"
+    return name in model.fields and isinstance(model.fields[name].value, str)
 
 
 def _columns(table: TableSpec, used: frozenset[str]) -> Iterator[Mistake]:

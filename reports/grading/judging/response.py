@@ -8,6 +8,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -245,7 +246,8 @@ class FormulaResponse:
         """Nodes that need not be calculated anew."""
         for item in self.student.assignment.items:
             if not self._keys.keys().isdisjoint(item.nodes) and item.quantity.digits.kind != "text":
-                self.letters(item)  # nobody before must have shown that they are right
+                with suppress(Exception):  # said where the item is judged
+                    self.letters(item)  # nobody before must have shown that they are right
         known = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
         return settled(self.student, known | self._exact)
 

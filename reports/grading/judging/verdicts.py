@@ -27,6 +27,7 @@ from reports.grading.judging.judgement import (
     Rule,
     close,
     decide,
+    fault,
     tolerance,
 )
 from reports.grading.judging.response import FormulaResponse
@@ -42,16 +43,36 @@ _OWN = "считает от чисел вне таблиц, одних и тех
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
-def judge_all(student: StudentBook, response: FormulaResponse) -> list[Judgement]:
-    """Verdicts on all items, in the order of the book."""
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """Verdicts on all items, in the order of the book; ``faults`` are errors of the program."""
+
+    judgements: list[Judgement]
+    faults: tuple[str, ...] = ()
+
+
+def judge_all(student: StudentBook, response: FormulaResponse) -> Judged:
+    """Verdicts on all items.
+
+    A rule that fails costs a person's look: an item's own rule at the item, one about what
+    items rest on at the work.
+    """
     items = student.assignment.items
     nodes = [node for item in items for node in item.nodes]
     student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
     judgements = {item.id: _judged(item, student, response) for item in items}
-    grounds = Grounds.of(judgements, student, response)
+    faults: tuple[str, ...] = ()
+    try:
+        grounds = Grounds.of(judgements, student, response)
+    except Exception as error:
+        return Judged(list(judgements.values()), (fault(error),))
     for rule in GROUND_RULES:
-        rule.apply(judgements, grounds)
-    return [judgements[item.id] for item in items]
+        before = dict(judgements)
+        try:
+            rule.apply(judgements, grounds)
+        except Exception as error:
+            judgements, faults = before, (*faults, fault(error))
+    return Judged([judgements[item.id] for item in items], faults)
 
 
 # --- one item by itself ----------------------------------------------------------------------
@@ -61,9 +82,11 @@ def _judged(item: Item, student: StudentBook, response: FormulaResponse) -> Judg
     try:
         return _of_cells(item, student, response)
     except UnknownFormula as problem:
-        count = sum(student.assignment.length(node) for node in item.nodes)
-        nothing = np.full(count, np.nan)
-        return Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem))
+        reason = str(problem)
+    except Exception as error:
+        reason = fault(error)
+    nothing = np.full(sum(map(student.assignment.length, item.nodes)), np.nan)
+    return Judgement(item, UNKNOWN, nothing, nothing, reason=reason)
 
 
 def _of_cells(item: Item, student: StudentBook, response: FormulaResponse) -> Judgement:

@@ -58,7 +58,7 @@ def explain(
     student = marker.student(match.book, grid, package)
     item = _find_item(student, target)
     response = marker.response(student)
-    judgements = judge_all(student, response)
+    judgements = judge_all(student, response).judgements
     judgement = next(j for j in judgements if j.item is item)
     yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
     yield "Основание: " + "; ".join(match.evidence)

@@ -43,7 +43,9 @@ def test_marks_of_the_bearings_are_not_asked():
 
 def test_constants_of_materials_are_not_asked():
     """Of a steel that the input data name, a table tells them: they stand in the book."""
-    made = asked("two-stroke", "geometry", "masses", "P4_1", "strength*", strength={"kind": "petrol"})
+    made = asked(
+        "two-stroke", "geometry", "masses", "P4_1", "strength*", strength={"kind": "petrol"}
+    )
     blocks = {item.block for item in made.items}
     assert "strength_materials" not in blocks and "strength_eye" in blocks
     assert made.states["rod_tensile"] == made.states["bolt_expansion"] == "number"

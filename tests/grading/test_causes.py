@@ -166,9 +166,12 @@ def test_another_students_parameter_and_another_method_are_named():
     other = classroom.register().books[1]
     speed = float(other.drawn["regime.speed_rpm"])
     assert speed != classroom.book().drawn["regime.speed_rpm"]
-    found = cause("geometry.omega", right("geometry.omega", {"regime_speed_rpm": speed}))
+    theirs = right("geometry.omega", {"regime_speed_rpm": speed})
+    found = cause("geometry.omega", theirs, typed=(0,))
     assert "из варианта 2" in found
     assert f"{speed:g}" in found
+    # A formula in which no number of theirs stands accuses nobody.
+    assert cause("geometry.omega", theirs) == ""
     model = student().assignment.model
     labels = model.fields["calculation_method"].choices
     now = labels[str(model.fields["calculation_method"].value)]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ast
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from functools import lru_cache
 from itertools import pairwise
@@ -11,9 +12,12 @@ from math import isfinite, nan
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.formula.parse import parse
+from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import StudentBook
 from reports.recalculation.formulas import PLACES, Formula, Token
 from reports.recalculation.grid import Run
+from reports.recalculation.trial_sheet import full
 
 _ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
 _MANY = 8  # long numbers in one formula, to be a list of numbers
@@ -47,6 +51,58 @@ def is_of_angles(student: StudentBook, node: str) -> bool:
     runs = (*student.runs(node), *student.helpers(node))
     literals = {*student.own_numbers(node), *_changing(runs)}
     return bool(angles) and all(of_angles(value, angles) is not None for value in literals)
+
+
+def typed_numbers(student: StudentBook, item: Item) -> frozenset[float]:
+    """Numbers in the formulas of an item, and beside the tables where they read, that tell data.
+
+    What everybody writes is none: π, minutes and degrees, powers of ten, small whole numbers, and
+    what the textbook's own formula has.
+    """
+    numbers = set[float]()
+    for node in item.nodes:
+        numbers.update(map(abs, student.own_numbers(node)))
+        for run in (*student.runs(node), *student.helpers(node)):
+            numbers |= _literals(run.formula) if run.formula is not None else set()
+    if not numbers:
+        return frozenset()
+    texts = (student.assignment.graph.expression(node) or "0" for node in item.nodes)
+    theirs = {
+        abs(float(part.value))
+        for text in texts
+        for part in ast.walk(parse(text))
+        if isinstance(part, ast.Constant) and isinstance(part.value, (int, float))
+    }
+    return frozenset(n for n in numbers if not (_is_usual(n) or is_scaled(n, theirs)))
+
+
+def is_scaled(value: float, numbers: Iterable[float]) -> bool:
+    """Whether a value is one of the numbers but for a power of ten, as units are."""
+    return any(_mantissa(value) == _mantissa(number) for number in numbers)
+
+
+def _mantissa(value: float) -> str:
+    return f"{abs(value):.9e}".partition("e")[0]
+
+
+@lru_cache(maxsize=20_000)
+def _literals(formula: Formula) -> set[float]:
+    return {float(value) for kind, value in formula.pattern if kind == "number"}
+
+
+_TURNS, _PARTS, _COUNTS = 15, 1440, 16  # degrees, minutes and days; whole numbers up to
+_PLAIN = frozenset((18.0, 24.0, 32.0, 64.0, 9550.0, 9549.0, 3600.0))
+
+
+def _is_usual(number: float) -> bool:
+    """Whether a number may stand in anybody's formula."""
+    whole = number.is_integer()
+    return (
+        len(_mantissa(number).replace(".", "").rstrip("0")) <= 1
+        or (whole and (number <= _COUNTS or (number % _TURNS == 0 and number <= _PARTS)))
+        or number in _PLAIN
+        or full(number) != number
+    )
 
 
 def angles_of(student: StudentBook, node: str) -> tuple[float, ...]:

@@ -14,7 +14,8 @@ import numpy as np
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.causes import Causes, OtherVariant
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.foreign import OtherVariant
 from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN, Judgement, fault
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
@@ -190,7 +191,7 @@ class Marker:
         judged = judge_all(student, response)
         for text in judged.faults:
             _doubt(result, text)
-        tampered = _attempted(result, lambda: response.tampered, [])
+        tampered = _attempted(result, lambda: response.tampered, list[str]())
         if tampered:
             # A row within a table makes the ranges of given look-ups longer, whoever meant no harm.
             moved = "выданные формулы изменены или сбиты вставкой строк: "
@@ -198,8 +199,8 @@ class Marker:
             _doubt(result, text + ", ".join(tampered[:4]))
         others, titles = self.others(book.number), self.titles(assignment)
         tables = self._tables(assignment)
-        causes = Causes(student, others, titles, tables.variants, response)
-        items = [feedback(student, judgement, causes, assignment) for judgement in judged.judgements]
+        causes = Causes(student, others, titles, tables.variants, response, judged.judgements)
+        items = [feedback(student, each, causes, assignment) for each in judged.judgements]
         result |= {
             "status": "graded",
             "feedback": self.register.rubric.feedback.mode,
@@ -209,9 +210,7 @@ class Marker:
                 {"where": c.where, "name": c.name, "was": c.was, "now": c.now}
                 for c in student.changed[:50]
             ],
-            "altered": _attempted(
-                result, lambda: altered(student, read_grid(package) if student.changed else None), []
-            )[:50],
+            "altered": _attempted(result, lambda: _altered(student, package), list[str]()),
         }
         notes = result["notes"]
         theirs = self._variant_of(student, book)
@@ -337,6 +336,11 @@ def _take_match(result: Result, match: Match) -> None:
     result["manual"] += list(match.doubts)
     result["doubts"] += list(match.doubts)
     result["submitter"] = match.submitter
+
+
+def _altered(student: StudentBook, package: Package) -> list[str]:
+    """The first of these cells, in the book as it was saved."""
+    return altered(student, read_grid(package) if student.changed else None)[:50]
 
 
 def altered(student: StudentBook, original: CellGrid | None) -> list[str]:

@@ -176,7 +176,7 @@ class FormulaResponse:
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
         """Whether a node's formulas are right for an engine that has other values there."""
-        values = self._values.get(node) or self.tryout.run([node], self.trials)[node]
+        values = self.tried(node)
         if isinstance(values, str):
             return False
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
@@ -199,6 +199,11 @@ class FormulaResponse:
     def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
         return close(item, own, right, allowed, trial.expected)
+
+    def tried(self, node: str) -> list[Array] | str:
+        """Values of a node's formulas for every trial, or why they are unknown."""
+        values = self._values.get(node)
+        return self.tryout.run([node], self.trials)[node] if values is None else values
 
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""

@@ -253,7 +253,8 @@ class Tryout:
             if len(nodes) == 1:
                 return {nodes[0]: fault(error)}
         # An error of the program's in one formula costs that formula alone.
-        return {n: v for node in nodes for n, v in self.run([node], trials, rounded=rounded).items()}
+        alone = (self.run([node], trials, rounded=rounded) for node in nodes)
+        return {node: values for results in alone for node, values in results.items()}
 
     def _run(
         self, nodes: Sequence[str], trials: Sequence[Trial], *, rounded: bool

@@ -64,7 +64,7 @@ def explain(
     yield "Основание: " + "; ".join(match.evidence)
     others = marker.others(match.book.number)
     titles = marker.titles(student.assignment)
-    causes = Causes(student, others, titles, response=response)
+    causes = Causes(student, others, titles, response=response, judgements=judgements)
     yield from _about(student, item, judgement, causes)
 
 

@@ -12,12 +12,14 @@ _NUMBERS = (0, 1, -1, 1000, 44.4, 1e-300, 1e300, -273.15, 45123)
 _TEXTS = ("не знаю", " ", "12,5 Н", "1.5.", "'", "A6*7+3", "ИСТИНА", "1e999", "да\nнет", "∞", "½")
 _ERRORS = ("#DIV/0!", "#N/A", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!")
 _LOGICAL = (True, False)
-_UNARY = ("SQRT", "LN", "EXP", "ABS", "SIN", "COS", "ASIN", "ACOS", "TAN", "RADIANS", "DEGREES", "INT",
-          "SIGN", "ROUND0", "NOT", "LEN", "N", "T", "TEXT0", "VALUE", "ISNUMBER", "FACT")  # fmt: skip
+_UNARY = ("SQRT", "LN", "EXP", "ABS", "SIN", "COS", "ASIN", "ACOS", "TAN", "RADIANS", "DEGREES",
+          "INT", "SIGN", "ROUND0", "NOT", "LEN", "N", "T", "TEXT0", "VALUE", "ISNUMBER",
+          "FACT")  # fmt: skip
 _BINARY = ("+", "-", "*", "/", "^", "&", "=", "<>", "<", ">=")
-_PAIRS = ("ATAN2", "MAX", "MIN", "POWER", "MOD", "SUM", "AND", "OR", "LOG", "CONCATENATE", "AVERAGE",
-          "QUOTIENT", "COMBIN")  # fmt: skip
-_WHOLE = ("=TRUE", '="12"', '=""', "=NA()", "=1/0", "=NoSuch(1)", "=no_such_name", "={1,2,3}", "=#REF!",
+_PAIRS = ("ATAN2", "MAX", "MIN", "POWER", "MOD", "SUM", "AND", "OR", "LOG", "CONCATENATE",
+          "AVERAGE", "QUOTIENT", "COMBIN")  # fmt: skip
+_WHOLE = ("=TRUE", '="12"', '=""', "=NA()", "=1/0", "=NoSuch(1)", "=no_such_name", "={1,2,3}",
+          "=#REF!",
           '=INDIRECT("A6")', "=OFFSET(A6,1,0)", "=RAND()", "=TODAY()", "=A6:A9", "=SUM(A:A)",
           "=ROW()", "=LET(x,A6,x*2)", "=SUMPRODUCT(A6:A9,A6:A8)", "=VLOOKUP(1,A6:A9,5)",
           "=CHOOSE(9,A6)", "=INDEX(A6:A9,99)", "=-2^0.5", "=10^400", "=--A6%", "=A6 A7",
@@ -79,8 +81,8 @@ class Hand:
     def _expression(self, depth: int) -> str:
         choice = self.chance.choice
         if depth == 0 or self.chance.random() < 0.15:
-            return choice((choice(self.names), "$A{r}", "A{r}", str(choice(_NUMBERS)), "PI()", "TRUE",
-                           '"текст"', '"12"'))  # fmt: skip
+            return choice((choice(self.names), "$A{r}", "A{r}", str(choice(_NUMBERS)), "PI()",
+                           "TRUE", '"текст"', '"12"'))  # fmt: skip
         one, other = self._expression(depth - 1), self._expression(depth - 1)
         kind = self.chance.random()
         if kind < 0.5:

@@ -2,108 +2,28 @@
 
 from __future__ import annotations
 
-import io
 import random
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
-from pathlib import Path
-from tempfile import mkdtemp
 
 import pytest
 import tomlkit
-from openpyxl.utils import get_column_letter
 
-from reports.grading.issuing import issue as issuing
-from reports.grading.issuing.assignment import Assignment, Item
-from reports.grading.issuing.issue import assignment_for, issue
-from reports.grading.issuing.register import Register
+from reports.grading.issuing.assignment import Item
 from reports.grading.judging import marking, verdicts
 from reports.grading.judging.causes import Causes
 from reports.grading.judging.dependencies import GROUND_RULES, GroundRule
 from reports.grading.judging.judgement import CARRIED, GROUNDLESS, RIGHT, UNKNOWN
-from reports.grading.judging.marking import Marker, Result
 from reports.grading.judging.response import FormulaResponse
-from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
 from reports.shared.resources import samples_dir
-from reports.workbook.layout import Layout
 from tests.conftest import sample
 from tests.cover import ALL, QUICK
-from tests.grading.classroom import opened, roster_text
-from tests.grading.drawn.entries import Hand
-from tests.grading.fill import Formula, filled_book, solved_formulas
+from tests.grading.drawn.engine import Engine, base_of
+from tests.grading.fill import Formula
 from tests.manual.pages import DOCS, blocks
 
 ENTRIES = 4 * 500 if ALL else 60 if QUICK else 500  # on all engines together
 AT_ONCE = 1 if ALL else 5  # in one book
-
-
-@dataclass(frozen=True, eq=False)
-class Engine:
-    """A class of two on a base file, filled in by the solved book's formulas."""
-
-    base: str
-    fill: tuple[str, ...]
-    book: str = ""  # of the department, beside the base
-
-    @cached_property
-    def register(self) -> Register:
-        folder = Path(mkdtemp(prefix="kshm-entries-"))
-        (folder / "base.toml").write_text(self.base, encoding="utf-8")
-        (folder / "вентилятор.book").write_text(self.book, encoding="utf-8")
-        (folder / "group.csv").write_text(roster_text(2), encoding="utf-8")
-        rubric = tomlkit.dumps({"work": {"fill": list(self.fill)}})
-        (folder / "rubric.toml").write_text(rubric, encoding="utf-8")
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(issuing, "_write", lambda *given: None)
-            return issue(folder / "base.toml", folder / "group.csv", folder / "issued", seed=5,
-                         rubric_file=folder / "rubric.toml",
-                         secret_file=folder / "key").register  # fmt: skip
-
-    @cached_property
-    def marker(self) -> Marker:
-        return Marker(self.register)
-
-    @cached_property
-    def assignment(self) -> Assignment:
-        return assignment_for(self.register.books[0], self.register.rubric)
-
-    @cached_property
-    def layout(self) -> Layout:
-        return Layout.of(self.assignment.model)
-
-    @cached_property
-    def right(self) -> dict[str, list[Formula]]:
-        return solved_formulas(self.assignment, self.layout)
-
-    @cached_property
-    def empty(self) -> bytes:
-        stream = io.BytesIO()
-        opened(self.assignment, self.register.books[0].ticket).save(stream)
-        return stream.getvalue()
-
-    def marked(self, changes: dict[str, list[Formula]]) -> Result:
-        data = filled_book(self.empty, self.assignment, changes)
-        return self.marker.mark(Submission("р.xlsx", Path("р.xlsx"), None, None), data)
-
-    def hand(self, node: str, chance: random.Random) -> Hand:
-        layout = self.layout
-        names = [name for name in self.assignment.model.fields if name in layout.cells]
-        if node in layout.columns:
-            table, column = layout.columns[node]
-            rows, letters = layout.rows_of(table), get_column_letter(column)
-            names += [f"{get_column_letter(c)}{{r}}" for c in range(1, column)] * 5
-        else:
-            rows, letters = [layout.cells[node].row], get_column_letter(layout.cells[node].column)
-        names += [name for name in self.assignment.model.scalars if name in layout.cells]
-        return Hand(chance, self.right[node], rows, letters, names)
-
-
-def _raw(name: str, variants: dict, **more: object) -> str:
-    raw = to_mapping(sample(name)) | more
-    raw["calculation"]["step_deg"] = 30
-    return tomlkit.dumps(raw | {"variants": variants})
 
 
 def _class() -> Engine:
@@ -117,13 +37,13 @@ def _v6() -> Engine:
                 "regime.speed_rpm": {"min": 1900, "max": 2200, "step": 20}}  # fmt: skip
     fill = ("scheme", "geometry", "masses", "P3_1", "P4_1", "P4_2", "P4_4", "rods_1",
             "balance_orders")  # fmt: skip
-    return Engine(_raw("yamz-236", variants), fill)
+    return Engine(base_of("yamz-236", variants), fill)
 
 
 def _two_stroke() -> Engine:
     variants = {"regime.speed_rpm": {"min": 5000, "max": 5600, "step": 50}}
     fill = ("geometry", "masses", "P4_1", "strength*")
-    return Engine(_raw("two-stroke", variants, strength={"kind": "petrol"}), fill)
+    return Engine(base_of("two-stroke", variants, strength={"kind": "petrol"}), fill)
 
 
 def _fan() -> Engine:

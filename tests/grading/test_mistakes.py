@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from reports.grading.judging.mistakes import (
+from reports.grading.judging.rewriting import (
     Flipped,
     OtherExponent,
     OtherRatio,

@@ -76,6 +76,24 @@ def typed_numbers(student: StudentBook, item: Item) -> frozenset[float]:
     return frozenset(n for n in numbers if not (_is_usual(n) or is_scaled(n, theirs)))
 
 
+def tells_data(student: StudentBook, item: Item) -> bool:
+    """Whether formulas of an item have a number that may stand for some of the data of an engine.
+
+    Few digits tell it where they are what the textbook's formula takes and the student's does not.
+    """
+    if typed_numbers(student, item):
+        return True
+    graph = student.assignment.graph
+    near = frozenset().union(*(graph.references(node) for node in item.nodes))
+    near |= frozenset().union(*(graph.references(name) for name in near if "." not in name))
+    near -= frozenset().union(*(student.precedents(node) for node in item.nodes))
+    values = (student.expected.value(name) for name in near if "." not in name)
+    runs = (run for node in item.nodes for run in (*student.runs(node), *student.helpers(node)))
+    literals = {n for run in runs if run.formula is not None for n in _literals(run.formula)}
+    data = {float(v) for v in values if not isinstance(v, str) and np.ndim(v) == 0}
+    return any(is_scaled(n, data) for n in literals if _mantissa(n) != _mantissa(1.0))
+
+
 def is_scaled(value: float, numbers: Iterable[float]) -> bool:
     """Whether a value is one of the numbers but for a power of ten, as units are."""
     return any(_mantissa(value) == _mantissa(number) for number in numbers)

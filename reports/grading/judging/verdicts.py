@@ -30,6 +30,7 @@ from reports.grading.judging.judgement import (
     fault,
     tolerance,
 )
+from reports.grading.judging.literal_tables import tells_data
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.reading.circularity import filled_copy
 from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
@@ -40,6 +41,9 @@ from reports.recalculation.formulas import UnknownFormula
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
 _OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
+_BY_CHANCE = (
+    "числа верны, а при других исходных данных формула даёт не то: совпало у этого варианта?"
+)
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
@@ -310,6 +314,19 @@ def _pasted(e: ItemEvidence) -> Judgement | None:
     return replace(e.judgement, verdict=UNKNOWN, typed=(), reason=_PASTED)
 
 
+def _by_chance(e: ItemEvidence) -> Judgement | None:
+    """Right for the student's engine alone, with no number in the formula that tells data of it.
+
+    Where the bore is twice the radius, one may stand for the other by mistake.
+    """
+    words = Counter(e.words)
+    partly = say.PARTLY in e.letters and say.NOTHING not in e.letters and not e.plain
+    if not partly or words.keys() - {RIGHT, TYPED} or tells_data(e.student, e.item):
+        return None
+    rows = _where([word == TYPED for word in e.words])
+    return replace(e.judgement, verdict=UNKNOWN, rows=rows, typed=(), reason=_BY_CHANCE)
+
+
 # How a cell that is not right is called, the worst first.
 _WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
 
@@ -344,6 +361,7 @@ ITEM_RULES = (
     ItemRule("numbers allowed", _free),
     ItemRule("idle", _idle),
     ItemRule("pasted", _pasted),
+    ItemRule("by chance", _by_chance),
     ItemRule("by its cells", _by_cells),
 )
 

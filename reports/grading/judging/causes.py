@@ -24,14 +24,15 @@ from reports.grading.judging.judgement import (
     tolerance,
     values_of,
 )
-from reports.grading.judging.literal_tables import typed_numbers
-from reports.grading.judging.mistakes import mistakes, symbol_of
+from reports.grading.judging.literal_tables import literals, typed_numbers
+from reports.grading.judging.mistakes import ROOTLESS, mistakes, symbol_of
 from reports.grading.judging.response import FormulaResponse
+from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
-from reports.shared.russian import fixed, uncapital
+from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _VARIED = 4  # different values of a column that tells anything
@@ -82,8 +83,19 @@ class Causes:
         cause = self._common(judgement)
         allowed = tolerance(item, judgement.expected, self.student)
         good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
+        cause = self._as_written(item, cause)
         rows = [] if cause or judgement.coarse else slips(judgement, good)
         return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
+
+    def _as_written(self, item: Item, cause: str) -> str:
+        """The same cause in the words of what the student has written."""
+        runs = [run for node in item.nodes for run in self.student.runs(node)]
+        formulas = [run.formula for run in runs if run.formula is not None]
+        if "знак" in cause and any(map(squares_a_minus, formulas)):
+            return f"{cause}: −x^2 в таблице — это (−x)², а надо −(x^2)"
+        if cause == ROOTLESS and any(map(squares_a_cosine, formulas)):
+            return "косинус в квадрате, а надо в первой степени"
+        return cause
 
     def gives(self, judgement: Judgement, text: str) -> bool:
         """Whether a formula in the language of the tables gives the wrong values of an item."""
@@ -154,6 +166,7 @@ class Causes:
 
         yield from fitting(self._likely(item, scene))
         yield from self.variants.words(judgement, fits)
+        yield from self._typed_in(item, scene, fits)
         yield from fitting(self._last())
 
     def _holds_elsewhere(
@@ -255,6 +268,22 @@ class Causes:
                 title = fields[name].title
                 title = "частота вращения n" if name == "regime_speed_rpm" else uncapital(title)
                 yield f"{title} вместо {item.symbol}", partial(_one, name)
+
+    def _typed_in(self, item: Item, scene: Scene, fits: Callable[[Array], bool]) -> Iterator[str]:
+        """A wrong number that stands in the formulas for what the textbook's refers to."""
+        graph, model = self.student.assignment.graph, self.student.assignment.model
+        names_ = frozenset().union(*map(graph.references, item.nodes))
+        names_ -= frozenset().union(*map(self.student.refers, item.nodes))
+        numbers = literals(self.student, item)
+        for name in sorted(n for n in names_ if "." not in n and numbers):
+            right = scene.run.value(name)
+            if isinstance(right, str) or np.ndim(right):
+                continue
+            for number in sorted(numbers):
+                run = scene.run.fork({**scene.known, name: number})
+                if number != right and fits(values_of(item, run)):
+                    symbol = symbol_of(name, item.block, model)
+                    yield f"{symbol} вписано числом {short(number)}, а у вас {short(right)}"
 
     def _moved_reference(self, item: Item) -> str:
         """A reference to one cell that was filled down without its $."""

@@ -59,11 +59,8 @@ def typed_numbers(student: StudentBook, item: Item) -> frozenset[float]:
     What everybody writes is none: π, minutes and degrees, powers of ten, small whole numbers, and
     what the textbook's own formula has.
     """
-    numbers = set[float]()
-    for node in item.nodes:
-        numbers.update(map(abs, student.own_numbers(node)))
-        for run in (*student.runs(node), *student.helpers(node)):
-            numbers |= _literals(run.formula) if run.formula is not None else set()
+    numbers = {abs(n) for node in item.nodes for n in student.own_numbers(node)}
+    numbers |= literals(student, item)
     if not numbers:
         return frozenset()
     texts = (student.assignment.graph.expression(node) or "0" for node in item.nodes)
@@ -88,10 +85,17 @@ def tells_data(student: StudentBook, item: Item) -> bool:
     near |= frozenset().union(*(graph.references(name) for name in near if "." not in name))
     near -= frozenset().union(*(student.precedents(node) for node in item.nodes))
     values = (student.expected.value(name) for name in near if "." not in name)
-    runs = (run for node in item.nodes for run in (*student.runs(node), *student.helpers(node)))
-    literals = {n for run in runs if run.formula is not None for n in _literals(run.formula)}
     data = {float(v) for v in values if not isinstance(v, str) and np.ndim(v) == 0}
-    return any(is_scaled(n, data) for n in literals if _mantissa(n) != _mantissa(1.0))
+    return any(
+        is_scaled(n, data) for n in literals(student, item) if _mantissa(n) != _mantissa(1.0)
+    )
+
+
+def literals(student: StudentBook, item: Item) -> frozenset[float]:
+    """All numbers in the formulas of an item and of the cells of one's own that they read."""
+    runs = (run for node in item.nodes for run in (*student.runs(node), *student.helpers(node)))
+    formulas = (run.formula for run in runs if run.formula is not None)
+    return frozenset().union(*map(_literals, formulas))
 
 
 def is_scaled(value: float, numbers: Iterable[float]) -> bool:

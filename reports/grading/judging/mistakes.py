@@ -16,6 +16,7 @@ from reports.grading.judging.rewriting import (
     Renamed,
     SingleAngle,
     Squared,
+    SumOfSizes,
     Swapped,
     WithoutFactor,
     WithoutFunction,
@@ -51,6 +52,8 @@ MIXED = (
     ("m_2", "masses_rod_kg", "вся масса шатуна вместо m2"),
     ("F_piston", "geometry_bore_mm", "диаметр цилиндра вместо площади поршня"),
     ("geometry_bore_mm", "1000*S_stroke", "ход поршня S вместо диаметра цилиндра"),
+    ("r_crank", "geometry_bore_mm/2000", "радиус цилиндра D/2 вместо радиуса кривошипа r"),
+    ("r_crank", "geometry_bore_mm/1000", "диаметр цилиндра вместо радиуса кривошипа r"),
     ("st_omega_max", "omega", "угловая скорость ω вместо наибольшей ωmax"),
     ("L_rod", "L_rod + r_crank", "r + L вместо длины шатуна L"),
 )
@@ -66,6 +69,7 @@ _ARCS = ("asin", "acos", "tan")
 # Conversions, not quantities.
 _UNSQUARED = ("rad(", "deg(", "to_", "of_", "sqrt(")
 _PRODUCTS = 4  # of a formula, in which it may divide instead
+ROOTLESS = "значение под корнем: корень не извлечён"
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
 
 
@@ -83,10 +87,13 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for taken, words in (("sin", "sin вместо tg"), ("cos", "cos вместо tg")):
         yield words, OtherRatio(None, {"tan": taken}).visit
     yield "угол φ вместо 2φ под знаком sin, cos", SingleAngle().visit
+    for right, taken in (("asin", "acos"), ("acos", "asin")):
+        yield f"{taken.upper()} вместо {right.upper()}", OtherRatio(None, {right: taken}).visit
+    yield "сложены модули вместо корня из суммы квадратов", SumOfSizes().visit
     for name in _ARCS:
         yield f"взят аргумент вместо {name.upper()}", WithoutFunction(name).visit
     yield from _shorter(tree, block, model)
-    yield "значение под корнем: корень не извлечён", WithoutRoot().visit
+    yield ROOTLESS, WithoutRoot().visit
     yield "аргументы ATAN2 переставлены: первым пишут x", Swapped().visit
     for value, words in _ROUGH:
         yield f"π взято как {words}", OtherPi(value).visit

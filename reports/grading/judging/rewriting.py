@@ -149,6 +149,25 @@ class WithoutRoot(ast.NodeTransformer):
         return node.args[0] if rooted else node
 
 
+class SumOfSizes(ast.NodeTransformer):
+    """Adds the sizes of two sides instead of the root of the sum of their squares."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """The sum of the sizes."""
+        self.generic_visit(node)
+        match node:
+            case ast.Call(
+                func=ast.Name(id="sqrt"),
+                args=[ast.BinOp(op=ast.Add(), left=ast.BinOp() as one, right=ast.BinOp() as other)],
+            ) if exponent_of(one) == exponent_of(other) == LEAST:
+                return ast.BinOp(_size(one.left), ast.Add(), _size(other.left))
+        return node
+
+
+def _size(tree: ast.expr) -> ast.expr:
+    return ast.Call(ast.Name("abs", ast.Load()), [tree], [])
+
+
 class WithoutFunction(ast.NodeTransformer):
     """Takes the argument of a function for its value."""
 

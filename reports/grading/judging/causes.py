@@ -283,7 +283,7 @@ class Causes:
                 run = scene.run.fork({**scene.known, name: number})
                 if number != right and fits(values_of(item, run)):
                     symbol = symbol_of(name, item.block, model)
-                    yield f"{symbol} вписано числом {short(number)}, а у вас {short(right)}"
+                    yield f"{symbol}: вписано число {short(number)}, а у вас {short(right)}"
 
     def _moved_reference(self, item: Item) -> str:
         """A reference to one cell that was filled down without its $."""

@@ -16,13 +16,14 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.causes import Causes
 from reports.grading.judging.foreign import OtherVariant
-from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN, Judgement, fault
+from reports.grading.judging.judgement import GROUNDLESS, STILL, UNKNOWN, Judgement, fault
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
+from reports.grading.judging.spelling import chooses_a_number
 from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
-from reports.grading.judging.verdicts import judge_all
+from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
@@ -49,6 +50,7 @@ from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout
 
 FORMAT = 8
+_DISGUISED = 3  # numbers in the guise of formulas from which a person looks
 Result = dict[str, Any]
 
 
@@ -222,7 +224,7 @@ class Marker:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
-        result["manual"] += asked_of_blanks(items)
+        result["manual"] += [*asked_of_blanks(items), *disguised(student, judged.judgements)]
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
@@ -382,6 +384,24 @@ def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
                 if now != was:  # a program that saves few digits has changed nothing
                     cells.append(f"{location.sheet}!{where}: сохранено {was}, формула даёт {now}")
     return cells
+
+
+def disguised(student: StudentBook, judgements: Sequence[Judgement]) -> list[str]:
+    """Question to a person where numbers in the guise of formulas are no chance any more."""
+    guises = [j for j in judgements if _is_guise(student, j)]
+    if len(guises) < _DISGUISED:
+        return []
+    what = "столбцов" if all(j.item.is_column for j in guises) else "величин"
+    return [f"число под видом формулы, {what}: {len(guises)}"]
+
+
+def _is_guise(student: StudentBook, judgement: Judgement) -> bool:
+    if judgement.verdict == STILL:
+        return not judgement.origins
+    runs = (run for node in judgement.item.nodes for run in student.runs(node))
+    return judgement.reason == NUMBERS_ALONE and any(
+        run.formula is not None and chooses_a_number(run.formula) for run in runs
+    )
 
 
 def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:

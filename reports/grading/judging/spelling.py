@@ -31,6 +31,14 @@ def squares_a_cosine(formula: Formula) -> bool:
 _COSINE = ("name", "COS")
 
 
+def chooses_a_number(formula: Formula) -> bool:
+    """Whether a choice between cases stands about a number, for the looks of it."""
+    return not formula.functions.isdisjoint(_CHOICES)
+
+
+_CHOICES = frozenset(("IF", "IFERROR", "IFNA", "IFS", "SWITCH", "CHOOSE"))
+
+
 def _tokens(formula: Formula) -> list[Token]:
     return [token for token in formula.pattern if token[0] not in ("space", "sheet")]
 

@@ -41,6 +41,7 @@ from reports.recalculation.formulas import UnknownFormula
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
 _OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
+NUMBERS_ALONE = "формула состоит из одних чисел"
 _BY_CHANCE = (
     "числа верны, а при других исходных данных формула даёт не то: совпало у этого варианта?"
 )
@@ -386,7 +387,7 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
         return "заполнены не все строки"
     if verdict == TYPED:
         if unlinked and set(letters) != {say.NOTHING}:
-            return "формула состоит из одних чисел"
+            return NUMBERS_ALONE
         if say.PARTLY in letters:
             return "вместо ссылки в формуле стоит число: при других данных она неверна"
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from tempfile import mkdtemp
 
+import numpy as np
 import pytest
 import tomlkit
 from openpyxl.utils import get_column_letter
@@ -20,6 +21,7 @@ from reports.grading.issuing.register import Register
 from reports.grading.judging.marking import Marker, Result
 from reports.grading.reading.submissions import Submission
 from reports.inputs.fields import to_mapping
+from reports.model.evaluation import Evaluation
 from reports.workbook.layout import Layout
 from tests.conftest import sample
 from tests.grading.classroom import opened, roster_text
@@ -35,6 +37,7 @@ class Engine:
     fill: tuple[str, ...]
     book: str = ""  # of the department, beside the base
     count: int = 2
+    seed: int = 5
 
     @cached_property
     def register(self) -> Register:
@@ -46,8 +49,8 @@ class Engine:
         (folder / "rubric.toml").write_text(rubric, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(issuing, "_write", lambda *given: None)
-            return issue(folder / "base.toml", folder / "group.csv", folder / "issued", seed=5,
-                         rubric_file=folder / "rubric.toml",
+            return issue(folder / "base.toml", folder / "group.csv", folder / "issued",
+                         seed=self.seed, rubric_file=folder / "rubric.toml",
                          secret_file=folder / "key").register  # fmt: skip
 
     @cached_property
@@ -77,17 +80,30 @@ class Engine:
         data = filled_book(self.empty, self.assignment, changes)
         return self.marker.mark(Submission("р.xlsx", Path("р.xlsx"), None, None), data)
 
+    def rows(self, node: str) -> list[int]:
+        """Rows of a node's cells on its sheet."""
+        if node in self.layout.columns:
+            return list(self.layout.rows_of(self.layout.columns[node][0]))
+        return [self.layout.cells[node].row]
+
+    def values(self, number: int) -> dict[str, list[Formula]]:
+        """Node → the right numbers of a student's variant."""
+        run = Evaluation(
+            assignment_for(self.register.books[number - 1], self.register.rubric).model
+        )
+        return {node: np.ravel(run.value(node)).tolist() for node in self.right}
+
     def hand(self, node: str, chance: random.Random) -> Hand:
         layout = self.layout
         names = [name for name in self.assignment.model.fields if name in layout.cells]
         if node in layout.columns:
-            table, column = layout.columns[node]
-            rows, letters = layout.rows_of(table), get_column_letter(column)
+            column = layout.columns[node][1]
+            letters = get_column_letter(column)
             names += [f"{get_column_letter(c)}{{r}}" for c in range(1, column)] * 5
         else:
-            rows, letters = [layout.cells[node].row], get_column_letter(layout.cells[node].column)
+            letters = get_column_letter(layout.cells[node].column)
         names += [name for name in self.assignment.model.scalars if name in layout.cells]
-        return Hand(chance, self.right[node], rows, letters, names)
+        return Hand(chance, self.right[node], self.rows(node), letters, names)
 
 
 def base_of(name: str, variants: dict[str, object], **more: object) -> str:

@@ -17,7 +17,7 @@ FILL = ("geometry", "masses", "P3_1", "P4_1")
 @cache
 def engine(bore: float, count: int = 4) -> Engine:
     """A class whose first student has this bore, and others the stroke's."""
-    ranges = {"geometry.bore_mm": {"values": [94.0, 88.0, 90.0, 92.0]},
+    ranges = {"geometry.bore_mm": {"values": [94.0, 88.0, 91.0, 92.0]},
               "geometry.rod_length_mm": {"min": 144, "max": 156, "step": 1},
               "regime.speed_rpm": {"min": 4000, "max": 4600, "step": 50}}  # fmt: skip
     for seed in range(5, 40):
@@ -71,7 +71,7 @@ def test_one_variant_that_explains_all_is_named_before_single_parameters():
 def test_a_value_that_several_have_names_none_of_them():
     made = engine(ANOTHERS_IS_STROKE, count=12)
     bores = [book.drawn["geometry.bore_mm"] for book in made.register.books]
-    bore = next(b for b in bores if bores.count(b) > 1 and b not in (bores[0], 94.0, 90.0))
+    bore = next(b for b in bores if bores.count(b) > 1 and b not in (bores[0], 94.0))
     said = line(made, {"F_piston": [f"=PI()*({bore}/1000)^2/4"]}, "geometry.F_piston")
     assert "не из вашего варианта" in said["cause"]
 

@@ -28,6 +28,17 @@ from reports.shared.errors import InputError, Problem
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
 _COPY = 0.3
 _PICKS = ("element", "col_last")
+# What models with the same blocks have in common.
+_SHARED = (
+    "graph",
+    "items",
+    "points",
+    "blocks",
+    "fill_nodes",
+    "states",
+    "given_nodes",
+    "live_nodes",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,16 +202,7 @@ class Assignment:
     def with_model(self, model: Model) -> Assignment:
         """The same tables for a model with the same blocks."""
         other = Assignment(model, self.rubric, self.fill, self.given)
-        for name in (
-            "graph",
-            "items",
-            "points",
-            "blocks",
-            "fill_nodes",
-            "states",
-            "given_nodes",
-            "live_nodes",
-        ):
+        for name in _SHARED:
             other.__dict__[name] = getattr(self, name)
         if "issued_formulas" in self.__dict__:
             other.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]

@@ -29,16 +29,8 @@ _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
 _COPY = 0.3
 _PICKS = ("element", "col_last")
 # What models with the same blocks have in common.
-_SHARED = (
-    "graph",
-    "items",
-    "points",
-    "blocks",
-    "fill_nodes",
-    "states",
-    "given_nodes",
-    "live_nodes",
-)
+_SHARED = ("graph", "items", "points", "blocks", "fill_nodes", "states", "given_nodes",
+           "live_nodes")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

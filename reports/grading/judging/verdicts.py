@@ -49,14 +49,14 @@ _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of for
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class Verdicts:
     """Verdicts on all items, in the order of the book; ``faults`` are errors of the program."""
 
     judgements: list[Judgement]
     faults: tuple[str, ...] = ()
 
 
-def judge_all(student: StudentBook, response: FormulaResponse) -> Judged:
+def judge_all(student: StudentBook, response: FormulaResponse) -> Verdicts:
     """Verdicts on all items.
 
     A rule that fails costs a person's look: an item's own rule at the item, one about what
@@ -70,14 +70,14 @@ def judge_all(student: StudentBook, response: FormulaResponse) -> Judged:
     try:
         grounds = Grounds.of(judgements, student, response)
     except Exception as error:
-        return Judged(list(judgements.values()), (fault(error),))
+        return Verdicts(list(judgements.values()), (fault(error),))
     for rule in GROUND_RULES:
         before = dict(judgements)
         try:
             rule.apply(judgements, grounds)
         except Exception as error:
             judgements, faults = before, (*faults, fault(error))
-    return Judged([judgements[item.id] for item in items], faults)
+    return Verdicts([judgements[item.id] for item in items], faults)
 
 
 # --- one item by itself ----------------------------------------------------------------------

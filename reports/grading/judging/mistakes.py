@@ -30,6 +30,7 @@ from reports.grading.judging.rewriting import (
     factors,
     is_power,
     numbers,
+    otherwise,
     summands,
     without_radians,
 )
@@ -94,7 +95,8 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         yield f"взят аргумент вместо {name.upper()}", WithoutFunction(name).visit
     yield from _shorter(tree, block, model)
     yield ROOTLESS, WithoutRoot().visit
-    yield "аргументы ATAN2 переставлены: первым пишут x", Swapped().visit
+    for swapped in (Swapped().visit, lambda tree: Swapped().visit(otherwise(tree))):
+        yield "аргументы ATAN2 переставлены: первым пишут x", swapped
     for value, words in _ROUGH:
         yield f"π взято как {words}", OtherPi(value).visit
     for text in factors(tree):
@@ -142,7 +144,8 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         words = f"пропущено слагаемое {_plain(dropped, block, model)}"
         yield words, WithoutSummand(number).changed
     for text in factors(tree):
-        symbol = _symbols(parse(text), block, model)
+        named = _plain if text.startswith("sqrt(") else _symbols
+        symbol = named(parse(text), block, model)
         yield f"пропущен множитель {symbol}", WithoutFactor(text).visit
         for exponent in sorted({exponent_of(n) for n in ast.walk(tree) if _is_raised(n, text)}):
             power = _POWERS.get(exponent, f"степень {short(exponent)}")

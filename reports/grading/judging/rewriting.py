@@ -228,6 +228,11 @@ class Swapped(ast.NodeTransformer):
         return node
 
 
+def otherwise(tree: ast.expr) -> ast.expr:
+    """The formula of what no condition picks: few tell the vector of nought apart."""
+    return otherwise(tree.orelse) if isinstance(tree, ast.IfExp) else tree
+
+
 class OtherPi(ast.NodeTransformer):
     """Takes a rough π, in the conversion of angles as well."""
 

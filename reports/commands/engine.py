@@ -153,6 +153,10 @@ def check(source: Path, as_json: bool) -> int:
         for about in check_alone(source):
             click.echo(about)
         return DONE
+    if source.suffix.lower() == ".zip":
+        from reports.grading.reading.selfcheck import findings_in_archive
+
+        return _tell_findings(source, findings_in_archive(source), as_json=as_json)
     if source.suffix.lower() in BOOKS:
         from reports.grading.reading.selfcheck import findings, is_work_book
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 from html import escape
 
 from openpyxl import Workbook, load_workbook
+from openpyxl.cell.cell import ERROR_CODES
 from openpyxl.compat import safe_string
 from openpyxl.worksheet.formula import ArrayFormula
 
@@ -117,10 +118,8 @@ def filled_cells(
 
 
 def _plain(text: object) -> bool:
-    """No date, no truth value, no error."""
-    if isinstance(text, str):
-        return not text.startswith("#")
-    return text is None or (isinstance(text, (int, float)) and not isinstance(text, bool))
+    """No date."""
+    return text is None or isinstance(text, (str, int, float))
 
 
 # Many tests fill the same work-book, many of them in the same way.
@@ -167,9 +166,13 @@ def _spelled(value: Value) -> str:
         return f'><f t="array" ref="{value.ref}">{text}</f><v></v></c>'
     if value is None or value == "":
         return ' t="n"></c>'
+    if isinstance(value, bool):
+        return f' t="b"><v>{value:d}</v></c>'
     if not isinstance(value, str):
         return f' t="n"><v>{safe_string(value)}</v></c>'
     text = escape(value, quote=False)
+    if value in ERROR_CODES:
+        return f' t="e"><v>{text}</v></c>'
     if value.startswith("="):
         return f"><f>{text[1:]}</f><v></v></c>"
     return f' t="inlineStr"><is><t>{text}</t></is></c>'

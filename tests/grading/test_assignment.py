@@ -12,8 +12,8 @@ from reports.workbook.layout import Layout
 from tests.conftest import sample
 
 
-def asked(name: str, *fill: str) -> Assignment:
-    raw = to_mapping(sample(name))
+def asked(name: str, *fill: str, **more: object) -> Assignment:
+    raw = to_mapping(sample(name)) | more
     raw["calculation"]["step_deg"] = 30
     model = build_model(load_mapping(raw, source="test").model)
     return assignment_of(model, rubric_of({"work": {"fill": fill}}, "rubric"))
@@ -39,6 +39,19 @@ def test_marks_of_the_bearings_are_not_asked():
     nodes = {node for block in made.fill for node in fill_cells(block, layout)}
     for node in nodes - made.fill_nodes:
         assert made.states[node] != "hidden", node
+
+
+def test_constants_of_materials_are_not_asked():
+    """Of a steel that the input data name, a table tells them: they stand in the book."""
+    made = asked(
+        "two-stroke", "geometry", "masses", "P4_1", "strength*", strength={"kind": "petrol"}
+    )
+    blocks = {item.block for item in made.items}
+    assert "strength_materials" not in blocks and "strength_eye" in blocks
+    assert made.states["rod_tensile"] == made.states["bolt_expansion"] == "number"
+    # What is calculated of such constants alone is a formula all the same.
+    fuel = asked("cycle-petrol", "cycle_fuel")
+    assert "cycle_fuel.cyc_L0" in {item.id for item in fuel.items}
 
 
 def test_columns_of_the_textbook_stay_asked():

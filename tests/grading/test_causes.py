@@ -10,8 +10,10 @@ import pytest
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.causes import Causes
+from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.judging.verdicts import WRONG, Judgement
 from reports.grading.reading.student import StudentBook
+from reports.recalculation.formulas import formula_of, pattern
 from reports.recalculation.read import read_grid
 from reports.workbook.layout import Layout
 from tests.grading import classroom
@@ -30,7 +32,8 @@ def item_of(name: str) -> Item:
 
 def right(name: str, inputs: dict[str, float | str] | None = None) -> np.ndarray:
     run = student().expected.fork(inputs or {})
-    return np.ravel(np.asarray(run.value(item_of(name).nodes[0]), dtype=float))
+    node = name if name in run.model.fields else item_of(name).nodes[0]
+    return np.ravel(np.asarray(run.value(node), dtype=float))
 
 
 def cause(
@@ -95,11 +98,58 @@ def LAM() -> float:
             lambda v: v * np.cos(np.radians(np.arange(0, 361, 30))),
             "cos φ в квадрате, а надо в первой степени",
         ),
+        ("P3_2.beta_rad", np.sin, "взят аргумент вместо ASIN"),
+        ("P4_1.beta_rad", lambda v: np.arccos(np.sin(v)), "ACOS вместо ASIN"),
+        (
+            "P4_1.N_MPa",
+            lambda v: right("P4_1.Ps_MPa") * np.sin(right("P4_1.beta_rad")),
+            "sin вместо tg",
+        ),
+        ("geometry.lam", lambda v: v / (1 + v), "r + L вместо длины шатуна"),
+        (V2, lambda v: right(V1) * LAM() / 2, "угол φ вместо 2φ"),
+        (
+            "P4_1.j_m_s2",
+            lambda v: v[0] / (1 + LAM()) * np.cos(np.radians(np.arange(0, 721, 30))),
+            "пропущено слагаемое λ·cos(2·φ)",
+        ),
+        (
+            "P4_3_1.R_MPa",
+            lambda v: abs(right("P4_3_1.Rx_MPa")) + abs(right("P4_3_1.Ry_MPa")),
+            "сложены модули",
+        ),
+        (
+            "P3_2.eps_rod_exact_1_s2",
+            lambda v: v * np.cos(right("P3_2.beta_rad")),
+            "возведено в квадрат, а надо в куб",
+        ),
+        (
+            "P4_1.M_Nm",
+            lambda v: v * right("geometry_bore_mm") / 2000 / right("geometry.r_crank"),
+            "радиус цилиндра D/2",
+        ),
         ("geometry.v_max", lambda v: right(V).max(keepdims=True), "П3.1, vп: между ними есть"),
     ],
 )
 def test_a_change_of_the_numbers_is_named(name, change, words):
     assert words in cause(name, change(right(name).copy()))
+
+
+@pytest.mark.parametrize(
+    ("text", "minus", "cosine"),
+    [
+        ("-omega^2*SIN(A6)", True, False),
+        ("lam*-(omega)^2", True, False),
+        ("5-omega^2", False, False),
+        ("A6%-B6^2", False, False),
+        ("(A6)-B6^2", False, False),
+        ("-(omega^2)*COS(B6)", False, False),
+        ("lam/COS(RADIANS(A6))^2", False, True),
+        ("COS(A6)*B6^2", False, False),
+    ],
+)
+def test_what_is_written_tells_of_a_power(text: str, minus: bool, cosine: bool):
+    formula = formula_of(pattern(text, 6, 3))
+    assert (squares_a_minus(formula), squares_a_cosine(formula)) == (minus, cosine)
 
 
 def test_an_angle_is_no_hundredth_of_another_but_for_whole_turns():
@@ -166,9 +216,12 @@ def test_another_students_parameter_and_another_method_are_named():
     other = classroom.register().books[1]
     speed = float(other.drawn["regime.speed_rpm"])
     assert speed != classroom.book().drawn["regime.speed_rpm"]
-    found = cause("geometry.omega", right("geometry.omega", {"regime_speed_rpm": speed}))
+    theirs = right("geometry.omega", {"regime_speed_rpm": speed})
+    found = cause("geometry.omega", theirs, typed=(0,))
     assert "из варианта 2" in found
     assert f"{speed:g}" in found
+    # A formula in which no number of theirs stands accuses nobody.
+    assert cause("geometry.omega", theirs) == ""
     model = student().assignment.model
     labels = model.fields["calculation_method"].choices
     now = labels[str(model.fields["calculation_method"].value)]
@@ -187,3 +240,5 @@ def test_what_fits_nothing_has_no_cause():
     assert cause(V1, noise) == ""
     assert cause(V1, np.full(right(V1).size, np.nan)) == ""
     assert cause(V1, right(V1)) == ""  # what is right is no mistake
+    # A choice of the input, of which there is no square, is in this formula.
+    assert cause("P4_1.j_m_s2", right("P4_1.j_m_s2") * 7 + 3) == ""

@@ -74,6 +74,8 @@ def test_an_unknown_is_decided_and_the_decision_survives(tmp_path):
         assert "Решение преподавателя" in page
         assert "посмотрел: верно" in page
         assert "Петрова" in page
+    rows = run(where, out, ("1", "geometry.V_c", "50 %", "половина"))  # of the column's points
+    assert rows[1]["points"] == pytest.approx(100 - worth / 2, abs=0.01)
     rows = run(where, out, ("1", "geometry.V_c", "-", ""))  # withdrawn
     assert rows[1]["manual"]
     assert "посмотрел" not in (out / rows[1]["page"]).read_text("utf-8")

@@ -6,12 +6,14 @@ import ast
 
 import pytest
 
-from reports.grading.judging.mistakes import (
+from reports.grading.judging.rewriting import (
     Flipped,
     OtherExponent,
     OtherRatio,
+    Swapped,
     WithoutPowers,
     WithoutSummand,
+    otherwise,
 )
 
 
@@ -27,6 +29,12 @@ from reports.grading.judging.mistakes import (
 def test_the_sign_of_one_sum_is_turned(number: int, wanted: str) -> None:
     found = Flipped(number, ast.Add, ast.Sub).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
     assert ast.unparse(found) == wanted
+
+
+def test_the_arguments_are_swapped_with_the_conditions_or_without() -> None:
+    text = "0 if a == 0 else 90 if b == 0 else deg(atan2(a, b))"
+    tree = ast.parse(text, mode="eval").body
+    assert ast.unparse(Swapped().visit(otherwise(tree))) == "deg(atan2(b, a))"
 
 
 def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:

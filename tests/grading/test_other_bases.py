@@ -151,7 +151,7 @@ BEARINGS = Base(
         "oil_hot1_C": ("=60*{oil_friction1_W}/(bearings_density_kg_m3*bearings_heat_j_kg_k"
          "*{oil_through1_l_min})", ""),
         "safe_n_turn_hole": ("={safe_pin_hole1}", ""),
-        "safe_pin_a1_MPa": ("=MAX({|P4_5s.Mpins1_Nm})/(2*{safe_pin_W1_cm3})", "слагаемое min M"),
+        "safe_pin_a1_MPa": ("=MAX({|P4_5s.Mpins1_Nm})/(2*{safe_pin_W1_cm3})", "слагаемое min(M"),
         "safe_pin_W1_cm3": ("=PI()*crankshaft_pin_diameter_mm^3/32000", ""),
         "safe_n_hole": ("=({safe_n_bend_hole}+{safe_n_turn_hole})/2", ""),
         "safe_n_pin": ("=MAX({safe_n_hole},{safe_n_fillet})", ""),

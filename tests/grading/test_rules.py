@@ -179,7 +179,7 @@ WORKS = {
         M, ("typed", 0.94), ("right", 1.0), lambda: some(M, slice(3, 6), [*right(M)[3:6]])),
     ("cell", "error"): Decided(V1, ("error", 0.0), ("wrong", 0.0), lambda: each(V1, "=(@)/0")),
     ("cell", "wrong formula"): Decided(
-        S1, ("wrong", 0.0), ("typed", 0.5), lambda: each(S1, "=-(@)")),
+        S1, ("wrong", 0.0), ("unknown", 0.0), lambda: each(S1, "=-(@)")),
     ("cell", "number in a formula"): Decided(
         S1, ("typed", 0.5), ("right", 1.0),
         lambda: each(S1, f"=47*(1-COS(RADIANS(A{{r}})))*{bore()}/geometry_bore_mm")),
@@ -204,6 +204,11 @@ WORKS = {
     ("item", "idle"): Decided(
         NOUGHT, ("unknown", 0.0), ("right", 1.0), lambda: each(NOUGHT, "=0*B{r}")),
     ("item", "pasted"): Decided(V1, ("unknown", 0.0), ("typed", 0.5), of_a_friend),
+    # (145 + 2·18 − 2)/2 is the bore of this variant, and of no other.
+    ("item", "by chance"): Decided(
+        "geometry.F_piston", ("unknown", 0.0), ("typed", 0.5),
+        lambda: {"F_piston": ["=PI()*((geometry_rod_length_mm+2*geometry_compression_ratio-2)"
+                              "/2000)^2/4"]}),
     ("ground", "circle"): Decided(
         "P4_2.M1_Nm", ("error", 0.0), ("right", 1.0), around),
     ("ground", "circle with other input data"): Decided(

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import os
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from openpyxl import Workbook
 
+from reports.cli import main
 from reports.grading.reading.selfcheck import findings, is_work_book, remarks
 from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
@@ -54,6 +58,23 @@ def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
     path.write_bytes(b"MZ")
     with pytest.raises(InputError, match="а не книга"):
         remarks(str(path), str(issued))
+
+
+def test_an_archive_is_opened_as_it_is_handed_in(tmp_path: Path) -> None:
+    inner, path = io.BytesIO(), tmp_path / "работа.zip"
+    with zipfile.ZipFile(inner, "w") as archive:
+        archive.writestr("папка/моя книга.xlsx", classroom.handout())
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("читать.txt", "привет")
+        archive.writestr("ещё.zip", inner.getvalue())
+    result = CliRunner().invoke(main, ["check", str(path)])
+    assert (
+        result.exit_code == 1 and "моя книга.xlsx, " in result.output and "пусто" in result.output
+    )
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("читать.txt", "привет")
+    result = CliRunner().invoke(main, ["check", str(path)])
+    assert "в архиве нет выданной рабочей книги" in result.output
 
 
 def spoilt(book: Workbook, layout: Layout) -> None:

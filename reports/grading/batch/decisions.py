@@ -108,8 +108,10 @@ def refuse_wrong_words(
             continue
         if who not in files:
             _student(register, (), who)
-        _item(what, items)
-        if points.strip() not in (ACCEPT, WITHDRAW):
+        item = _item(what, items)
+        if item and points.strip().endswith("%"):
+            _points(_of_share(points, register.rubric.maximum), register.rubric.maximum)
+        elif points.strip() not in (ACCEPT, WITHDRAW):
             _points(points, register.rubric.maximum)
 
 
@@ -175,8 +177,10 @@ def decided(
                 key: entry for key, entry in entries.items() if key[:2] != (book.number, item)
             }
             continue
-        value = None if points.strip() == ACCEPT else _points(points, register.rubric.maximum)
         work = counted.get(book.number)
+        of = next((line.of for line in work.items if line.id == item), None) if work else None
+        given = points if of is None else _of_share(points, of)
+        value = None if points.strip() == ACCEPT else _points(given, register.rubric.maximum)
         file = work.sha256 if work else ""
         _refuse_idle(who, value, item, file, work)
         entry = Decision(

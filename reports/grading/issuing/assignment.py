@@ -28,6 +28,9 @@ from reports.shared.errors import InputError, Problem
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
 _COPY = 0.3
 _PICKS = ("element", "col_last")
+# What models with the same blocks have in common.
+_SHARED = ("graph", "items", "points", "blocks", "fill_nodes", "states", "given_nodes",
+           "live_nodes")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,9 +105,17 @@ class Assignment:
         )
 
     def _is_fixed(self, node: str) -> bool:
-        """Whether a value only marks or remarks something, or is a number from a book."""
+        """Whether a value only marks or remarks something, or is a number from a book.
+
+        What words of the input data pick among such numbers is one too: of a steel its strength.
+        """
         text = self.graph.expression(node)
-        return text is not None and all(map(_is_constant, _outcomes(parse(text))))
+        if text is None:
+            return False
+        tree = parse(text)
+        if _is_pick(tree):  # marks pick among numbers from a book
+            return all(map(self._is_fixed, self.graph.references(node)))
+        return all(map(_is_constant, _outcomes(tree)))
 
     def _is_idle(self, node: str, readers: Sequence[str]) -> bool:
         """Whether a helper serves nothing but marks and remarks, or a drawing alike for all."""
@@ -183,16 +194,7 @@ class Assignment:
     def with_model(self, model: Model) -> Assignment:
         """The same tables for a model with the same blocks."""
         other = Assignment(model, self.rubric, self.fill, self.given)
-        for name in (
-            "graph",
-            "items",
-            "points",
-            "blocks",
-            "fill_nodes",
-            "states",
-            "given_nodes",
-            "live_nodes",
-        ):
+        for name in _SHARED:
             other.__dict__[name] = getattr(self, name)
         if "issued_formulas" in self.__dict__:
             other.__dict__["issued_formulas"] = self.__dict__["issued_formulas"]
@@ -362,6 +364,16 @@ def _outcomes(tree: ast.expr) -> Iterator[ast.expr]:
         yield from _outcomes(tree.orelse)
     else:
         yield tree
+
+
+def _is_pick(tree: ast.expr) -> bool:
+    """Whether a formula is the sum of products of two names each: a mark and what it picks."""
+    match tree:
+        case ast.Call(func=ast.Name(id="total"), args=terms):
+            return all(map(_is_pick, terms))
+        case ast.BinOp(left=ast.Name(), op=ast.Mult(), right=ast.Name()):
+            return True
+    return False
 
 
 def _is_constant(tree: ast.expr) -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,20 @@ from numpy.typing import NDArray
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import FormulaError, names, parse
 from reports.grading.issuing.assignment import Item
-from reports.grading.judging.judgement import Array, Judgement, close, distance, tolerance
-from reports.grading.judging.mistakes import mistakes, symbol_of
+from reports.grading.judging.foreign import OtherVariant, Variants
+from reports.grading.judging.judgement import (
+    Array,
+    Judgement,
+    close,
+    distance,
+    explains,
+    tolerance,
+    values_of,
+)
+from reports.grading.judging.literal_tables import literals, typed_numbers
+from reports.grading.judging.mistakes import ROOTLESS, mistakes, symbol_of
 from reports.grading.judging.response import FormulaResponse
+from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.model.blocks import TableSpec
@@ -23,18 +35,21 @@ from reports.model.evaluation import Evaluation
 from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
-_OTHERS = 200  # variants that are tried
-_ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
-_CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 _VARIED = 4  # different values of a column that tells anything
 
 
 @dataclass(frozen=True, slots=True)
-class OtherVariant:
-    """Drawn values of another student's variant by the name of their input cell."""
+class Scene:
+    """An engine: its right values of an item, and what the student has for it."""
 
-    number: int
-    values: dict[str, float]
+    run: Evaluation
+    known: Mapping[str, object]  # by which it differs from the student's
+    right: Array
+    values: Array
+
+
+Change = Callable[[ast.expr], Any]
+Attempt = tuple[str, Callable[[Scene], Array | None]]  # a mistake in words, and what it gives
 
 
 class Causes:
@@ -47,10 +62,12 @@ class Causes:
         titles: dict[str, str],
         whole: dict[int, Evaluation] | None = None,
         response: FormulaResponse | None = None,
+        judgements: Sequence[Judgement] = (),
     ) -> None:
-        self.student, self.others, self.titles = student, others, titles
-        self.whole = {} if whole is None else whole  # other variants, the same for a class
-        self.response = response
+        self.student, self.response = student, response
+        self.variants = Variants(
+            student, others, {} if whole is None else whole, titles, judgements
+        )
 
     def find(self, judgement: Judgement) -> str:
         """The cause in words, empty where none fits."""
@@ -66,8 +83,19 @@ class Causes:
         cause = self._common(judgement)
         allowed = tolerance(item, judgement.expected, self.student)
         good = close(item, judgement.values, judgement.expected, allowed, self.student.expected)
+        cause = self._as_written(item, cause)
         rows = [] if cause or judgement.coarse else slips(judgement, good)
         return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
+
+    def _as_written(self, item: Item, cause: str) -> str:
+        """The same cause in the words of what the student has written."""
+        runs = [run for node in item.nodes for run in self.student.runs(node)]
+        formulas = [run.formula for run in runs if run.formula is not None]
+        if "знак" in cause and any(map(squares_a_minus, formulas)):
+            return f"{cause}: −x^2 в таблице — это (−x)², а надо −(x^2)"
+        if cause == ROOTLESS and any(map(squares_a_cosine, formulas)):
+            return "косинус в квадрате, а надо в первой степени"
+        return cause
 
     def gives(self, judgement: Judgement, text: str) -> bool:
         """Whether a formula in the language of the tables gives the wrong values of an item."""
@@ -75,11 +103,10 @@ class Causes:
         known = self._known(judgement)
         for base in [known, {}] if known else [{}]:
             run = self.student.expected.fork(base)
-            try:
-                attempt = self._rewritten(item, run, lambda _: parse(text))
-            except (KeyError, ValueError, TypeError, FormulaError):  # no formula of this table
-                return False
-            if attempt is not None and self._fits(item, values, attempt, judgement.expected, ()):
+            attempt = self._rewritten(item, run, lambda _: parse(text))
+            if attempt is not None and explains(
+                item, values, attempt, judgement.expected, self.student
+            ):
                 return True
         return False
 
@@ -98,7 +125,7 @@ class Causes:
         item, values = judgement.item, judgement.values
         known = self._known(judgement)
         for base in [known, {}] if known else [{}]:
-            cause = self._first(item, values, self.student.expected.fork(base), rows)
+            cause = self._first(judgement, values, base, rows)
             if cause:
                 return cause
         # Mistakes before this one, in what the program calculates from them too: its formula is
@@ -106,22 +133,81 @@ class Causes:
         alone = self.response.tryout.alone(item) if self.response is not None else None
         if alone is None or np.allclose(alone, values, equal_nan=True):
             return ""
-        return self._first(item, alone, self.student.expected, rows)
+        return self._first(judgement, alone, {}, rows)
 
-    def _first(self, item: Item, values: Array, run: Evaluation, rows: Sequence[int]) -> str:
-        right = self._values(item, run)
-        if right is None:
-            return ""
-        beyond = np.full(len(values), np.nan) if rows else values  # no row explains itself
-        fitting = (
-            words
-            for words, attempt in self._attempts(item, run, right, beyond)
-            if attempt is not None and self._fits(item, values, attempt, right, rows)
-        )
+    def _first(
+        self, judgement: Judgement, values: Array, known: Mapping[str, object], rows: Sequence[int]
+    ) -> str:
+        item, run = judgement.item, self.student.expected.fork(known)
+        # No row explains itself.
+        beyond = np.full(len(values), np.nan) if rows else values
+        scene = Scene(run, known, values_of(item, run), beyond)
+        fitting = self._fitting(judgement, values, scene, rows)
         cause = next(fitting, "")
         # What a condition picks, many wrong ones pick.
         picks = any(isinstance(self._tree(node), ast.IfExp) for node in item.nodes)
         return "" if picks and any(words != cause for words in fitting) else cause
+
+    def _fitting(
+        self, judgement: Judgement, values: Array, scene: Scene, rows: Sequence[int]
+    ) -> Iterator[str]:
+        """Words of all mistakes that give the values, for this engine and for the trials."""
+        item = judgement.item
+
+        def fits(attempt: Array | None) -> bool:
+            return attempt is not None and explains(
+                item, values, attempt, scene.right, self.student, rows
+            )
+
+        def fitting(attempts: Iterator[Attempt]) -> Iterator[str]:
+            for words, change in attempts:
+                if fits(change(scene)) and self._holds_elsewhere(item, change, rows):
+                    yield words
+
+        yield from fitting(self._likely(item, scene))
+        yield from self.variants.words(judgement, fits)
+        yield from self._typed_in(item, scene, fits)
+        yield from fitting(self._last())
+
+    def _holds_elsewhere(
+        self, item: Item, change: Callable[[Scene], Array | None], rows: Sequence[int]
+    ) -> bool:
+        """Whether the formulas make the same mistake with other input data: twice 2 is 2²."""
+        for scene in self._elsewhere(item):
+            attempt = change(scene)
+            at = np.asarray(rows) if rows else np.arange(len(scene.values))
+            there = at[np.isfinite(scene.values[at])]
+            if attempt is None or attempt.shape != scene.values.shape or not there.size:
+                continue
+            allowed = tolerance(item, attempt, self.student)
+            if not (np.abs(scene.values - attempt)[there] <= allowed).all():
+                return False
+        return True
+
+    def _elsewhere(self, item: Item) -> list[Scene]:
+        """What the formulas of an item give for the trials, where it can be calculated.
+
+        The input data that are alike for the class are varied where no number of the formulas
+        may stand for them.
+        """
+        if self.response is None or not all(map(self.student.runs, item.nodes)):
+            return []
+        if item.id not in self._scenes:
+            scenes = []
+            tried = [self.response.tried(node) for node in item.nodes]
+            literal = bool(typed_numbers(self.student, item))
+            for at, trial in enumerate(self.response.trials):
+                if not (trial.decides or not literal) or any(isinstance(t, str) for t in tried):
+                    continue
+                values = np.concatenate([values[at] for values in tried])
+                right = values_of(item, trial.expected)
+                scenes.append(Scene(trial.expected, trial.inputs, right, values))
+            self._scenes[item.id] = scenes
+        return self._scenes[item.id]
+
+    @cached_property
+    def _scenes(self) -> dict[str, list[Scene]]:
+        return {}
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
         """The student's own earlier values, where they are not the right ones."""
@@ -138,72 +224,66 @@ class Causes:
         near = away <= 1e-8 + 1e-9 * np.abs(wanted)
         return not (near | (np.isnan(own) & np.isnan(wanted))).all()
 
-    def _fits(
-        self, item: Item, values: Array, attempt: Array, right: Array, rows: Sequence[int]
-    ) -> bool:
-        """Whether an attempt explains the values, and differs from what is right."""
-        if attempt.shape != values.shape or not np.isfinite(attempt).any():
-            return False
-        allowed = tolerance(item, attempt, self.student)
-        at = np.asarray(rows) if rows else np.arange(len(values))
-        if rows:
-            if (np.abs(values[at]) < _CLEAR * allowed).any():
-                return False  # so few digits may come of anything
-            if len(rows) < _ENOUGH:  # and among so many columns there is always one that is near
-                allowed = min(allowed, _SAME * float(np.abs(values[at]).max()))
-        there = np.isfinite(values[at])
-        if there.sum() < max(1, len(at) // 2):
-            return False
-        # Any angle is a hundred times another, but for whole turns.
-        explained = np.abs(values - attempt)[at][there] <= allowed
-        known = close(item, attempt, right, allowed, self.student.expected)[at]
-        return bool(explained.all()) and not known.all()
-
-    def _attempts(
-        self, item: Item, run: Evaluation, right: Array, values: Array
-    ) -> Iterator[tuple[str, Array | None]]:
-        yield "обратный знак", -right
+    def _likely(self, item: Item, scene: Scene) -> Iterator[Attempt]:
+        yield "обратный знак", lambda s: -s.right
         for factor in _FACTORS:
             times = fixed(factor, 0)
-            yield f"значения больше правильных в {times} раз: проверьте единицы", right * factor
-            yield f"значения меньше правильных в {times} раз: проверьте единицы", right / factor
+            for more, words in ((factor, "больше"), (1 / factor, "меньше")):
+                yield (f"значения {words} правильных в {times} раз: проверьте единицы",
+                       partial(_times, more))  # fmt: skip
         if not item.is_column:
-            yield from self._inputs(item, run)
-        yield "результат в градусах вместо радиан", np.degrees(right)
-        yield "результат в радианах вместо градусов", np.radians(right)
-        yield from self._changed_formulas(item, run)
-        if len(right) > 3 and item.is_column:
-            yield "значения сдвинуты на одну строку вниз", moved(right, values, 1)
-            yield "значения сдвинуты на одну строку вверх", moved(right, values, -1)
-        yield from self._columns(item, run)
+            yield from self._inputs(item)
+        yield "результат в градусах вместо радиан", lambda s: np.degrees(s.right)
+        yield "результат в радианах вместо градусов", lambda s: np.radians(s.right)
+        yield from self._changed_formulas(item)
+        if len(scene.right) > 3 and item.is_column:
+            yield "значения сдвинуты на одну строку вниз", lambda s: moved(s.right, s.values, 1)
+            yield "значения сдвинуты на одну строку вверх", lambda s: moved(s.right, s.values, -1)
+        yield from self._columns(item, scene)
         yield from self._methods(item)
-        yield from self._variants(item)
-        for factor, times in ((2, "вдвое"), (4, "вчетверо")):
-            yield f"результат {times} больше правильного", right * factor
-            yield f"результат {times} меньше правильного", right / factor
-        with np.errstate(divide="ignore"):
-            yield "получена обратная величина", 1 / right
 
-    def _values(self, item: Item, run: Evaluation) -> Array | None:
-        parts = [np.ravel(np.asarray(run.value(node), dtype=float)) for node in item.nodes]
-        return np.concatenate(parts)
+    @staticmethod
+    def _last() -> Iterator[Attempt]:
+        for factor, times in ((2, "вдвое"), (4, "вчетверо")):
+            for more, words in ((factor, "больше"), (1 / factor, "меньше")):
+                yield f"результат {times} {words} правильного", partial(_times, more)
+        yield "получена обратная величина", lambda s: _inverse(s.right)
 
     # --- the formula itself -------------------------------------------------------------
 
-    def _changed_formulas(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+    def _changed_formulas(self, item: Item) -> Iterator[Attempt]:
         for words, change in mistakes(
             self._tree(item.nodes[0]), item.block, self.student.assignment.model
         ):
-            yield words, self._rewritten(item, run, change)
+            yield words, partial(self._changed, item, change)
 
-    def _inputs(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+    def _changed(self, item: Item, change: Change, scene: Scene) -> Array | None:
+        return self._rewritten(item, scene.run, change)
+
+    def _inputs(self, item: Item) -> Iterator[Attempt]:
         """An input of the formula taken for its result."""
         fields = self.student.assignment.model.fields
         for name in sorted(self._names(item.nodes[0])):
             if name in fields and isinstance(fields[name].value, (int, float)):
                 title = fields[name].title
                 title = "частота вращения n" if name == "regime_speed_rpm" else uncapital(title)
-                yield f"{title} вместо {item.symbol}", np.array([float(run.value(name))])
+                yield f"{title} вместо {item.symbol}", partial(_one, name)
+
+    def _typed_in(self, item: Item, scene: Scene, fits: Callable[[Array], bool]) -> Iterator[str]:
+        """A wrong number that stands in the formulas for what the textbook's refers to."""
+        graph, model = self.student.assignment.graph, self.student.assignment.model
+        names_ = frozenset().union(*map(graph.references, item.nodes))
+        names_ -= frozenset().union(*map(self.student.refers, item.nodes))
+        numbers = literals(self.student, item)
+        for name in sorted(n for n in names_ if "." not in n and numbers):
+            right = scene.run.value(name)
+            if isinstance(right, str) or np.ndim(right):
+                continue
+            for number in sorted(numbers):
+                run = scene.run.fork({**scene.known, name: number})
+                if number != right and fits(values_of(item, run)):
+                    symbol = symbol_of(name, item.block, model)
+                    yield f"{symbol}: вписано число {short(number)}, а у вас {short(right)}"
 
     def _moved_reference(self, item: Item) -> str:
         """A reference to one cell that was filled down without its $."""
@@ -229,9 +309,14 @@ class Causes:
     def _names(self, node: str) -> frozenset[str]:
         return names(self.student.assignment.graph.expression(node) or "0")
 
-    def _rewritten(
-        self, item: Item, run: Evaluation, change: Callable[[ast.expr], Any]
-    ) -> Array | None:
+    def _rewritten(self, item: Item, run: Evaluation, change: Change) -> Array | None:
+        """Values of a changed formula, None where it stays the same or is no formula of numbers."""
+        try:
+            return self._calculated(item, run, change)
+        except (ArithmeticError, FormulaError, LookupError, TypeError, ValueError):
+            return None
+
+    def _calculated(self, item: Item, run: Evaluation, change: Change) -> Array | None:
         parts = []
         changed = False
         for node in item.nodes:
@@ -248,15 +333,15 @@ class Causes:
 
     # --- other columns, methods and variants ---------------------------------------------
 
-    def _columns(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+    def _columns(self, item: Item, scene: Scene) -> Iterator[Attempt]:
         """Values of another column: of the same table, then of any table with the same rows."""
         if not item.is_column:
             for key, scalar in self._neighbours(item):
-                value = run.value(key)
+                value = scene.run.value(key)
                 # A nought is no value of another quantity that happens to be one.
                 if not isinstance(value, str) and round(value, item.quantity.digits.decimals):
-                    yield f"это значение величины {scalar}", np.array([float(value)])
-            yield from self._largest(item, run)
+                    yield f"это значение величины {scalar}", partial(_one, key)
+            yield from self._largest(item, scene)
             return
         model = self.student.assignment.model
         own = model.tables[item.block]
@@ -274,35 +359,30 @@ class Causes:
                 words = f"это значения {where} {about.symbol} ({about.title})"
                 if "точн" in about.title or "точн" in table.title.lower():
                     words = f"точная формула вместо двучленной: {about.symbol} ({about.title})"
-                value = run.value(node)
-                if not isinstance(value, str):
-                    yield words, np.asarray(value, dtype=float)[rows]
+                yield words, partial(_at_rows, node, rows)
 
-    def _largest(self, item: Item, run: Evaluation) -> Iterator[tuple[str, Array | None]]:
+    def _largest(self, item: Item, scene: Scene) -> Iterator[Attempt]:
         """The largest of a column, whose rows may be on either side of the largest of all."""
-        right = self._values(item, run)
         if not item.quantity.unit:
             return
         for table in self.student.assignment.model.tables.values():
             for column in table.columns:
                 if column.expr is None or column.quantity.unit != item.quantity.unit:
                     continue
-                value = run.value(f"{table.id}.{column.key}")
-                if isinstance(value, str) or not np.isfinite(value).any():
-                    continue
-                largest = np.nanmax(np.abs(value), keepdims=True)
                 where = table.number or f"«{table.title}»"
                 words = f"это наибольшее из строк таблицы {where}, {column.quantity.symbol}"
-                if right is not None and (np.abs(right) > largest).all():
+                change = partial(_greatest, f"{table.id}.{column.key}")
+                largest = change(scene)
+                if largest is not None and (np.abs(scene.right) > largest).all():
                     words += ": между ними есть и большее"
-                yield words, largest if round(float(largest[0]), 6) else None
+                yield words, change
 
     def _neighbours(self, item: Item) -> Iterator[tuple[str, str]]:
         for other in self.student.assignment.items:
             if other.block == item.block and other.id != item.id and len(other.nodes) == 1:
                 yield other.nodes[0], f"{other.symbol} ({other.title})"
 
-    def _methods(self, item: Item) -> Iterator[tuple[str, Array | None]]:
+    def _methods(self, item: Item) -> Iterator[Attempt]:
         model = self.student.assignment.model
         field = model.fields.get("calculation_method")
         if field is None or field.choices is None:
@@ -311,36 +391,37 @@ class Causes:
         other = next(label for label in METHODS.values() if label != now)
         exact = other == METHODS["exact"]
         words = "точная формула вместо двучленной" if exact else "двучленная формула вместо точной"
-        run = self.student.expected.fork({"calculation_method": other})
-        yield words, self._values(item, run)
+        yield words, lambda s: values_of(item, s.run.fork({**s.known, field.name: other}))
 
-    def _variants(self, item: Item) -> Iterator[tuple[str, Array | None]]:
-        """One parameter of another variant, its λ, then the whole other variant."""
-        expected = self.student.expected
-        graph = self.student.assignment.graph
-        near = frozenset().union(*(graph.references(node) for node in item.nodes))
-        known = {node: expected.value(node) for node in near if "." in node}
-        inside = near | frozenset().union(*(graph.ancestors(n) for n in near if "." not in n))
-        tried: set[tuple[str, float]] = set()
-        for other in self.others[:_OTHERS]:
-            for name, value in other.values.items():
-                if (name, value) in tried or name not in inside:
-                    continue
-                tried.add((name, value))
-                run = expected.fork({**known, name: value})
-                title = self.titles.get(name, name)
-                words = f"{title} из варианта {other.number}: {short(value)}"
-                yield words, self._values(item, run)
-        for other in self.others[:_OTHERS]:
-            theirs = self.whole.get(other.number)
-            if theirs is None:
-                theirs = self.whole[other.number] = expected.fork(dict(other.values))
-            if "lam" in inside:
-                lam = theirs.value("lam")
-                run = expected.fork({**known, "lam": lam})
-                yield f"λ из варианта {other.number}: {short(lam, 4)}", self._values(item, run)
-            words = f"исходные данные варианта {other.number}, а не вашего"
-            yield words, self._values(item, theirs)
+
+def _times(factor: float, scene: Scene) -> Array:
+    """The right values so many times."""
+    return scene.right * factor
+
+
+def _one(name: str, scene: Scene) -> Array:
+    """The value of an input or a scalar."""
+    return np.array([float(scene.run.value(name))])
+
+
+def _at_rows(node: str, rows: NDArray[np.intp], scene: Scene) -> Array | None:
+    """Values of a column in the rows of another table."""
+    value = scene.run.value(node)
+    return None if isinstance(value, str) else np.asarray(value, dtype=float)[rows]
+
+
+def _greatest(node: str, scene: Scene) -> Array | None:
+    """The largest of a column, None where there is none."""
+    value = scene.run.value(node)
+    if isinstance(value, str) or not np.isfinite(value).any():
+        return None
+    largest = np.nanmax(np.abs(value), keepdims=True)
+    return largest if round(float(largest[0]), 6) else None
+
+
+def _inverse(right: Array) -> Array:
+    with np.errstate(divide="ignore"):
+        return 1 / right
 
 
 def _is_place(item: Item) -> bool:

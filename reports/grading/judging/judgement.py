@@ -16,8 +16,10 @@ from reports.formula.parse import parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import StudentBook
 from reports.model.evaluation import Evaluation
+from reports.shared.errors import one_line
 
 Array = NDArray[np.float64]
+_FAULT = 200  # signs of an error
 
 RIGHT, CARRIED, TYPED, STILL, WRONG, EMPTY, GROUNDLESS, BROKEN, UNKNOWN = (
     "right", "carried", "typed", "still", "wrong", "empty", "groundless", "error", "unknown",
@@ -37,6 +39,17 @@ WORDS = {
 
 
 E = TypeVar("E")
+
+
+def fault(error: Exception) -> str:
+    """Words on an error of the program's own: a person looks, whatever it was.
+
+    Raises:
+        MemoryError: it was one, and the next step would meet it too.
+    """
+    if isinstance(error, MemoryError):
+        raise error
+    return one_line(f"внутренняя ошибка проверки ({type(error).__name__}: {error})", _FAULT)
 
 
 @dataclass(frozen=True)
@@ -101,6 +114,39 @@ def close(
     """Mask of values that agree between two columns of an engine."""
     with np.errstate(invalid="ignore"):
         return np.asarray(distance(item.nodes, values, expected, run) <= allowed)
+
+
+_ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
+_CLEAR = 50  # tolerances that a number has at least which tells its cause alone
+
+
+def explains(
+    item: Item, values: Array, attempt: Array, right: Array, student: StudentBook,
+    rows: Sequence[int] = (),
+) -> bool:  # fmt: skip
+    """Whether an attempt gives the values, or those of some rows, and is not right itself."""
+    if attempt.shape != values.shape or not np.isfinite(attempt).any():
+        return False
+    allowed = tolerance(item, attempt, student)
+    at = np.asarray(rows) if rows else np.arange(len(values))
+    if rows:
+        if (np.abs(values[at]) < _CLEAR * allowed).any():
+            return False  # so few digits may come of anything
+        if len(rows) < _ENOUGH:  # and among so many columns there is always one that is near
+            allowed = min(allowed, _SAME * float(np.abs(values[at]).max()))
+    there = np.isfinite(values[at])
+    if there.sum() < max(1, len(at) // 2):
+        return False
+    # Any angle is a hundred times another, but for whole turns.
+    explained = np.abs(values - attempt)[at][there] <= allowed
+    known = close(item, attempt, right, allowed, student.expected)[at]
+    return bool(explained.all()) and not known.all()
+
+
+def values_of(item: Item, run: Evaluation) -> Array:
+    """Values of an item for an engine."""
+    parts = [np.ravel(np.asarray(run.value(node), dtype=float)) for node in item.nodes]
+    return np.concatenate(parts)
 
 
 def distance(nodes: Sequence[str], values: Array, expected: Array, run: Evaluation) -> Array:

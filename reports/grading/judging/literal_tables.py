@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ast
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from functools import lru_cache
 from itertools import pairwise
@@ -11,9 +12,12 @@ from math import isfinite, nan
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.formula.parse import parse
+from reports.grading.issuing.assignment import Item
 from reports.grading.reading.student import StudentBook
 from reports.recalculation.formulas import PLACES, Formula, Token
 from reports.recalculation.grid import Run
+from reports.recalculation.trial_sheet import full
 
 _ALIKE = 3  # formulas that differ in nothing but their numbers, to be a list of numbers
 _MANY = 8  # long numbers in one formula, to be a list of numbers
@@ -47,6 +51,80 @@ def is_of_angles(student: StudentBook, node: str) -> bool:
     runs = (*student.runs(node), *student.helpers(node))
     literals = {*student.own_numbers(node), *_changing(runs)}
     return bool(angles) and all(of_angles(value, angles) is not None for value in literals)
+
+
+def typed_numbers(student: StudentBook, item: Item) -> frozenset[float]:
+    """Numbers in the formulas of an item, and beside the tables where they read, that tell data.
+
+    What everybody writes is none: π, minutes and degrees, powers of ten, small whole numbers, and
+    what the textbook's own formula has.
+    """
+    numbers = {abs(n) for node in item.nodes for n in student.own_numbers(node)}
+    numbers |= literals(student, item)
+    if not numbers:
+        return frozenset()
+    texts = (student.assignment.graph.expression(node) or "0" for node in item.nodes)
+    theirs = {
+        abs(float(part.value))
+        for text in texts
+        for part in ast.walk(parse(text))
+        if isinstance(part, ast.Constant) and isinstance(part.value, (int, float))
+    }
+    return frozenset(n for n in numbers if not (_is_usual(n) or is_scaled(n, theirs)))
+
+
+def tells_data(student: StudentBook, item: Item) -> bool:
+    """Whether formulas of an item have a number that may stand for some of the data of an engine.
+
+    Few digits tell it where they are what the textbook's formula takes and the student's does not.
+    """
+    if typed_numbers(student, item):
+        return True
+    graph = student.assignment.graph
+    near = frozenset().union(*(graph.references(node) for node in item.nodes))
+    near |= frozenset().union(*(graph.references(name) for name in near if "." not in name))
+    near -= frozenset().union(*(student.precedents(node) for node in item.nodes))
+    values = (student.expected.value(name) for name in near if "." not in name)
+    data = {float(v) for v in values if not isinstance(v, str) and np.ndim(v) == 0}
+    return any(
+        is_scaled(n, data) for n in literals(student, item) if _mantissa(n) != _mantissa(1.0)
+    )
+
+
+def literals(student: StudentBook, item: Item) -> frozenset[float]:
+    """All numbers in the formulas of an item and of the cells of one's own that they read."""
+    runs = (run for node in item.nodes for run in (*student.runs(node), *student.helpers(node)))
+    formulas = (run.formula for run in runs if run.formula is not None)
+    return frozenset().union(*map(_literals, formulas))
+
+
+def is_scaled(value: float, numbers: Iterable[float]) -> bool:
+    """Whether a value is one of the numbers but for a power of ten, as units are."""
+    return any(_mantissa(value) == _mantissa(number) for number in numbers)
+
+
+def _mantissa(value: float) -> str:
+    return f"{abs(value):.9e}".partition("e")[0]
+
+
+@lru_cache(maxsize=20_000)
+def _literals(formula: Formula) -> set[float]:
+    return {float(value) for kind, value in formula.pattern if kind == "number"}
+
+
+_TURNS, _PARTS, _COUNTS = 15, 1440, 16  # degrees, minutes and days; whole numbers up to
+_PLAIN = frozenset((18.0, 24.0, 32.0, 64.0, 9550.0, 9549.0, 3600.0))
+
+
+def _is_usual(number: float) -> bool:
+    """Whether a number may stand in anybody's formula."""
+    whole = number.is_integer()
+    return (
+        len(_mantissa(number).replace(".", "").rstrip("0")) <= 1
+        or (whole and (number <= _COUNTS or (number % _TURNS == 0 and number <= _PARTS)))
+        or number in _PLAIN
+        or full(number) != number
+    )
 
 
 def angles_of(student: StudentBook, node: str) -> tuple[float, ...]:

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
-from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
+from reports.grading.judging.causes import Causes
+from reports.grading.judging.foreign import OtherVariant
+from reports.grading.judging.judgement import GROUNDLESS, STILL, UNKNOWN, Judgement, fault
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
+from reports.grading.judging.spelling import chooses_a_number
 from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
-from reports.grading.judging.verdicts import judge_all
+from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
@@ -48,6 +50,7 @@ from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout
 
 FORMAT = 8
+_DISGUISED = 3  # numbers in the guise of formulas from which a person looks
 Result = dict[str, Any]
 
 
@@ -187,19 +190,19 @@ class Marker:
         student = self.student(book, grid, package)
         response = self.response(student)
         student.settle(response.settled)
-        judgements = judge_all(student, response)
-        tampered = response.tampered
+        judged = judge_all(student, response)
+        for text in judged.faults:
+            _doubt(result, text)
+        tampered = _attempted(result, lambda: response.tampered, list[str]())
         if tampered:
             # A row within a table makes the ranges of given look-ups longer, whoever meant no harm.
             moved = "выданные формулы изменены или сбиты вставкой строк: "
             text = moved if student.placement.moved else "изменены выданные формулы: "
-            text += ", ".join(tampered[:4])
-            result["doubts"].append(text)
-            result["manual"].append(text)
+            _doubt(result, text + ", ".join(tampered[:4]))
         others, titles = self.others(book.number), self.titles(assignment)
         tables = self._tables(assignment)
-        causes = Causes(student, others, titles, tables.variants, response)
-        items = [feedback_line(student, judgement, causes, assignment) for judgement in judgements]
+        causes = Causes(student, others, titles, tables.variants, response, judged.judgements)
+        items = [feedback(student, each, causes, assignment) for each in judged.judgements]
         result |= {
             "status": "graded",
             "feedback": self.register.rubric.feedback.mode,
@@ -209,28 +212,31 @@ class Marker:
                 {"where": c.where, "name": c.name, "was": c.was, "now": c.now}
                 for c in student.changed[:50]
             ],
-            "altered": altered(student, read_grid(package) if student.changed else None)[:50],
+            "altered": _attempted(result, lambda: _altered(student, package), list[str]()),
         }
         notes = result["notes"]
         theirs = self._variant_of(student, book)
         if theirs:
-            text = f"исходные данные заменены данными другого варианта: {theirs}"
-            result["doubts"].append(text)
-            result["manual"].append(text)
-        result["formulas"] = formula_marks(student, tables.own)
-        own = OwnFormulas(student, tables.textbook)
-        result["traits"] = traits_of(own, items)
-        for text in _of_the_program(own, result["formulas"]):
-            result["doubts"].append(text)
-            result["manual"].append(text)
+            _doubt(result, f"исходные данные заменены данными другого варианта: {theirs}")
+        result |= {"formulas": {}, "traits": []}
+        _attempted(result, lambda: self._compare(result, student, tables), None)
         if student.changed:
             notes.append(f"изменены исходные или защищённые данные: ячеек {len(student.changed)}")
         if result["altered"]:
             notes.append("сохранённые значения не соответствуют формулам: " + result["altered"][0])
-        result["manual"] += asked_of_blanks(items)
+        result["manual"] += [*asked_of_blanks(items), *disguised(student, judged.judgements)]
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+
+    @staticmethod
+    def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:
+        """Marks and traits of a work for the comparison with others, and with the program."""
+        result["formulas"] = formula_marks(student, tables.own)
+        own = OwnFormulas(student, tables.textbook)
+        result["traits"] = traits_of(own, result["items"])
+        for text in _of_the_program(own, result["formulas"]):
+            _doubt(result, text)
 
     def _variant_of(self, student: StudentBook, book: Issued) -> str:
         """Owners of the variant typed over the issued input data."""
@@ -269,6 +275,35 @@ class Marker:
         return {name: field.title for name, field in assignment.model.fields.items()}
 
 
+T = TypeVar("T")
+
+
+def _doubt(result: Result, text: str) -> None:
+    """Leave a work to a person."""
+    result["doubts"].append(text)
+    result["manual"].append(text)
+
+
+def _attempted(result: Result, step: Callable[[], T], otherwise: T) -> T:
+    """The outcome of a step on a whole work; an error of the program's leaves it to a person."""
+    try:
+        return step()
+    except Exception as error:
+        _doubt(result, fault(error))
+        return otherwise
+
+
+def feedback(
+    student: StudentBook, judgement: Judgement, causes: Causes, assignment: Assignment
+) -> Result:
+    """One item of the feedback, left to a person where the program itself fails on it."""
+    try:
+        return feedback_line(student, judgement, causes, assignment)
+    except Exception as error:
+        unknown = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=fault(error))
+        return feedback_line(student, unknown, causes, assignment)
+
+
 def _of_the_program(own: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:
     """How the work comes of a book that the program has solved: a person decides."""
     doubts = []
@@ -303,6 +338,11 @@ def _take_match(result: Result, match: Match) -> None:
     result["manual"] += list(match.doubts)
     result["doubts"] += list(match.doubts)
     result["submitter"] = match.submitter
+
+
+def _altered(student: StudentBook, package: Package) -> list[str]:
+    """The first of these cells, in the book as it was saved."""
+    return altered(student, read_grid(package) if student.changed else None)[:50]
 
 
 def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
@@ -344,6 +384,24 @@ def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
                 if now != was:  # a program that saves few digits has changed nothing
                     cells.append(f"{location.sheet}!{where}: сохранено {was}, формула даёт {now}")
     return cells
+
+
+def disguised(student: StudentBook, judgements: Sequence[Judgement]) -> list[str]:
+    """Question to a person where numbers in the guise of formulas are no chance any more."""
+    guises = [j for j in judgements if _is_guise(student, j)]
+    if len(guises) < _DISGUISED:
+        return []
+    what = "столбцов" if all(j.item.is_column for j in guises) else "величин"
+    return [f"число под видом формулы, {what}: {len(guises)}"]
+
+
+def _is_guise(student: StudentBook, judgement: Judgement) -> bool:
+    if judgement.verdict == STILL:
+        return not judgement.origins
+    runs = (run for node in judgement.item.nodes for run in student.runs(node))
+    return judgement.reason == NUMBERS_ALONE and any(
+        run.formula is not None and chooses_a_number(run.formula) for run in runs
+    )
 
 
 def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -8,6 +8,7 @@ it costs it nothing, and a number in the guise of a formula does not follow.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -175,7 +176,7 @@ class FormulaResponse:
 
     def holds_somewhere(self, item: Item, node: str) -> bool:
         """Whether a node's formulas are right for an engine that has other values there."""
-        values = self._values.get(node) or self.tryout.run([node], self.trials)[node]
+        values = self.tried(node)
         if isinstance(values, str):
             return False
         own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
@@ -198,6 +199,11 @@ class FormulaResponse:
     def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
         return close(item, own, right, allowed, trial.expected)
+
+    def tried(self, node: str) -> list[Array] | str:
+        """Values of a node's formulas for every trial, or why they are unknown."""
+        values = self._values.get(node)
+        return self.tryout.run([node], self.trials)[node] if values is None else values
 
     def problem(self, node: str) -> str:
         """Why a node's formulas cannot be tried, empty where they can."""
@@ -245,7 +251,8 @@ class FormulaResponse:
         """Nodes that need not be calculated anew."""
         for item in self.student.assignment.items:
             if not self._keys.keys().isdisjoint(item.nodes) and item.quantity.digits.kind != "text":
-                self.letters(item)  # nobody before must have shown that they are right
+                with suppress(Exception):  # said where the item is judged
+                    self.letters(item)  # nobody before must have shown that they are right
         known = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
         return settled(self.student, known | self._exact)
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Assignment, Item
 from reports.grading.issuing.register import Issued
-from reports.grading.judging.judgement import distance
+from reports.grading.judging.judgement import distance, fault
 from reports.grading.judging.literal_tables import angles_of, of_angles
 from reports.grading.reading.student import StudentBook
 from reports.inputs.fields import Field, cell_name
@@ -247,6 +247,18 @@ class Tryout:
         """Values of nodes for every trial, or why they are unknown."""
         if not nodes or not trials:
             return {node: [] for node in nodes}
+        try:
+            return self._run(nodes, trials, rounded=rounded)
+        except Exception as error:
+            if len(nodes) == 1:
+                return {nodes[0]: fault(error)}
+        # An error of the program's in one formula costs that formula alone.
+        alone = (self.run([node], trials, rounded=rounded) for node in nodes)
+        return {node: values for results in alone for node, values in results.items()}
+
+    def _run(
+        self, nodes: Sequence[str], trials: Sequence[Trial], *, rounded: bool
+    ) -> dict[str, list[Array] | str]:
         student = self.student
         first = pinned(student.grid, self.cells(trials[0], everything=True))
         if not rounded:

@@ -27,8 +27,10 @@ from reports.grading.judging.judgement import (
     Rule,
     close,
     decide,
+    fault,
     tolerance,
 )
+from reports.grading.judging.literal_tables import tells_data
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.reading.circularity import filled_copy
 from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
@@ -39,19 +41,43 @@ from reports.recalculation.formulas import UnknownFormula
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"
 _OWN = "считает от чисел вне таблиц, одних и тех же у всех: это исходные данные или ответ?"
+NUMBERS_ALONE = "формула состоит из одних чисел"
+_BY_CHANCE = (
+    "числа верны, а при других исходных данных формула даёт не то: совпало у этого варианта?"
+)
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 
 
-def judge_all(student: StudentBook, response: FormulaResponse) -> list[Judgement]:
-    """Verdicts on all items, in the order of the book."""
+@dataclass(frozen=True, slots=True)
+class Verdicts:
+    """Verdicts on all items, in the order of the book; ``faults`` are errors of the program."""
+
+    judgements: list[Judgement]
+    faults: tuple[str, ...] = ()
+
+
+def judge_all(student: StudentBook, response: FormulaResponse) -> Verdicts:
+    """Verdicts on all items.
+
+    A rule that fails costs a person's look: an item's own rule at the item, one about what
+    items rest on at the work.
+    """
     items = student.assignment.items
     nodes = [node for item in items for node in item.nodes]
     student.assume({n for n in nodes if student.answers[n].problem and response.problem(n)})
     judgements = {item.id: _judged(item, student, response) for item in items}
-    grounds = Grounds.of(judgements, student, response)
+    faults: tuple[str, ...] = ()
+    try:
+        grounds = Grounds.of(judgements, student, response)
+    except Exception as error:
+        return Verdicts(list(judgements.values()), (fault(error),))
     for rule in GROUND_RULES:
-        rule.apply(judgements, grounds)
-    return [judgements[item.id] for item in items]
+        before = dict(judgements)
+        try:
+            rule.apply(judgements, grounds)
+        except Exception as error:
+            judgements, faults = before, (*faults, fault(error))
+    return Verdicts([judgements[item.id] for item in items], faults)
 
 
 # --- one item by itself ----------------------------------------------------------------------
@@ -61,9 +87,11 @@ def _judged(item: Item, student: StudentBook, response: FormulaResponse) -> Judg
     try:
         return _of_cells(item, student, response)
     except UnknownFormula as problem:
-        count = sum(student.assignment.length(node) for node in item.nodes)
-        nothing = np.full(count, np.nan)
-        return Judgement(item, UNKNOWN, nothing, nothing, reason=str(problem))
+        reason = str(problem)
+    except Exception as error:
+        reason = fault(error)
+    nothing = np.full(sum(map(student.assignment.length, item.nodes)), np.nan)
+    return Judgement(item, UNKNOWN, nothing, nothing, reason=reason)
 
 
 def _of_cells(item: Item, student: StudentBook, response: FormulaResponse) -> Judgement:
@@ -287,6 +315,19 @@ def _pasted(e: ItemEvidence) -> Judgement | None:
     return replace(e.judgement, verdict=UNKNOWN, typed=(), reason=_PASTED)
 
 
+def _by_chance(e: ItemEvidence) -> Judgement | None:
+    """Right for the student's engine alone, with no number in the formula that tells data of it.
+
+    Where the bore is twice the radius, one may stand for the other by mistake.
+    """
+    words = Counter(e.words)
+    partly = say.PARTLY in e.letters and say.NOTHING not in e.letters and not e.plain
+    if not partly or words.keys() - {RIGHT, TYPED} or tells_data(e.student, e.item):
+        return None
+    rows = _where([word == TYPED for word in e.words])
+    return replace(e.judgement, verdict=UNKNOWN, rows=rows, typed=(), reason=_BY_CHANCE)
+
+
 # How a cell that is not right is called, the worst first.
 _WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
 
@@ -321,6 +362,7 @@ ITEM_RULES = (
     ItemRule("numbers allowed", _free),
     ItemRule("idle", _idle),
     ItemRule("pasted", _pasted),
+    ItemRule("by chance", _by_chance),
     ItemRule("by its cells", _by_cells),
 )
 
@@ -345,7 +387,7 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
         return "заполнены не все строки"
     if verdict == TYPED:
         if unlinked and set(letters) != {say.NOTHING}:
-            return "формула состоит из одних чисел"
+            return NUMBERS_ALONE
         if say.PARTLY in letters:
             return "вместо ссылки в формуле стоит число: при других данных она неверна"
     if verdict == WRONG and TEXT in kinds and set(words) == {WRONG}:

@@ -58,13 +58,13 @@ def explain(
     student = marker.student(match.book, grid, package)
     item = _find_item(student, target)
     response = marker.response(student)
-    judgements = judge_all(student, response)
+    judgements = judge_all(student, response).judgements
     judgement = next(j for j in judgements if j.item is item)
     yield f"Студент: {match.book.student.full}, вариант {match.book.number}"
     yield "Основание: " + "; ".join(match.evidence)
     others = marker.others(match.book.number)
     titles = marker.titles(student.assignment)
-    causes = Causes(student, others, titles, response=response)
+    causes = Causes(student, others, titles, response=response, judgements=judgements)
     yield from _about(student, item, judgement, causes)
 
 

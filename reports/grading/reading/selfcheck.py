@@ -7,8 +7,9 @@ what must not be changed follows from its input data and from marks put there at
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from reports.exports.build import load_input
 from reports.grading.issuing.assignment import Assignment, assignment_of
@@ -18,7 +19,7 @@ from reports.grading.reading.circularity import through
 from reports.grading.reading.placement import address, range_text, stretches
 from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, StudentBook
-from reports.grading.reading.submissions import own_properties
+from reports.grading.reading.submissions import collect, own_properties
 from reports.model.blocks import Model
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
 from reports.recalculation.formulas import UnknownFormula
@@ -51,6 +52,29 @@ def is_work_book(path: Path) -> bool:
         return TICKET_NAME.encode() in package.read("xl/workbook.xml")
     except (InputError, KeyError):
         return False
+
+
+def findings_in_archive(path: Path) -> list[BookFinding]:
+    """The same of the work-books of a zip, as they would be handed in.
+
+    Raises:
+        InputError: it cannot be read, or there is no work-book in it.
+    """
+    results: list[BookFinding] = []
+    seen = False
+    with TemporaryDirectory(prefix="kshm-check-") as folder:
+        for at, submission in enumerate(collect(path)):
+            book = Path(folder) / str(at) / Path(submission.key).name
+            book.parent.mkdir()
+            book.write_bytes(submission.read())
+            if is_work_book(book):
+                seen = True
+                name = submission.label
+                results += [replace(x, where=f"{name}, {x.where}") for x in findings(book)]
+    if not seen:
+        hint = "положите в архив книгу .xlsx, которую вам выдали"
+        raise InputError(Problem(path.name, "в архиве нет выданной рабочей книги", hint))
+    return results
 
 
 def findings(path: Path) -> list[BookFinding]:

@@ -84,7 +84,7 @@ MISTAKES = (
         cause="пропущен множитель λ"),
     one("omega not squared", "P3_1.j1_m_s2", f"={R}*{OMEGA}*COS({_RAD})", cause="в квадрат"),
     one("single angle", "P3_1.j2_m_s2", f"={R}*{OMEGA}^2*{LAM}*COS({_RAD})",
-        cause="потеряно число 2"),
+        cause="угол φ вместо 2φ"),
     one("dollar forgotten", "P3_1.v1_m_s",
         [f"=Массы!C{5 + i}*Массы!C{13 + i}*SIN(A{6 + i}*PI()/180)" for i in range(ROWS)],
         cause="$"),
@@ -117,7 +117,7 @@ MISTAKES = (
     one("division by nought", "lam", "=C5/0", "error"),
     one("not available", "lam", "=NA()", "error"),
     Work("a number as a text", edit=_text_number, verdicts={"geometry.omega": "typed"}),
-    one("of the wrong rod", "lam", "", cause="из варианта"),
+    one("of the wrong rod", "lam", "", cause="не из вашего варианта"),
     one("rounded too far", "P3_1.s_mm", "=ROUND(B{r}+C{r},0)", cause="округл"),
     one("typed omega", "P3_1.v1_m_s", "={r_}", "typed"),
     Work(

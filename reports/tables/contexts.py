@@ -176,8 +176,6 @@ def _rounded(scope: Scope) -> dict[str, Any]:
     return {"usual_share": share, "usual_peak": peak, "usual_join": join}
 
 
-BY_FORMULAS = ("strength",)  # books whose numbers no solver gives: they are those of the formulas
-
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
@@ -211,7 +209,7 @@ def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
     names, theirs = tuple(names), shelf_of(scope.input.books).names
     parts = [book_part(name, scope) for name in names]
-    own = (part for name, part in zip(names, parts, strict=True) if name in (*theirs, *BY_FORMULAS))
+    own = (part for name, part in zip(names, parts, strict=True) if name in theirs)
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),

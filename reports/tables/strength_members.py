@@ -18,8 +18,10 @@ from kshm.defaults import (
     TURN_SHARE,
 )
 from kshm.mechanics.strength import EYE_M0, EYE_N0, RING, TORSION, Points
+from kshm.nomenclature.quantity import quantity
 from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
+from reports.shared.russian import short
 
 ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
@@ -93,11 +95,21 @@ class UsualStress:
         """Name of its check: ``crown`` of ``st_crown_MPa``."""
         return self.key.removeprefix("st_").removesuffix("_MPa").removesuffix("_mm")
 
+    @property
+    def most(self) -> float:
+        """Greatest usual size of the value, of whatever sign."""
+        return max(abs(self.low), abs(self.high))
+
+    @property
+    def usual(self) -> str:
+        """The range in print: ``20…150 МПа``."""
+        return f"{short(self.low)}…{short(self.high)} {quantity(self.key).unit_label}"
+
     def excess(self, value: float) -> int:
         """1 above the range, -1 below, 0 within; of a compression by its size."""
         if self.low <= value <= self.high:
             return 0
-        return 1 if abs(value) > max(abs(self.low), abs(self.high)) else -1
+        return 1 if abs(value) > self.most else -1
 
 
 _WALL, _PIN_WALL = "увеличить толщину стенки головки поршня", "увеличить толщину стенки пальца"

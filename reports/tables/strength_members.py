@@ -23,6 +23,7 @@ from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
 from reports.shared.russian import short
 
+SAFETIES = ("st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n")
 ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
 _NAMES = {"pin": "dп", "ring_radial": "t", "eye_outer": "dг", "eye_length": "lш"}
@@ -65,7 +66,7 @@ def strength_names(scope: Scope) -> dict[str, object]:
         "eye_share": EYE_SHARE, "turn_share": TURN_SHARE, "sizes_c": SIZES_C,
         "expansion": {"cylinder": IRON_EXPANSION, "bush": BUSH_EXPANSION,
                       "piston": piston_expansion(section)},
-        "stresses": usual_stresses(section),
+        "stresses": usual_stresses(section), "safeties": SAFETIES,
         "ring_points": _pairs(RING), "eye_N0": _pairs(EYE_N0), "eye_M0": _pairs(EYE_M0),
         "torsion_points": _pairs(TORSION), "odd_fifths": ODD_FIFTHS,
     }  # fmt: skip

@@ -28,6 +28,7 @@ ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
 _NAMES = {"pin": "dп", "ring_radial": "t", "eye_outer": "dг", "eye_length": "lш"}
 
+
 @dataclass(frozen=True, slots=True)
 class PartSize:
     """A size and its usual share of another: ``of`` in print, ``base`` in formulas."""
@@ -144,6 +145,6 @@ def usual_stresses(section: StrengthSection) -> tuple[UsualStress, ...]:
     """Usual ranges of the results for the materials of an engine."""
     iron = section.piston_material == "iron"
     return tuple(
-        UsualStress(key, title, *((of_iron if iron and of_iron else span)), mend)
+        UsualStress(key, title, *(of_iron if iron and of_iron else span), mend)
         for key, title, span, of_iron, mend in _USUAL
     )

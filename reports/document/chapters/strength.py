@@ -45,7 +45,10 @@ _MENDS = {
 }
 _SIDES = {-1: "меньше", 0: "в пределах", 1: "больше"}
 # Rule of Serensen and Kinasoshvili: which limit a cycle reaches.
-_FATIGUE = r"\dfrac{k}{\varepsilon}\,\sigma_a (1 - \beta_\sigma) > (\beta_\sigma - \alpha_\sigma)\,\sigma_m"
+_FATIGUE = (
+    r"\dfrac{k}{\varepsilon}\,\sigma_a (1 - \beta_\sigma) > "
+    r"(\beta_\sigma - \alpha_\sigma)\,\sigma_m"
+)
 _CYCLE = {"amplitude": r"\sigma_a", "mean": r"\sigma_m",
           "beta": r"\beta_\sigma = \sigma_{-1\mathrm{р}} / \sigma_{\mathrm{т}}"}  # fmt: skip
 _LIMITS = ("tensile", "yield", "bend", "pull", "turn", "modulus")  # columns of the materials
@@ -159,8 +162,10 @@ def _materials(chapter: Chapter) -> TableBlock:
         if part != "web" or terms.has("st_web_n")
     ]  # fmt: skip
     empty = ["—"] * (len(_LIMITS) - 1)
-    rows += [[title, "—", *empty, terms.num(f"strength_{part}_modulus_mpa")]
-             for title, part in (("Палец", "pin"), ("Втулка", "bush"), ("Кольцо", "ring"))]
+    rows += [
+        [title, "—", *empty, terms.num(f"strength_{part}_modulus_mpa")]
+        for title, part in (("Палец", "pin"), ("Втулка", "bush"), ("Кольцо", "ring"))
+    ]
     columns = [TableColumn("Деталь", 2.4, text=True), TableColumn("Материал", 2, text=True)]
     columns += [TableColumn(symbol_head(terms.quantity(f"rod_{key}").tex, "МПа"), 1.4)
                 for key in _LIMITS]  # fmt: skip

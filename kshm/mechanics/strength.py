@@ -213,9 +213,14 @@ def _lame(at: float, other: float) -> tuple[float, float]:
     return float(a), float(b)
 
 
-def _shift(at: float, other: float, modulus: float) -> float:
+def compliance(at: float, other: float) -> float:
+    """Shift of a ring's surface under a unit pressure over r/E [-], inwards negative, by Lamé."""
     a, b = _lame(at, other)
-    return ((1 - POISSON) * a * at + (1 + POISSON) * b / at) / modulus
+    return (1 - POISSON) * a + (1 + POISSON) * b / at**2
+
+
+def _shift(at: float, other: float, modulus: float) -> float:
+    return compliance(at, other) * at / modulus
 
 
 def hoop_stresses(pressure: float, inner: float, outer: float) -> tuple[float, float]:
@@ -271,7 +276,7 @@ class StressCycle(NamedTuple):
         return cls((most - least) / 2, (most + least) / 2)
 
     def safety(self, limits: Sequence[float], k: float, mean: float) -> float:
-        """Safety of a cycle: on the line of fatigue or that of yielding, whichever is met first.
+        """Safety of a cycle by fatigue or by yielding, Serensen and Kinasoshvili.
 
         A pressing mean stress counts as none.
 
@@ -280,7 +285,9 @@ class StressCycle(NamedTuple):
             k: concentration over size and surface.
             mean: factor of the mean stress.
         """
-        amplitude, middle = self.amplitude * k, max(self.mean, 0.0)
+        worn, middle = self.amplitude * k, max(self.mean, 0.0)
         endurance, yielding = limits
-        # Lines over the mean stress: σ_−1 − ψσ_m and σ_т − σ_m; the ray of the cycle meets both.
-        return min(endurance / (amplitude + mean * middle), yielding / (amplitude + middle))
+        share = endurance / yielding  # β: fatigue is met first above (β − α)/(1 − β)
+        if worn * (1 - share) > (share - mean) * middle:
+            return endurance / (worn + mean * middle)
+        return yielding / (worn + middle)

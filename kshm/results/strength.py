@@ -22,7 +22,7 @@ from kshm.defaults import (
 from kshm.engine.masses import RodMasses
 from kshm.engine.strength import PartStrength, Steel
 from kshm.mechanics import strength as parts
-from kshm.mechanics.strength import Pin, StressCycle
+from kshm.mechanics.strength import Pin, SectionLoad, StressCycle
 from kshm.results.case import Case
 from kshm.results.forces import bending_forces
 
@@ -64,9 +64,9 @@ class _Study:
         """Piston with its pin, the rest of the reciprocating mass, the cap, m_j and m_2 [kg]."""
         engine, batch, index = self.case.engine, self.case.raw.batch, self.case.index
         moving, turning = (float(mass[index, 0, 0]) for mass in (batch.m_j, batch.m_2))
-        weighed = isinstance(engine.masses, RodMasses)
-        usual = engine.masses.piston_group if weighed else PISTON_SHARE * moving
-        piston = usual if self.inputs.piston is None else self.inputs.piston
+        given, masses = self.inputs.piston, engine.masses
+        usual = masses.piston_group if isinstance(masses, RodMasses) else PISTON_SHARE * moving
+        piston = usual if given is None else given
         return {
             "piston": piston, "rod": moving - piston, "cap": CAP_SHARE * turning,
             "moving": moving, "turning": turning,
@@ -152,6 +152,7 @@ class _Study:
             "st_inner_mm": self.inner,
             # Both forms are one: 0.25 p(d/δ)² is p(r/δ)².
             "st_crown_MPa": crown,
+            "st_groove_mm": groove,
             "st_groove_cm2": ring - drilled,
             "st_press_MPa": self.gas / (ring - drilled),
             "st_pull_MPa": pull / (ring - drilled),
@@ -224,7 +225,14 @@ class _Study:
         moduli = given.bush_modulus, steel.modulus
         pressure = parts.fit_pressure(given.bush_fit + max(0.0, grown), radii, moduli)
         inside, outside = parts.hoop_stresses(pressure, *radii[1:])
-        return {"st_bush_MPa": pressure, "st_bush_out_MPa": outside, "st_bush_in_MPa": inside}
+        gap = given.bush_fit + max(0.0, grown)
+        bush, common, eye = radii
+        return {
+            "st_bush_gap_mm": gap, "st_bush_MPa": pressure,
+            "st_bush_eye": parts.compliance(common, eye),
+            "st_bush_ring": -parts.compliance(common, bush),
+            "st_bush_out_MPa": outside, "st_bush_in_MPa": inside,
+        }  # fmt: skip
 
     def eye(self) -> Scalars:
         """Section I-I, bush, bending of the eye when it is drawn and pressed, safety."""
@@ -245,10 +253,12 @@ class _Study:
             scalars |= {f"st_{name}_N0": at_top.force, f"st_{name}_M0": at_top.moment,
                         f"st_{name}_N": at.force, f"st_{name}_M": at.moment,
                         f"st_{name}_MPa": stress}  # fmt: skip
+        turned = parts.eye_section(SectionLoad(0.0, 0.0), 1.0, 1.0, given.embedding, drawn=False)
         return bush | scalars | {
+            "st_squeeze_P_N": pressed_by, "st_squeeze_J": turned.force,
             "st_eye_bore_mm": self.eye_bore, "st_eye_wall_mm": wall, "st_eye_mean_mm": radius,
             "st_eye_top_MPa": top, "st_eye_K": share,
-            **self._fatigue("eye_top", top, 0.0), **self._fatigue("eye", *stresses),
+            **self._fatigue("eye_top", top, 0.0), **self._fatigue("eye", stresses[0], stresses[1]),
         }  # fmt: skip
 
     @property

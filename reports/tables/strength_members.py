@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -16,6 +17,7 @@ from kshm.defaults import (
     PISTON_SHARE,
     SIZES_C,
     TURN_SHARE,
+    Span,
 )
 from kshm.mechanics.strength import EYE_M0, EYE_N0, RING, TORSION, Points
 from kshm.nomenclature.quantity import quantity
@@ -23,6 +25,7 @@ from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
 from reports.shared.russian import short
 
+_FIGURES = 12  # decimals: what the print has of a slope, without noise
 SAFETIES = ("st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n")
 ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
@@ -68,8 +71,9 @@ def strength_names(scope: Scope) -> dict[str, object]:
         "expansion": {"cylinder": IRON_EXPANSION, "bush": BUSH_EXPANSION,
                       "piston": piston_expansion(section)},
         "stresses": usual_stresses(section), "safeties": SAFETIES,
-        "ring_points": _pairs(RING), "eye_N0": _pairs(EYE_N0), "eye_M0": _pairs(EYE_M0),
-        "torsion_points": _pairs(TORSION), "odd_fifths": ODD_FIFTHS,
+        "ring_points": RING, "eye_N0": EYE_N0, "eye_M0": EYE_M0,
+        "torsion_lines": list(_lines(TORSION)), "torsion_end": TORSION[-1][0],
+        "odd_fifths": ODD_FIFTHS,
     }  # fmt: skip
 
 
@@ -78,8 +82,11 @@ def piston_expansion(section: StrengthSection) -> float:
     return IRON_EXPANSION if section.piston_material == "iron" else ALUMINIUM_EXPANSION
 
 
-def _pairs(points: Points) -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    return list(pairwise(points))
+def _lines(points: Points) -> Iterator[tuple[float, float]]:
+    """Straight lines between points, each as its value at zero and its slope."""
+    for (x, y), (further, other) in pairwise(points):
+        slope = round((other - y) / (further - x), _FIGURES)
+        yield round(y - slope * x, _FIGURES), slope
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +125,7 @@ _WALL, _PIN_WALL = "увеличить толщину стенки головк�
 _PIN_SIZES = "увеличить диаметр пальца или толщину его стенки"
 _GAP = "уменьшить разность зазоров замка"
 # Of pistons of aluminium, and of iron where those differ; from memory of Kolchin and Demidov.
-_USUAL = (
+_USUAL: tuple[tuple[str, str, Span, Span | None, str], ...] = (
     ("st_crown_MPa", "Напряжение в днище поршня", (20, 150), (40, 200), "увеличить толщину днища"),
     ("st_press_MPa", "Напряжение сжатия поршня по канавке", (0, 40), (0, 80), _WALL),
     ("st_pull_MPa", "Напряжение разрыва поршня по канавке", (0, 10), (0, 20), _WALL),

@@ -18,7 +18,7 @@ from reports.document.page.blocks import (
     table_block,
 )
 from reports.document.page.numbering import Figure, TablePlan
-from reports.document.text.symbols import inline_html, titled_html
+from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name
 from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
@@ -44,13 +44,6 @@ _MENDS = {
     "st_web": "увеличить ширину или толщину щеки, взять сталь прочнее",
 }
 _SIDES = {-1: "меньше", 0: "в пределах", 1: "больше"}
-# Rule of Serensen and Kinasoshvili: which limit a cycle reaches.
-_FATIGUE = (
-    r"\dfrac{k}{\varepsilon}\,\sigma_a (1 - \beta_\sigma) > "
-    r"(\beta_\sigma - \alpha_\sigma)\,\sigma_m"
-)
-_CYCLE = {"amplitude": r"\sigma_a", "mean": r"\sigma_m",
-          "beta": r"\beta_\sigma = \sigma_{-1\mathrm{р}} / \sigma_{\mathrm{т}}"}  # fmt: skip
 _LIMITS = ("tensile", "yield", "bend", "pull", "turn", "modulus")  # columns of the materials
 _RANGED = 2  # decimals of values beside their usual limits
 _SPARE = "взято с запасом"  # of a value below the usual
@@ -84,8 +77,6 @@ def strength(chapter: Chapter) -> Markup:
         cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
         outside=_outside(chapter),
         weak=_weak(chapter),
-        fatigue=_FATIGUE,
-        sigma={name: inline_html(tex) for name, tex in _CYCLE.items()},
         exchange=terms.has("st_Pg_tdc_N"),
         web=_weakest_web(terms, chapter.shape.throws),
         large=_bore_mm(terms) > _USUAL_BORE_MM,

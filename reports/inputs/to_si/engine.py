@@ -136,7 +136,8 @@ def to_parts(section: StrengthSection | None) -> PartStrength | None:
 def _steel(name: str) -> Steel:
     material = PART_MATERIALS[name]
     limits = ("tensile", "yielding", "bending", "pull", "modulus")
-    return Steel(*(MPA.to_si(getattr(material, key)) for key in limits), material.expansion)
+    in_si = {key: MPA.to_si(getattr(material, key)) for key in limits}
+    return Steel(**in_si, expansion=material.expansion)
 
 
 def to_engine(model: InputFile) -> Engine:

@@ -51,15 +51,21 @@ def _size(key: str, symbol: str) -> float | None:
 class StrengthSection(Strictly, usual=(PartStrength,)):
     """[strength]: a size that is not given is its usual share, which the workbook names."""
 
-    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, USUAL)
-    crown_form: Literal["full", "quarter"] = choice("Формула днища поршня", CROWNS, USUAL)
-    pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, USUAL)
-    oval_form: Literal["curved", "program"] = choice("Овализация пальца", OVALS, USUAL)
-    bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, USUAL)
+    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, USUAL, structural=True)
+    crown_form: Literal["full", "quarter"] = choice(
+        "Формула днища поршня", CROWNS, USUAL, structural=True
+    )
+    pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, USUAL, structural=True)
+    oval_form: Literal["curved", "program"] = choice(
+        "Овализация пальца", OVALS, USUAL, structural=True
+    )
+    bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, USUAL, structural=True)
     speed_factor: float = number(
         "Отношение наибольшей частоты вращения к частоте режима", "ω_max/ω", NONE, 1, 1.5, USUAL
     )
-    piston_material: Literal["aluminium", "iron"] = choice("Материал поршня", PISTONS, USUAL)
+    piston_material: Literal["aluminium", "iron"] = choice(
+        "Материал поршня", PISTONS, USUAL, structural=True
+    )
     piston_kg: float | None = number(title_of("st_m_piston"), "m_пк", KG, 0.001, 5000, None)
     crown_mm: float | None = _size("crown", "δ_дн")
     height_mm: float | None = _size("height", "H")

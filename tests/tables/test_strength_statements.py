@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import random
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from kshm.chain.solve import solve_batch
 from kshm.defaults import PART_SHARES
 from reports.exports.numbers import export_tables, json_text
 from reports.inputs.fields import to_mapping
@@ -16,8 +18,11 @@ from reports.inputs.load import load_mapping, load_text
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.inputs.solve_input import solved
+from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.evaluation import Evaluation
 from reports.new.generate import file_text, generate_engine
+from reports.studies.comparison import Compared, results
+from reports.studies.quantities import choose, of_batch
 from reports.tables.registry import build_model
 from reports.tables.strength_members import SAFETIES, usual_stresses
 from tests.conftest import sample
@@ -140,6 +145,20 @@ def test_numbers_without_documents_have_the_chapter() -> None:
     tables = export_tables(solution)
     assert {"ring_pressure", "webs_load"} <= tables.keys()
     assert len(tables["ring_pressure"]["st_ring_deg"]) == 13
+
+
+def test_studies_and_comparisons_take_the_solvers_numbers() -> None:
+    data = sample("vaz-2106")
+    engine, cycle = engine_and_cycle(data)
+    raw, scalars = solve_batch([engine]), solved(data).scalars
+    values, _ = of_batch(raw, choose(raw, ["st_bolt_n", "st_web_n"]), [cycle])
+    assert {key: each[0] for key, each in values.items()} == {
+        key: scalars[key] for key in ("st_bolt_n", "st_web_n")
+    }
+    rows = results([Compared("one", Path("one.toml"), data, solved(data))] * 2)
+    strength = {row.key: row.values for row in rows if row.group == "Прочность деталей"}
+    assert strength["st_pin_bend_MPa"] == (scalars["st_pin_bend_MPa"],) * 2
+    assert set(SAFETIES) <= strength.keys()
 
 
 def test_new_engines_hold_their_usual_ranges() -> None:

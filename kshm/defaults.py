@@ -69,3 +69,8 @@ PART_SHARES: dict[str, tuple[str, Span, Span]] = {
 PISTON_SHARE = 0.65  # of the reciprocating mass, without a source
 CAP_SHARE = 0.22  # of the rod's big end, without a source
 GROOVE_SHARE = 0.5  # of the piston group above the section of the oil ring's groove
+EYE_SHARE = 0.3  # of the rod's mass at the pin, above the section I-I of its eye, without a source
+TURN_SHARE = 0.6  # of the endurance in torsion to that in bending, without a source
+# Expansion [1/K] of cylinder, pistons and bush; temperature of the sizes [°C].
+IRON_EXPANSION, ALUMINIUM_EXPANSION, BUSH_EXPANSION = 11e-6, 22e-6, 18e-6
+SIZES_C = 20.0

@@ -14,6 +14,7 @@ from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
+from kshm.engine.strength import PartStrength
 from kshm.engine.torsion import Torsion
 from kshm.nomenclature.quantity import UNITS
 
@@ -156,6 +157,7 @@ class Engine:
     articulated: tuple[ArticulatedRod, ...] = ()
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
+    strength: PartStrength | None = None  # strength of the parts, if it is asked for
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""

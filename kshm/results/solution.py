@@ -28,6 +28,7 @@ from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_sca
 from kshm.results.motion import neiman_results, segal_results, two_term_errors
 from kshm.results.named import NAMES, Group, html_table
 from kshm.results.reference import reference_results, reference_tables
+from kshm.results.strength import strength_results
 from kshm.results.torsion import torsion_results
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ Subject = Callable[[Case], Results]
 # and those whose cylinders move alike: no articulated rods.
 ALWAYS: tuple[Subject, ...] = (
     reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
-    torsion_results, bearing_results,
+    torsion_results, bearing_results, strength_results,
 )  # fmt: skip
 BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
 SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)

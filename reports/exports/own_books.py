@@ -115,8 +115,8 @@ class OwnNumbers:
 
 
 def own_numbers(model: InputFile) -> OwnNumbers:
-    """What books alone give for an engine, those of a department and of strength."""
-    if not model.books and model.strength is None:
+    """What the books of a department give for an engine; nothing without them."""
+    if not model.books:
         return OwnNumbers({}, {})
     built = kept_model(model)
     run = Evaluation(built)

@@ -47,7 +47,8 @@ class Strictly(BaseModel):
                 meta = next(part for part in info.metadata if isinstance(part, Meta))
                 name = solver_name(key, meta)
                 given: Any = next(f.default for t in usual for f in fields(t) if f.name == name)
-                setattr(cls, key, _field(meta, meta.unit.from_si(given)))
+                usual_value = given if meta.choices is not None else meta.unit.from_si(given)
+                setattr(cls, key, _field(meta, usual_value))
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,6 @@ from typing import Any
 
 import tomlkit
 
-from kshm.defaults import PART_SHARES
 from kshm.engine.masses import Estimate
 from kshm.mechanics.masses import PISTON, ROD, THROW, area_masses
 from reports.inputs.load import load_mapping
@@ -29,6 +28,7 @@ from reports.inputs.template import NUMBER_WORDS
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, Sizes
 from reports.inputs.units import number_text, span_text
 from reports.new.default_firing import Phases, phases
+from reports.new.part_sizes import parts_for
 from reports.new.sizing import (
     EngineTask,
     main_sizes,
@@ -101,7 +101,7 @@ def generate_engine(
 ) -> NewEngine:
     """Engine for a task, ``given`` as fields of `EngineTask`; usual values elsewhere.
 
-    ``strength`` adds usual sizes of piston, pin and rod.
+    ``strength`` adds sizes of piston, pin and rod, usual ones that follow the load.
 
     Raises:
         InputError: there is no such engine.
@@ -143,7 +143,8 @@ def generate_engine(
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
     )
     if strength:
-        data["strength"], parts = usual_parts(kind, bore, sizes.pin)
+        whole = load_mapping(data, source="kshm new").model
+        data["strength"], parts = parts_for(whole, kind, sizes.pin)
         notes |= parts
     notes = {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}
     return NewEngine(data, with_spans(notes, kind), head)
@@ -312,21 +313,6 @@ def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
     }  # fmt: skip
 
 
-def usual_parts(kind: str, bore: float, crankpin: float) -> tuple[dict[str, Any], Notes]:
-    """Section [strength]: usual sizes [mm], each with the ratio that it follows from."""
-    section: dict[str, Any] = {"kind": kind}
-    notes, sizes = dict[str, str](), {"bore": bore, "crankpin": crankpin}
-    for key, (base, petrol, diesel) in PART_SHARES.items():
-        low, high = diesel if kind == "diesel" else petrol
-        share = (low + high) / 2
-        value = round(share * sizes[base], 1 if share * sizes[base] > _FINE_SIZE else 2)
-        sizes[key] = section[f"{key}_mm"] = value
-        of = {"bore": "D", "crankpin": "диаметра шейки"}.get(base, f"{base}_mm")
-        span = f"{number_text(low)}…{number_text(high)}"
-        notes[f"strength.{key}_mm"] = f"{number_text(round(share, 4))} {of} (обычно {span})"
-    return section, notes
-
-
 def timing_notes(timing: Phases) -> Notes:
     """Notes on the phases."""
     bank = "угол из обычных для такого числа цилиндров; впишите свой вместе с фазами"
@@ -341,7 +327,6 @@ def timing_notes(timing: Phases) -> Notes:
     }
 
 
-_FINE_SIZE = 10.0  # mm, from which tenths are enough
 FIRST = ("engine", "geometry", "regime", "gas")
 LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 

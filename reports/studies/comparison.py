@@ -125,6 +125,10 @@ RESULTS: tuple[tuple[str, tuple[str | tuple[str, str], ...]], ...] = (
         "F1_before_max", "F1_after_max", "Frot", "L1_before_max", "L1_after_max", "Lrot",
         "I_engine_mean", "I_flywheel", "delta_speed",
     )),
+    ("Прочность деталей", (
+        "st_crown_MPa", "st_land_MPa", "st_pin_bend_MPa", "st_oval_mm", "st_cap_MPa",
+        "st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n",
+    )),
 )  # fmt: skip
 X_TITLE = PHI
 CHARTS = (
@@ -274,7 +278,7 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
     for engine in engines:
         scalars = engine.solution.scalars
         # Of unequal crankpins the most loaded one is told, as in the report.
-        own = pattern.replace("pin_", f"pin{pin_name(_worst_pin(engine))}_")
+        own = re.sub("^(R|q_)pin_", rf"\1pin{pin_name(_worst_pin(engine))}_", pattern)
         names = [name for name in scalars if re.fullmatch(own, name)]
         known = known or (names[0] if names else "")
         largest = max((float(scalars[name]) for name in names), default=None)

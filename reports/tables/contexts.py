@@ -177,8 +177,6 @@ def _rounded(scope: Scope) -> dict[str, Any]:
     return {"usual_share": share, "usual_peak": peak, "usual_join": join}
 
 
-BY_FORMULAS = ("strength",)  # books whose numbers no solver gives: they are those of the formulas
-
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
@@ -217,7 +215,7 @@ def books(scope: Scope, names: Iterable[str]) -> Part:
     parts = [book_part(name, scope) for name in names]
     nodes = {name: frozenset(key for block in part.blocks for key, _ in nodes_in(block))
              for name, part in zip(names, parts, strict=True)
-             if name in (*theirs, *BY_FORMULAS)}  # fmt: skip
+             if name in theirs}  # fmt: skip
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),

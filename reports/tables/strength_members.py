@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from kshm.defaults import CAP_SHARE, GROOVE_SHARE, PART_SHARES, PISTON_SHARE
-from reports.inputs.sections.strength import PART_MATERIALS
+from kshm.defaults import (
+    ALUMINIUM_EXPANSION,
+    BUSH_EXPANSION,
+    CAP_SHARE,
+    EYE_SHARE,
+    GROOVE_SHARE,
+    IRON_EXPANSION,
+    PART_SHARES,
+    PISTON_SHARE,
+    SIZES_C,
+    TURN_SHARE,
+    Span,
+)
+from kshm.mechanics.strength import EYE_M0, EYE_N0, RING, TORSION, Points
+from kshm.nomenclature.quantity import quantity
+from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
+from reports.shared.russian import short
 
-Point = tuple[float, float]
+_FIGURES = 12  # decimals: what the print has of a slope, without noise
+SAFETIES = ("st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n")
+ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
 _NAMES = {"pin": "dп", "ring_radial": "t", "eye_outer": "dг", "eye_length": "lш"}
-# Of the ring's pressure to the mean one, pear form, from the middle to the gap [deg].
-RING = ((0.0, 1.05), (30.0, 1.05), (60.0, 1.14), (90.0, 0.90), (120.0, 0.45), (150.0, 0.67),
-        (180.0, 2.85))  # fmt: skip
-# Of the pressed eye over the embedding [deg]: N0/P and the size of M0/(P r); the sign is that of
-# statics.
-EYE_N0 = ((95.0, 0.0), (100.0, 0.0001), (105.0, 0.0005), (110.0, 0.0009), (115.0, 0.0018),
-          (120.0, 0.0030), (125.0, 0.0060), (130.0, 0.0085))  # fmt: skip
-EYE_M0 = ((95.0, 0.0), (100.0, 0.0), (105.0, 0.0001), (110.0, 0.00025), (115.0, 0.0006),
-          (120.0, 0.0011), (125.0, 0.0018), (130.0, 0.0030))  # fmt: skip
-# Factor of the torsion of a rectangle by its sides' ratio.
-TORSION = ((1.0, 0.208), (1.5, 0.231), (1.75, 0.239), (2.0, 0.246), (2.5, 0.258), (3.0, 0.267),
-           (4.0, 0.282))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +67,91 @@ def strength_names(scope: Scope) -> dict[str, object]:
         "sizes": usual_sizes(section.kind),
         "materials": list(PART_MATERIALS.values()),
         "piston_share": PISTON_SHARE, "cap_share": CAP_SHARE, "groove_share": GROOVE_SHARE,
-        "ring_points": _pairs(RING), "eye_N0": _pairs(EYE_N0), "eye_M0": _pairs(EYE_M0),
-        "torsion_points": _pairs(TORSION),
+        "eye_share": EYE_SHARE, "turn_share": TURN_SHARE, "sizes_c": SIZES_C,
+        "expansion": {"cylinder": IRON_EXPANSION, "bush": BUSH_EXPANSION,
+                      "piston": piston_expansion(section)},
+        "stresses": usual_stresses(section), "safeties": SAFETIES,
+        "ring_points": RING, "eye_N0": EYE_N0, "eye_M0": EYE_M0,
+        "torsion_lines": list(_lines(TORSION)), "torsion_end": TORSION[-1][0],
+        "odd_fifths": ODD_FIFTHS,
     }  # fmt: skip
 
 
-def _pairs(points: Sequence[Point]) -> list[tuple[Point, Point]]:
-    return list(pairwise(points))
+def piston_expansion(section: StrengthSection) -> float:
+    """Expansion of the piston's material [1/K]."""
+    return IRON_EXPANSION if section.piston_material == "iron" else ALUMINIUM_EXPANSION
+
+
+def _lines(points: Points) -> Iterator[tuple[float, float]]:
+    """Straight lines between points, each as its value at zero and its slope."""
+    for (x, y), (further, other) in pairwise(points):
+        slope = round((other - y) / (further - x), _FIGURES)
+        yield round(y - slope * x, _FIGURES), slope
+
+
+@dataclass(frozen=True, slots=True)
+class UsualStress:
+    """A result of a part with its usual range, in the unit of its quantity, and what mends it."""
+
+    key: str
+    title: str
+    low: float
+    high: float
+    mend: str
+
+    @property
+    def name(self) -> str:
+        """Name of its check: ``crown`` of ``st_crown_MPa``."""
+        return self.key.removeprefix("st_").removesuffix("_MPa").removesuffix("_mm")
+
+    @property
+    def most(self) -> float:
+        """Greatest usual size of the value, of whatever sign."""
+        return max(abs(self.low), abs(self.high))
+
+    @property
+    def usual(self) -> str:
+        """The range in print: ``20…150 МПа``."""
+        return f"{short(self.low)}…{short(self.high)} {quantity(self.key).unit_label}"
+
+    def excess(self, value: float) -> int:
+        """1 above the range, -1 below, 0 within; of a compression by its size."""
+        if self.low <= value <= self.high:
+            return 0
+        return 1 if abs(value) > self.most else -1
+
+
+_WALL, _PIN_WALL = "увеличить толщину стенки головки поршня", "увеличить толщину стенки пальца"
+_PIN_SIZES = "увеличить диаметр пальца или толщину его стенки"
+_GAP = "уменьшить разность зазоров замка"
+# Of pistons of aluminium, and of iron where those differ; from memory of Kolchin and Demidov.
+_USUAL: tuple[tuple[str, str, Span, Span | None, str], ...] = (
+    ("st_crown_MPa", "Напряжение в днище поршня", (20, 150), (40, 200), "увеличить толщину днища"),
+    ("st_press_MPa", "Напряжение сжатия поршня по канавке", (0, 40), (0, 80), _WALL),
+    ("st_pull_MPa", "Напряжение разрыва поршня по канавке", (0, 10), (0, 20), _WALL),
+    ("st_land_MPa", "Напряжение перемычки", (0, 40), (0, 80), "увеличить высоту перемычки"),
+    ("st_q1_MPa", "Давление юбки на цилиндр", (0, 1), None, "удлинить юбку"),
+    ("st_q2_MPa", "Давление поршня на цилиндр", (0, 0.7), None, "увеличить высоту поршня"),
+    ("st_ring_MPa", "Давление кольца на цилиндр", (0.1, 0.4), None, _GAP),
+    ("st_ring_work_MPa", "Напряжение кольца в работе", (200, 450), None, _GAP),
+    ("st_pin_eye_MPa", "Давление пальца на втулку", (15, 60), None,
+     "удлинить втулку шатуна или увеличить диаметр пальца"),
+    ("st_pin_boss_MPa", "Давление пальца на бобышки", (10, 50), None,
+     "удлинить палец или увеличить его диаметр"),
+    ("st_pin_bend_MPa", "Напряжение изгиба пальца", (80, 250), None, _PIN_SIZES),
+    ("st_pin_shear_MPa", "Напряжение среза пальца", (50, 250), None, _PIN_SIZES),
+    ("st_oval_mm", "Овализация пальца", (0, 0.05), None, _PIN_WALL),
+    ("st_oval_in0_MPa", "Напряжение овализации пальца", (-350, 350), None, _PIN_WALL),
+    ("st_bush_in_MPa", "Напряжение запрессовки втулки", (0, 150), None, "уменьшить натяг втулки"),
+    ("st_cap_MPa", "Напряжение крышки шатуна", (0, 300), None,
+     "увеличить длину нижней головки или расстояние между болтами"),
+)  # fmt: skip
+
+
+def usual_stresses(section: StrengthSection) -> tuple[UsualStress, ...]:
+    """Usual ranges of the results for the materials of an engine."""
+    iron = section.piston_material == "iron"
+    return tuple(
+        UsualStress(key, title, *(of_iron if iron and of_iron else span), mend)
+        for key, title, span, of_iron, mend in _USUAL
+    )

@@ -70,6 +70,7 @@ def test_samples():
         "gots-regimes",
         "mwm-6",
         "two-stroke",
+        "vaz-2106",
         "vw-1600",
         "yamz-236",
         "yamz-238",

@@ -10,7 +10,13 @@ from markupsafe import Markup
 from kshm.defaults import PART_SHARES
 from reports.document.chapters.chapter import Chapter
 from reports.document.figures.parts import parts_sketch
-from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
+from reports.document.page.blocks import (
+    TableBlock,
+    TableColumn,
+    grid_table,
+    symbol_head,
+    table_block,
+)
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name
@@ -18,6 +24,7 @@ from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.model.blocks import Scalar, ScalarTable
 from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
+from reports.tables.strength_members import UsualStress, usual_stresses
 
 _LISTS = {
     "loads": ("strength_loads", "Силы, по которым рассчитана прочность"),
@@ -28,30 +35,16 @@ _LISTS = {
     "shank": ("strength_shank", "Результаты расчёта стержня шатуна"),
     "cap": ("strength_cap", "Результаты расчёта крышки шатуна и болтов"),
 }
-# What mends a value above its usual limits, by the check of ``strength.book``.
+# What mends a safety below the allowed one, by the key of ``strength.book``.
 _MENDS = {
-    "crown": "увеличить толщину днища",
-    "press": "увеличить толщину стенки головки поршня",
-    "pull": "увеличить толщину стенки головки поршня",
-    "land": "увеличить высоту перемычки",
-    "q1": "удлинить юбку",
-    "q2": "увеличить высоту поршня",
-    "ring": "уменьшить разность зазоров замка",
-    "ring_work": "уменьшить разность зазоров замка",
-    "pin_eye": "удлинить втулку шатуна или увеличить диаметр пальца",
-    "pin_boss": "удлинить палец или увеличить его диаметр",
-    "pin_bend": "увеличить диаметр пальца или толщину его стенки",
-    "pin_shear": "увеличить диаметр пальца или толщину его стенки",
-    "oval": "увеличить толщину стенки пальца",
-    "oval_in0": "увеличить толщину стенки пальца",
-    "bush_in": "уменьшить натяг втулки",
-    "cap": "увеличить длину нижней головки или расстояние между болтами",
-    "eye_top": "увеличить наружный диаметр верхней головки",
-    "eye": "увеличить наружный диаметр верхней головки",
-    "shank": "увеличить сечение стержня или взять сталь прочнее",
-    "bolt": "увеличить диаметр болта",
-    "web": "увеличить ширину или толщину щеки, взять сталь прочнее",
+    "st_eye_top": "увеличить наружный диаметр верхней головки",
+    "st_eye": "увеличить наружный диаметр верхней головки",
+    "st_shank": "увеличить сечение стержня или взять сталь прочнее",
+    "st_bolt": "увеличить диаметр болта",
+    "st_web": "увеличить ширину или толщину щеки, взять сталь прочнее",
 }
+_SIDES = {-1: "меньше", 0: "в пределах", 1: "больше"}
+_LIMITS = ("tensile", "yield", "bend", "pull", "turn", "modulus")  # columns of the materials
 _RANGED = 2  # decimals of values beside their usual limits
 _SPARE = "взято с запасом"  # of a value below the usual
 _USUAL_BORE_MM = 160  # of cars, lorries and tractors, which the usual limits are of
@@ -69,8 +62,8 @@ def strength(chapter: Chapter) -> Markup:
     }
     tables["sizes"] = TablePlan(partial(_sizes, terms, _block(chapter, "strength_sizes")),
                                 "Размеры частей")  # fmt: skip
-    tables["ranges"] = TablePlan(partial(_ranges, terms, _block(chapter, "strength_ranges")),
-                                 "Напряжения и обычные пределы")  # fmt: skip
+    tables["ranges"] = TablePlan(partial(_ranges, chapter), "Напряжения и обычные пределы")
+    tables["materials"] = TablePlan(partial(_materials, chapter), "Материалы деталей")
     if terms.has("st_web_n"):
         webs = chapter.grid("strength_webs")
         tables["webs"] = TablePlan(partial(grid_table, terms, webs), "Запасы прочности щёк")
@@ -84,13 +77,10 @@ def strength(chapter: Chapter) -> Markup:
         cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
         outside=_outside(chapter),
         weak=_weak(chapter),
-        mends=_MENDS,
+        exchange=terms.has("st_Pg_tdc_N"),
+        web=_weakest_web(terms, chapter.shape.throws),
         large=_bore_mm(terms) > _USUAL_BORE_MM,
         webs=terms.has("st_web_n"),
-        rod=material_name(PART_MATERIALS[section.rod_material].label),
-        bolt=material_name(PART_MATERIALS[section.bolt_material].label),
-        web=material_name(PART_MATERIALS[section.web_material].label),
-        joined=joined,
     )  # fmt: skip
 
 
@@ -105,9 +95,9 @@ def concluded(chapter: Chapter) -> Markup:
     line = Markup("наименьший запас прочности деталей {} — {}, он {} допускаемого {}").format(
         fixed(terms.value(least.key), 2), titled_html(uncapital(least.note)), side, allowed
     )
-    outside = [name for name, mend in _outside(chapter) if mend != _SPARE]
-    if outside:
-        line += Markup("; больше обычных пределов: {}").format(joined(outside))
+    above = [uncapital(each.title) for each, _, side in _ranged(chapter) if side > 0]
+    if above:
+        line += Markup("; больше обычных пределов: {}").format(joined(above))
     return line
 
 
@@ -121,25 +111,56 @@ def _pairs(block: ScalarTable) -> list[tuple[Scalar, Scalar]]:
     return list(zip(block.scalars[::2], block.scalars[1::2], strict=True))
 
 
+def _ranged(chapter: Chapter) -> list[tuple[UsualStress, float, int]]:
+    """Results with a usual range, each with its value and the side of the range it is on."""
+    section = chapter.input.strength
+    assert section is not None
+    values = [(each, chapter.terms.value(each.key)) for each in usual_stresses(section)]
+    return [(each, value, each.excess(value)) for each, value in values]
+
+
 def _outside(chapter: Chapter) -> list[tuple[str, str]]:
     """Values outside of their usual limits, each with what mends it."""
-    parts = []
-    for value, verdict in _pairs(_block(chapter, "strength_ranges")):
-        if chapter.terms.values.scalars[verdict.key] == "в пределах":
-            continue
-        low = value.note.partition("обычно ")[2].partition("…")[0].replace(",", ".")
-        is_low = abs(chapter.terms.value(value.key)) < abs(float(low.replace("−", "-")))
-        mend = _SPARE if is_low else _MENDS[value.key.removeprefix("value_range_")]
-        parts.append((uncapital(value.note.partition(":")[0]), mend))
-    return parts
+    return [(uncapital(each.title), each.mend if side > 0 else _SPARE)
+            for each, _, side in _ranged(chapter) if side]  # fmt: skip
 
 
 def _weak(chapter: Chapter) -> list[tuple[str, str]]:
     """Parts whose safety is less than allowed, each with what mends it."""
-    values = chapter.terms.values.scalars
-    return [(uncapital(value.note), _MENDS[value.key.removeprefix("value_st_")])
-            for value, verdict in _pairs(_block(chapter, "strength_allowed"))
-            if values[verdict.key] == "НЕТ"]  # fmt: skip
+    terms = chapter.terms
+    allowed = terms.value("strength_safety_allowed")
+    return [(uncapital(value.note), _MENDS[value.key.removeprefix("value_")])
+            for value, _ in _pairs(_block(chapter, "strength_allowed"))
+            if terms.value(value.key) < allowed]  # fmt: skip
+
+
+def _weakest_web(terms: Terms, throws: int) -> int:
+    """Number of the throw whose web has the least safety; 0 where webs are not calculated."""
+    if not terms.has("st_web_n"):
+        return 0
+    return min(range(1, throws + 1), key=lambda k: terms.value(f"st_web_n{k}"))
+
+
+def _materials(chapter: Chapter) -> TableBlock:
+    """Steels with the limits that the safeties are calculated with, and moduli of other parts."""
+    terms, section = chapter.terms, chapter.input.strength
+    assert section is not None
+    parts = (("Шатун", "rod"), ("Шатунные болты", "bolt"), ("Щёки вала", "web"))
+    rows: list[list[Markup | str]] = [
+        [title, material_name(PART_MATERIALS[getattr(section, f"{part}_material")].label),
+         *(terms.num(f"{part}_{key}") for key in _LIMITS)]
+        for title, part in parts
+        if part != "web" or terms.has("st_web_n")
+    ]  # fmt: skip
+    empty = ["—"] * (len(_LIMITS) - 1)
+    rows += [
+        [title, "—", *empty, terms.num(f"strength_{part}_modulus_mpa")]
+        for title, part in (("Палец", "pin"), ("Втулка", "bush"), ("Кольцо", "ring"))
+    ]
+    columns = [TableColumn("Деталь", 2.4, text=True), TableColumn("Материал", 2, text=True)]
+    columns += [TableColumn(symbol_head(terms.quantity(f"rod_{key}").tex, "МПа"), 1.4)
+                for key in _LIMITS]  # fmt: skip
+    return table_block(columns, rows)
 
 
 def _sizes(terms: Terms, block: ScalarTable) -> TableBlock:
@@ -155,14 +176,11 @@ def _sizes(terms: Terms, block: ScalarTable) -> TableBlock:
     )  # fmt: skip
 
 
-def _ranges(terms: Terms, block: ScalarTable) -> TableBlock:
-    rows = []
-    for value, verdict in _pairs(block):
-        title, _, usual = value.note.partition(": обычно ")
-        shown = fixed(terms.value(value.key), _RANGED)
-        rows.append(
-            [titled_html(title), shown, limits(usual), str(terms.values.scalars[verdict.key])]
-        )
+def _ranges(chapter: Chapter) -> TableBlock:
+    rows = [
+        [titled_html(each.title), fixed(value, _RANGED), limits(each.usual), _SIDES[side]]
+        for each, value, side in _ranged(chapter)
+    ]  # fmt: skip
     return table_block(
         [TableColumn("Величина", 4.2, text=True), TableColumn("Значение", 1.4),
          TableColumn("Обычно", 1.8), TableColumn("Вывод", 1.8)], rows,

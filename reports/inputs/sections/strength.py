@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from kshm import defaults
-from reports.inputs.meta import Strictly, choice, number, title_of
+from kshm.engine.strength import PartStrength
+from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 
 
@@ -47,18 +48,24 @@ def _size(key: str, symbol: str) -> float | None:
     return number(title, symbol, MM, 0.05, 3000, None)  # type: ignore[no-any-return]
 
 
-class StrengthSection(Strictly):
+class StrengthSection(Strictly, usual=(PartStrength,)):
     """[strength]: a size that is not given is its usual share, which the workbook names."""
 
-    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, "diesel")
-    crown_form: Literal["full", "quarter"] = choice("Формула днища поршня", CROWNS, "full")
-    pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, "minus")
-    oval_form: Literal["curved", "program"] = choice("Овализация пальца", OVALS, "curved")
-    bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, "each")
-    speed_factor: float = number(
-        "Отношение наибольшей частоты вращения к частоте режима", "ω_max/ω", NONE, 1, 1.5, 1.1
+    kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, USUAL, structural=True)
+    crown_form: Literal["full", "quarter"] = choice(
+        "Формула днища поршня", CROWNS, USUAL, structural=True
     )
-    piston_material: Literal["aluminium", "iron"] = choice("Материал поршня", PISTONS, "aluminium")
+    pin_form: Literal["minus", "plus"] = choice("Сила на палец", PINS, USUAL, structural=True)
+    oval_form: Literal["curved", "program"] = choice(
+        "Овализация пальца", OVALS, USUAL, structural=True
+    )
+    bolt_form: Literal["each", "all"] = choice("Нагрузка болтов", BOLTS, USUAL, structural=True)
+    speed_factor: float = number(
+        "Отношение наибольшей частоты вращения к частоте режима", "ω_max/ω", NONE, 1, 1.5, USUAL
+    )
+    piston_material: Literal["aluminium", "iron"] = choice(
+        "Материал поршня", PISTONS, USUAL, structural=True
+    )
     piston_kg: float | None = number(title_of("st_m_piston"), "m_пк", KG, 0.001, 5000, None)
     crown_mm: float | None = _size("crown", "δ_дн")
     height_mm: float | None = _size("height", "H")
@@ -68,31 +75,37 @@ class StrengthSection(Strictly):
     bosses_mm: float | None = _size("bosses", "b_б")
     ring_radial_mm: float | None = _size("ring_radial", "t")
     ring_gap_mm: float | None = _size("ring_gap", "A_0")
-    ring_play_mm: float = number("Радиальный зазор кольца в канавке", "Δt", MM, 0.05, 20, 0.8)
-    oil_holes: float = number("Число масляных отверстий в канавке", "n_м", NONE, 0, 40, 10)
-    oil_hole_mm: float = number("Диаметр масляного отверстия в канавке", "d_отв", MM, 0, 30, 1.5)
+    ring_play_mm: float = number("Радиальный зазор кольца в канавке", "Δt", MM, 0.05, 20, USUAL)
+    oil_holes: float = number("Число масляных отверстий в канавке", "n_м", NONE, 0, 40, USUAL)
+    oil_hole_mm: float = number("Диаметр масляного отверстия в канавке", "d_отв", MM, 0, 30, USUAL)
     head_play: float = number(
-        "Отношение зазора головки поршня к диаметру цилиндра", "Δ_г/D", NONE, 0.0005, 0.02, 0.007
+        "Отношение зазора головки поршня к диаметру цилиндра", "Δ_г/D", NONE, 0.0005, 0.02, USUAL
     )
     skirt_play: float = number(
-        "Отношение зазора юбки поршня к диаметру цилиндра", "Δ_ю/D", NONE, 0.0002, 0.01, 0.002
+        "Отношение зазора юбки поршня к диаметру цилиндра", "Δ_ю/D", NONE, 0.0002, 0.01, USUAL
     )
-    cylinder_c: float = number("Температура стенки цилиндра", "t_ц", CELSIUS, 40, 300, 115.0)
-    head_c: float = number("Температура головки поршня", "t_г", CELSIUS, 60, 500, 250.0)
-    skirt_c: float = number("Температура юбки поршня", "t_ю", CELSIUS, 40, 350, 140.0)
-    ring_modulus_mpa: float = number("Модуль упругости кольца", "E_к", MPA, 2e4, 3e5, 1.0e5)
+    cylinder_c: float = number(
+        "Температура стенки цилиндра", "t_ц", CELSIUS, 40, 300, USUAL, solver="cylinder_temperature"
+    )
+    head_c: float = number(
+        "Температура головки поршня", "t_г", CELSIUS, 60, 500, USUAL, solver="head_temperature"
+    )
+    skirt_c: float = number(
+        "Температура юбки поршня", "t_ю", CELSIUS, 40, 350, USUAL, solver="skirt_temperature"
+    )
+    ring_modulus_mpa: float = number("Модуль упругости кольца", "E_к", MPA, 2e4, 3e5, USUAL)
     pin_mm: float | None = _size("pin", "d_п")
     pin_bore_mm: float | None = _size("pin_bore", "d_в")
     pin_length_mm: float | None = _size("pin_length", "l_п")
-    pin_share: float = number("Доля силы инерции поршня на пальце", "k_п", NONE, 0.5, 1, 0.8)
-    pin_modulus_mpa: float = number("Модуль упругости пальца", "E_п", MPA, 5e4, 3e5, 2.0e5)
+    pin_share: float = number("Доля силы инерции поршня на пальце", "k_п", NONE, 0.5, 1, USUAL)
+    pin_modulus_mpa: float = number("Модуль упругости пальца", "E_п", MPA, 5e4, 3e5, USUAL)
     eye_length_mm: float | None = _size("eye_length", "l_ш")
     eye_outer_mm: float | None = _size("eye_outer", "d_г")
     bush_wall_mm: float | None = _size("bush_wall", "s_в")
-    bush_fit_um: float = number("Натяг втулки", "Δ_в", UM, 0, 500, 40.0)
-    bush_warming_k: float = number("Нагрев верхней головки", "ΔT_г", KELVIN, 0, 300, 110.0)
-    bush_modulus_mpa: float = number("Модуль упругости втулки", "E_в", MPA, 5e4, 3e5, 1.15e5)
-    embedding_deg: float = number("Угол заделки верхней головки", "φ_з", DEG, 90, 130, 110.0)
+    bush_fit_um: float = number("Натяг втулки", "Δ_в", UM, 0, 500, USUAL)
+    bush_warming_k: float = number("Нагрев верхней головки", "ΔT_г", KELVIN, 0, 300, USUAL)
+    bush_modulus_mpa: float = number("Модуль упругости втулки", "E_в", MPA, 5e4, 3e5, USUAL)
+    embedding_deg: float = number("Угол заделки верхней головки", "φ_з", DEG, 90, 130, USUAL)
     rod_material: Literal["45", "45g2", "40h", "40hn", "18h2n4va"] = choice(
         "Материал шатуна", PART_NAMES, "40h"
     )
@@ -103,15 +116,15 @@ class StrengthSection(Strictly):
         "Материал щёк", PART_NAMES, "45"
     )
     rod_concentration: float = number(
-        "Отношение коэффициента концентрации к масштабному: шатун", "k/ε_ш", NONE, 0.5, 6, 1.4
+        "Отношение коэффициента концентрации к масштабному: шатун", "k/ε_ш", NONE, 0.5, 6, USUAL
     )
     bolt_concentration: float = number(
-        "Отношение коэффициента концентрации к масштабному: болт", "k/ε_б", NONE, 0.5, 8, 4.0
+        "Отношение коэффициента концентрации к масштабному: болт", "k/ε_б", NONE, 0.5, 8, USUAL
     )
     web_concentration: float = number(
-        "Отношение коэффициента концентрации к масштабному: щека", "k/ε_щ", NONE, 0.5, 6, 2.0
+        "Отношение коэффициента концентрации к масштабному: щека", "k/ε_щ", NONE, 0.5, 6, USUAL
     )
-    mean_factor: float = number("Приведение асимметричного цикла", "α_σ", NONE, 0, 0.6, 0.2)
+    mean_factor: float = number("Приведение асимметричного цикла", "α_σ", NONE, 0, 0.6, USUAL)
     shank_height_mm: float | None = _size("shank_height", "h_ст")
     shank_width_mm: float | None = _size("shank_width", "b_ст")
     shank_web_mm: float | None = _size("shank_web", "a_ст")
@@ -119,11 +132,11 @@ class StrengthSection(Strictly):
     bolts_apart_mm: float | None = _size("bolts_apart", "c_б")
     cap_length_mm: float | None = _size("cap_length", "l_к")
     shell_mm: float | None = _size("shell", "t_в")
-    bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, 2)
+    bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, USUAL)
     bolt_mm: float | None = _size("bolt", "d_б")
-    bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, 1.0)
-    bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, 2.0)
-    bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, 0.2)
+    bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, USUAL)
+    bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, USUAL)
+    bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, USUAL)
     web_width_mm: float | None = number(title_of("web_width_mm"), "b_щ", MM, 2, 5000, None)
     web_thickness_mm: float | None = number(
         "Толщина щеки, где её не задают размеры колена", "h_щ", MM, 1, 2000, None

@@ -14,6 +14,7 @@ from kshm.engine.bearings import Bearings, Oil, Strength
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
 from kshm.engine.gas import Gas, PolytropicGas, RoundedGas, TabulatedGas
+from kshm.engine.strength import PartStrength, Steel
 from kshm.engine.torsion import Torsion, TrainMass
 from kshm.nomenclature.quantity import smallness
 from reports.inputs.firing import places_of
@@ -45,7 +46,7 @@ from reports.inputs.sections.mechanism import (
     CrankshaftSection,
     WebSection,
 )
-from reports.inputs.sections.strength import StrengthSection
+from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.inputs.sections.torsion import MassSection, TorsionSection
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.masses import crank_radius_mm, rod_length_mm, to_masses, with_masses
@@ -123,6 +124,22 @@ def _strength(section: BearingsSection) -> Strength:
     return Strength(**usual | solver_values(section, Strength), making=material.making)
 
 
+def to_parts(section: StrengthSection | None) -> PartStrength | None:
+    """Strength input of the solver, None without the section."""
+    if section is None:
+        return None
+    steels = {f"{part}_material": _steel(getattr(section, f"{part}_material"))
+              for part in ("rod", "bolt", "web")}  # fmt: skip
+    return PartStrength(**solver_values(section, PartStrength) | steels)
+
+
+def _steel(name: str) -> Steel:
+    material = PART_MATERIALS[name]
+    limits = ("tensile", "yielding", "bending", "pull", "modulus")
+    in_si = {key: MPA.to_si(getattr(material, key)) for key in limits}
+    return Steel(**in_si, expansion=material.expansion)
+
+
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
     return engine_and_cycle(model)[0]
@@ -184,6 +201,7 @@ def _engine(model: InputFile, run: CycleRun | None, kept: Callable[..., Any] = _
         "articulated": kept(_articulated, model.articulated, len(hung(places))),
         "torsion": kept(to_torsion, model.torsion),
         "bearings": kept(to_bearings, model.bearings),
+        "strength": kept(to_parts, model.strength),
         "balancing": kept(_balancing, model.balance, model.strength, geometry.bore),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,

@@ -48,7 +48,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import BlockWriter, link
-from reports.workbook.verdict import GOOD
+from reports.workbook.verdict import GOOD, STRUCTURE_CHANGED, fade
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -101,7 +101,9 @@ def write_cockpit(
     row = _verdict(sheet, writer, row, verdict)
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
-    row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    top, row = row + 2, _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    if verdict is not None and row > top:
+        fade(sheet, area(Cell("", top, 3), Cell("", row - 1, 3)))
     boxes = _charts(sheet, model, writer, _chapters(sheet, titles, contents_for(model)) + 1)
     row = _sheets(sheet, titles, model, row + 1)
     row = _left_out(sheet, writer, row)
@@ -177,7 +179,8 @@ def _verdict(
     inputs, at = sheet.parent[INPUT_SHEET], Cell(sheet.title, row, 2).absolute
     here = Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
     text, (_, value) = f"{_CHECKS}: ", verdict
-    writer.formula(inputs, here.row, here.column, f'="{text}"&{at}', f"{text}{value}")
+    said = f'=IF({STRUCTURE_CHANGED}>0,{at},"{text}"&{at})'
+    writer.formula(inputs, here.row, here.column, said, f"{text}{value}")
     inputs.cell(here.row, here.column).style = styles.LINE
     mark = here.absolute.partition("!")[2]
     wrong = FormulaRule([f'{mark}<>"{text}{GOOD}"'], fill=wrong.dxf.fill)

@@ -14,6 +14,7 @@ from openpyxl.formatting.rule import CellIsRule, FormulaRule
 from openpyxl.styles import PatternFill
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.workbook import Workbook
+from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.formula.excel import number
@@ -21,7 +22,7 @@ from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
 from reports.model.blocks import NO, YES, Model, scalars_of
 from reports.workbook import styles
-from reports.workbook.inputs import options
+from reports.workbook.inputs import options, shown
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -152,11 +153,15 @@ def _scaled(text: str, term: Term) -> str:
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
 BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
+RESHAPED = "структура изменена: выполните build"
+STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
 ODD, _UNKNOWN = "необычно", "—"
-_BEYOND = "Строки: 1 — вне пределов, 2 — необычно"
+_BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
 _WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
 _FAILED, _BROKEN = "Сколько проверок не выполнено", "На скольких листах ошибки в формулах"
-_WRONG_ROW, _ODD_ROW = 1, 2
+_RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
+_WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
+_COUNTS = 5  # rows of counts and of their title
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
@@ -199,28 +204,37 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[st
     areas = _areas(writer.caches) | {
         first.sheet: column_range(first.sheet, VALUE_COLUMN, first.row, last.row)
     }
+    for title, cells in areas.items():
+        fade(book[title], cells.rpartition("!")[2])
     held = list(conditions(model, layout, values))
     sheet = book[first.sheet]
     row = sheet.max_row + 2
-    in_order = _in_order(sheet, row + 4, held, writer)
-    beyond = _limits(book[INPUT_SHEET], model, writer, in_order)
+    in_order = _in_order(sheet, row + _COUNTS, held, writer)
+    states = _limits(book[INPUT_SHEET], model, writer, in_order)
     sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
-    within = _counted(
-        sheet, row + 1, _WITHIN, INPUT_SHEET, f"=COUNTIF({beyond},{_WRONG_ROW})", writer
-    )
+    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
+    within = _counted(sheet, row + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
+    reshaped = f'=COUNTIF({states},">={RESHAPED_ROW}")'
+    said = _counted(sheet, row + 4, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED)
+    count_cell = Cell(sheet.title, row + 4, VALUE_COLUMN).absolute
+    book.defined_names[STRUCTURE_CHANGED] = DefinedName(STRUCTURE_CHANGED, attr_text=count_cell)
     titles = [title for title in book.sheetnames if title in areas]
     own = {title: areas[title] for title in titles}
-    sheets = _without_errors(sheet, row + 4 + len(held), own, writer)
-    colour_verdicts(sheet, row + 1, row + 3 + len(held) + len(titles), YES, NO)
+    sheets = _without_errors(sheet, row + _COUNTS + len(held), own, writer)
+    colour_verdicts(sheet, row + 1, row + _COUNTS - 1 + len(held) + len(titles), YES, NO)
     failed = sum(values[key] != YES for key in keys)
     count = f"{len(keys)}-({passed})"
     held_all = _counted(sheet, row + 2, _FAILED, first.sheet, f"={count}", writer, failed)
     no_errors = _counted(sheet, row + 3, _BROKEN, first.sheet, f'=COUNTIF({sheets},"{NO}")', writer)
-    return (
+    final = BAD if failed else GOOD
+    of_numbers = (
         f'=IF({no_errors}<>"{YES}","{UNKNOWN}",IF({within}<>"{YES}","{BEYOND}",'
-        f'IF({held_all}="{YES}","{GOOD}","{BAD}")))',
-        BAD if failed else GOOD,
+        f'IF({held_all}="{YES}","{GOOD}","{BAD}")))'
     )
+    at = Cell(sheet.title, row, UNIT_COLUMN)
+    writer.formula(sheet, row, at.column, of_numbers, final)
+    sheet.cell(row, at.column).style = styles.LINE
+    return f"=IF({STRUCTURE_CHANGED}>0,{said},{at.absolute})", final
 
 
 def _counted(
@@ -231,13 +245,16 @@ def _counted(
     formula: str,
     writer: BlockWriter,
     count: float = 0.0,
+    *,
+    bad: str = NO,
 ) -> str:
     """A count that must be zero, and whether it is; the address of the verdict."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), title, target)
     at, cell = (Cell(sheet.title, row, column) for column in (VALUE_COLUMN, UNIT_COLUMN))
     writer.formula(sheet, row, at.column, formula, float(count))
     sheet.cell(row, at.column).style = styles.FORMULA
-    _say(sheet, cell, f'=IF({at.coordinate}=0,"{YES}","{NO}")', writer, NO if count else YES)
+    verdict = f'=IF({at.coordinate}=0,"{YES}","{bad}")'
+    _say(sheet, cell, verdict, writer, bad if count else YES)
     return cell.absolute
 
 
@@ -277,6 +294,16 @@ def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str
     sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
 
 
+def fade(sheet: Worksheet, cells: str) -> None:
+    """Results grey while they follow a structure that is not theirs, before other formats."""
+    for places in sheet.conditional_formatting:
+        for rule in places.rules:
+            rule.priority += 1
+    rule = FormulaRule([f"{STRUCTURE_CHANGED}>0"], stopIfTrue=True, **styles.outdated())
+    rule.priority = 1
+    sheet.conditional_formatting.add(cells, rule)
+
+
 def _say(sheet: Worksheet, cell: Cell, formula: str, writer: BlockWriter, said: str = YES) -> None:
     writer.formula(sheet, cell.row, cell.column, formula, said)
     sheet.cell(cell.row, cell.column).style = styles.CHECK
@@ -300,7 +327,7 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     layout = writer.layout
     rows: dict[int, list[Field]] = defaultdict(list)
     for item in model.inputs:
-        if options(item) or item.minimum is not None:
+        if options(item) or item.minimum is not None or item.structural:
             rows[layout.cells[item.name].row].append(item)
     column = 1 + max(KEY_COLUMN, *(layout.cells[item.name].column for item in model.inputs))
     sheet.cell(HEADER_ROW, column, _BEYOND).style = styles.HEADER
@@ -311,7 +338,9 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
             (usual if condition.pair.warning else tests).append(test)
             state = state if condition.holds else _ODD_ROW
         other = f"IF(AND({','.join(usual)}),0,{_ODD_ROW})" if usual else "0"
-        formula = f"=IF(AND({','.join(tests)}),{other},{_WRONG_ROW})"
+        formula = f"=IF(AND({','.join(tests)}),{other},{_WRONG_ROW})" if tests else f"={other}"
+        if changed := [_changed(item, layout) for item in items if item.structural]:
+            formula += f"+IF(OR({','.join(changed)}),{RESHAPED_ROW},0)"
         writer.formula(sheet, row, column, formula, state)
         sheet.cell(row, column).style = styles.HELPER
     letter = get_column_letter(column)
@@ -321,10 +350,19 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     marked = [area(Cell("", min(rows), 1), Cell("", max(rows), 1))]
     marked += [layout.cells[i.name].coordinate for found in rows.values() for i in found
                if not i.listed]  # fmt: skip
-    for state, look in ((_WRONG_ROW, styles.wrong()), (_ODD_ROW, styles.odd())):
-        rule = FormulaRule([f"${letter}{min(rows)}={state}"], **look)
+    for state, look in (
+        (f">={RESHAPED_ROW}", styles.wrong()),
+        (f"={_WRONG_ROW}", styles.wrong()),
+        (f"={_ODD_ROW}", styles.odd()),
+    ):
+        rule = FormulaRule([f"${letter}{min(rows)}{state}"], **look)
         sheet.conditional_formatting.add(" ".join(marked), rule)
     return column_range(sheet.title, column, min(rows), max(rows))
+
+
+def _changed(item: Field, layout: Layout) -> str:
+    """That a structural cell holds another value than the book is built with: it stands here."""
+    return f"{layout.cells[item.name].coordinate}<>{number(shown(item))}"
 
 
 def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:

@@ -101,7 +101,7 @@ def write_cockpit(
     row = _verdict(sheet, writer, row, verdict)
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
-    top, row = row + 2, _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    top, row = row + 2, _values(sheet, writer, row + 1, "Главные результаты", results_of(model))
     if verdict is not None and row > top:
         fade(sheet, area(Cell("", top, 3), Cell("", row - 1, 3)))
     boxes = _charts(sheet, model, writer, _chapters(sheet, titles, contents_for(model)) + 1)
@@ -109,6 +109,16 @@ def write_cockpit(
     row = _left_out(sheet, writer, row)
     _legend(sheet, model, legend, row + 1)
     return boxes
+
+
+def results_of(model: Model) -> tuple[str, ...]:
+    """Keys of what came out; the oil hole is where the film puts it, as the report says."""
+    if "oil_film1_deg" not in model.scalars:
+        return RESULTS
+    given = "crankshaft_oil_hole_deg"
+    hole = (given,) if given in model.fields else ("oil_film1_deg", "oil_film2_deg")
+    at = RESULTS.index("hole_pin_deg")
+    return (*RESULTS[:at], *hole, *RESULTS[at + 1 :])
 
 
 def _people(sheet: Worksheet, model: Model, row: int) -> int:
@@ -379,7 +389,7 @@ def write_what_if(book: Workbook, model: Model, writer: BlockWriter) -> None:
         for item in model.inputs
         if not item.structural and isinstance(item.value, float) and not item.listed
     ]
-    row = _part(sheet, writer, HEADER_ROW + 1, "Главные результаты", RESULTS)
+    row = _part(sheet, writer, HEADER_ROW + 1, "Главные результаты", results_of(model))
     last = _part(sheet, writer, row, "Исходные данные", free)
     changed = FormulaRule(formula=[f"$E{HEADER_ROW + 1}<>0"], fill=PatternFill(bgColor="FFEB9C"))
     sheet.conditional_formatting.add(f"D{HEADER_ROW + 1}:E{last}", changed)

@@ -32,6 +32,7 @@ from reports.document.chapters.chapter import (
     worst_running,
 )
 from reports.document.chapters.journals import least_ray
+from reports.document.chapters.oil_hole import oil_hole
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
@@ -253,7 +254,7 @@ def conclusion(chapter: Chapter) -> Markup:
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
         pz=greatest_pressure(terms),
         powers=terms.has("cyc_N_gas"),
-        hole=oil.hole(chapter, pin),
+        hole=oil_hole(terms, pin),
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.arrays import Array
-from reports.document.chapters.chapter import Chapter, pin_stems, relevant_chapters
+from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
@@ -102,43 +102,6 @@ def oil(chapter: Chapter) -> Markup:
         class_ok=terms.has("safe_class_Q")
         and min(terms.value("safe_class_Q"), terms.value("safe_class_Q_hole")) >= CLASS_RULE,
     )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Hole:
-    """Where the oil hole of a crankpin goes and why; empty where wear alone tells it."""
-
-    pin: int
-    angle: Markup | str = ""
-    why: str = ""
-
-
-def hole(chapter: Chapter, pin: int) -> Hole:
-    """The one verdict on the oil hole: as given, by the film, or by wear of the pin."""
-    terms, given = chapter.terms, chapter.input.crankshaft.oil_hole_deg
-    if "oil" not in relevant_chapters(chapter.input) or not terms.has("oil_film1_deg"):
-        return _by_wear(chapter, pin)
-    if given is not None:
-        return Hole(1, terms.val("crankshaft_oil_hole_deg"), "как задано")
-    ends = [terms.value(f"oil_film{n}_deg") for n in (1, 2)]
-    return Hole(1, _between(ends), "там, где плёнка толще всего")
-
-
-def _by_wear(chapter: Chapter, pin: int) -> Hole:
-    """Of neighbouring rays that two steps find both ends are told; else the text's own angle."""
-    key = f"hole_{pin_stems(chapter.shape)[pin - 1]}_deg"
-    fine = next((each.fine for each in chapter.grid_errors if each.key == key), None)
-    if fine is None:
-        return Hole(pin)
-    angle, step = chapter.terms.value(key), 360.0 / chapter.input.calculation.wear_rays
-    if abs(fine - angle) > 1.01 * step:
-        return Hole(pin)
-    return Hole(pin, _between([angle, fine]), "напротив лучей с наименьшими суммами сил")
-
-
-def _between(angles: Sequence[float]) -> Markup:
-    """A span of angles, the smaller one first."""
-    return Markup("…".join(dict.fromkeys(fixed(angle, 0) for angle in sorted(angles))) + "°")
 
 
 def concluded(chapter: Chapter) -> Markup:

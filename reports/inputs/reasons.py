@@ -18,6 +18,7 @@ from reports.shared.russian import short
 
 Span = tuple[float, float]
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
+FILM_REQUIRED = "bearings_reserve_allowed*oil_hcr_um"  # least film that carries [µm]
 RODS = "rods_on_pin"  # a number beside the model's nodes
 
 
@@ -39,6 +40,7 @@ class Reason:
         below: what follows below it.
         by_size: the span grows with the bore as that of table 4.
         one_rod: the span is that of a throw with one rod.
+        required: formulas of what the calculation allows at least, if it does.
     """
 
     key: str
@@ -54,6 +56,7 @@ class Reason:
     below: str
     by_size: bool = False
     one_rod: bool = False
+    required: tuple[str, ...] = ()
 
     def below_at(self, bore_mm: float) -> str:
         """What follows below the span; a bore below those of the table is light by similarity."""
@@ -137,7 +140,8 @@ REASONS: tuple[Reason, ...] = (
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
            ("value_oil_orbit*oil_hcr_um",), (1, 6), (1, 10), "мкм", 2, "",
-           "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша"),
+           "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша",
+           required=(FILM_REQUIRED,)),
 )  # fmt: skip
 _BY_KEY = {reason.key: reason for reason in REASONS}
 # Keys of the file whose comments tell the span of a reason.

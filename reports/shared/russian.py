@@ -63,6 +63,11 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
     return (MINUS if negative else "") + whole + ("," + part if part else "")
 
 
+def as_printed(value: float, digits: int) -> float:
+    """The number that ``fixed`` writes."""
+    return float(fixed(value, digits, group=False).replace(MINUS, "-").replace(",", "."))
+
+
 def grouped(text: str) -> str:
     """A number that Python wrote, its integer part in groups of three from five digits on."""
     whole = re.match(r"-?(\d*)", text)

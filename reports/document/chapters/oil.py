@@ -15,6 +15,8 @@ from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, t
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name
+from reports.formula.numeric import evaluate
+from reports.inputs.reasons import FILM_REQUIRED
 from reports.inputs.sections.bearings import MATERIALS
 from reports.model.blocks import Grid
 from reports.model.shape import Scope
@@ -87,7 +89,7 @@ def oil(chapter: Chapter) -> Markup:
         thicker=_times(mean, gaps),
         sizes=TablePlan(partial(_sizes, terms, cases), "Размеры подшипников и зазоры", keep=True),
         reserve=fixed(thin.value / critical, 2),
-        carries=thin.value >= section.reserve_allowed * critical,
+        carries=thin.value >= float(evaluate(FILM_REQUIRED, terms.value)),
         given_hole=chapter.input.crankshaft.oil_hole_deg is not None,
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
         angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),

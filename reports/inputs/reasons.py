@@ -144,6 +144,13 @@ REASONS: tuple[Reason, ...] = (
            required=(FILM_REQUIRED,)),
 )  # fmt: skip
 _BY_KEY = {reason.key: reason for reason in REASONS}
+
+
+def reason_of(key: str) -> Reason:
+    """The reason of that name."""
+    return _BY_KEY[key]
+
+
 # Keys of the file whose comments tell the span of a reason.
 _COMMENTED = {
     "geometry.stroke_mm": "stroke_bore", "geometry.rod_length_mm": "lam",

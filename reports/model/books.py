@@ -16,6 +16,7 @@ from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import solved
 from reports.model.blocks import (
+    ALLOWED,
     NO,
     TURN,
     YES,
@@ -47,6 +48,7 @@ from reports.model.shape import Part, stepped
 
 MOST_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)
+_SPAN = re.compile(r"(-?[\d.]+)…(-?[\d.]+)")  # a condition: within both ends
 _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
@@ -238,9 +240,12 @@ class _BookReader:
         key, value_key, value, test, title, source = match.groups()
         verdict = key if value_key else f"check_{key}"
         own = value_key or f"value_{key}"
+        words, span = self._words(block) or (YES, NO), _SPAN.fullmatch(test)
+        if span is not None:  # the last digit of a computed value may miss an end
+            test = f"round(value, 9) >= {span[1]} and round(value, 9) <= {span[2]}"
+        ends = (float(span[1]), float(span[2])) if span and words != (YES, NO) else None
         test = renamed(test, lambda name: own if name == "value" else name)
-        words = self._words(block)
-        return judged(own, verdict, value, test, title, source or "проверка", words or (YES, NO))
+        return judged(own, verdict, value, test, title, source or "проверка", words, ends)
 
     def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
         """``KEY = value | title``, held to the limit of the heading."""
@@ -249,7 +254,7 @@ class _BookReader:
             raise self._fault(f"строка «{text}» не разобрана", "пишите ИМЯ = ВЕЛИЧИНА | ЧТО ЭТО")
         key, value, title = found.groups()
         own, limit = f"value_{key}", block.about["limit"]
-        return judged(own, f"allowed_{key}", value, f"{own} {limit}", title,
+        return judged(own, f"{ALLOWED}{key}", value, f"{own} {limit}", title,
                       "сравнение с допускаемым")  # fmt: skip
 
     def _words(self, block: _Open) -> tuple[str, str] | None:

@@ -48,7 +48,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import BlockWriter, link
-from reports.workbook.verdict import GOOD, STRUCTURE_CHANGED, fade
+from reports.workbook.verdict import GOOD, STRUCTURE_CHANGED, UNUSUAL, fade
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -183,8 +183,7 @@ def _verdict(
     writer.formula(sheet, row, 2, *verdict)
     sheet.cell(row, 2).style = styles.LINE
     # Not bold: the longest verdict ends before the charts.
-    wrong = FormulaRule([f'$B{row}<>"{GOOD}"'], fill=styles.wrong()["fill"])
-    sheet.conditional_formatting.add(f"B{row}:D{row}", wrong)
+    _colour(sheet, f"B{row}:D{row}", f"$B{row}", "")
     # Beside what is changed as well.
     inputs, at = sheet.parent[INPUT_SHEET], Cell(sheet.title, row, 2).absolute
     here = Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
@@ -193,9 +192,16 @@ def _verdict(
     writer.formula(inputs, here.row, here.column, said, f"{text}{value}")
     inputs.cell(here.row, here.column).style = styles.LINE
     mark = here.absolute.partition("!")[2]
-    wrong = FormulaRule([f'{mark}<>"{text}{GOOD}"'], fill=wrong.dxf.fill)
-    inputs.conditional_formatting.add(area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), wrong)
+    _colour(inputs, area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), mark, text)
     return row + 1
+
+
+def _colour(sheet: Worksheet, cells: str, mark: str, before: str) -> None:
+    """Fill of a verdict that is not good."""
+    odd = FormulaRule([f'{mark}="{before}{UNUSUAL}"'], stopIfTrue=True, fill=styles.odd()["fill"])
+    wrong = FormulaRule([f'{mark}<>"{before}{GOOD}"'], fill=styles.wrong()["fill"])
+    for rule in (odd, wrong):
+        sheet.conditional_formatting.add(cells, rule)
 
 
 def _values(

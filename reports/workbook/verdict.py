@@ -20,7 +20,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.formula.excel import number
 from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
-from reports.model.blocks import NO, YES, Model, scalars_of
+from reports.model.blocks import NO, YES, Held, Model, ScalarTable
+from reports.tables.verdicts import outcomes
 from reports.workbook import styles
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import (
@@ -152,89 +153,102 @@ def _scaled(text: str, term: Term) -> str:
 
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
+UNUSUAL = "есть необычное, см. «Проверки»"
 BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
 RESHAPED = "структура изменена: выполните build"
 STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
 ODD, _UNKNOWN = "необычно", "—"
 _BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
 _WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
-_FAILED, _BROKEN = "Сколько проверок не выполнено", "На скольких листах ошибки в формулах"
+_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах"
 _RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
 _WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
-_COUNTS = 5  # rows of counts and of their title
+_LISTS = 4  # rows before those of lists: a title and counts
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
 _CHECKS = "checks"  # the list of the house; a department's book may have checks too
 
 
-def check_lists(writer: BlockWriter) -> dict[str, list[str]]:
-    """Checks by list whose verdicts stand in the book; none of a book to fill in.
-
-    A verdict in other words, as of a usual span, is no check.
-    """
-    values = writer.values.scalars
-    lists = {
-        block.id: [scalar.key for scalar in scalars_of(block) if scalar.key.startswith("check_")]
-        for block in writer.layout.model.blocks
-    }
-    judged = {
-        name: keys
-        for name, keys in lists.items()
-        if name == _CHECKS or any(values.get(key) in (YES, NO) for key in keys)
-    }
-    whole = all(values.get(key) in (YES, NO) for keys in judged.values() for key in keys)
-    return judged if whole and judged.get(_CHECKS) else {}
+def judged_lists(writer: BlockWriter) -> list[ScalarTable]:
+    """Lists whose verdicts stand in the book; none of a book to fill in."""
+    model, scalars = writer.layout.model, writer.values.scalars
+    lists = [block for block in model.blocks if isinstance(block, ScalarTable) and block.held]
+    judged = [each.block for each in outcomes(model, scalars)]
+    whole = all(judged.count(block.id) == len(block.pairs) for block in lists)
+    return lists if whole and _CHECKS in judged else []
 
 
 def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[str, str] | None:
     """Formula and value of what the first sheet says of the numbers; nothing without checks."""
-    lists = check_lists(writer)
+    lists = judged_lists(writer)
     if not lists:
         return None
-    layout, values = writer.layout, writer.values.scalars
-    keys = [key for each in lists.values() for key in each]
-    passed = "+".join(
-        f'COUNTIF({column_range(cell.sheet, cell.column, cell.row, last.row)},"{YES}")'
-        for each in lists.values()
-        for cell, last in [(layout.cells[each[0]], layout.cells[each[-1]])]
-    )
-    first, last = (layout.cells[lists[_CHECKS][end]] for end in (0, -1))
+    layout = writer.layout
+    checks = next(block for block in lists if block.id == _CHECKS)
+    first, last = (layout.cells[checks.scalars[end].key] for end in (0, -1))
     # The verdicts of the sheet's own list follow from these.
     areas = _areas(writer.caches) | {
         first.sheet: column_range(first.sheet, VALUE_COLUMN, first.row, last.row)
     }
     for title, cells in areas.items():
         fade(book[title], cells.rpartition("!")[2])
-    held = list(conditions(model, layout, values))
-    sheet = book[first.sheet]
+    held, sheet = list(conditions(model, layout, writer.values.scalars)), book[first.sheet]
     row = sheet.max_row + 2
-    in_order = _in_order(sheet, row + _COUNTS, held, writer)
-    states = _limits(book[INPUT_SHEET], model, writer, in_order)
-    sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
-    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
-    within = _counted(sheet, row + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
-    reshaped = f'=COUNTIF({states},">={RESHAPED_ROW}")'
-    said = _counted(sheet, row + 4, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED)
-    count_cell = Cell(sheet.title, row + 4, VALUE_COLUMN).absolute
-    book.defined_names[STRUCTURE_CHANGED] = DefinedName(STRUCTURE_CHANGED, attr_text=count_cell)
-    titles = [title for title in book.sheetnames if title in areas]
-    own = {title: areas[title] for title in titles}
-    sheets = _without_errors(sheet, row + _COUNTS + len(held), own, writer)
-    colour_verdicts(sheet, row + 1, row + _COUNTS - 1 + len(held) + len(titles), YES, NO)
-    failed = sum(values[key] != YES for key in keys)
-    count = f"{len(keys)}-({passed})"
-    held_all = _counted(sheet, row + 2, _FAILED, first.sheet, f"={count}", writer, failed)
-    no_errors = _counted(sheet, row + 3, _BROKEN, first.sheet, f'=COUNTIF({sheets},"{NO}")', writer)
-    final = BAD if failed else GOOD
-    of_numbers = (
-        f'=IF({no_errors}<>"{YES}","{UNKNOWN}",IF({within}<>"{YES}","{BEYOND}",'
-        f'IF({held_all}="{YES}","{GOOD}","{BAD}")))'
-    )
+    pairs_row = row + _LISTS + len(lists)
+    states = _limits(book[INPUT_SHEET], model, writer, _in_order(sheet, pairs_row, held, writer))
+    titles = {title: areas[title] for title in book.sheetnames if title in areas}
+    sheets = _without_errors(sheet, pairs_row + len(held), titles, writer)
+    said = _inputs_and_sheets(sheet, row, states, sheets, writer)
+    verdicts = {_of_list(sheet, at, block, writer) for at, block in enumerate(lists, row + _LISTS)}
+    colour_verdicts(sheet, row + 1, pairs_row - 1 + len(held) + len(titles), YES, NO)
+    final = BAD if NO in verdicts else UNUSUAL if ODD in verdicts else GOOD
     at = Cell(sheet.title, row, UNIT_COLUMN)
-    writer.formula(sheet, row, at.column, of_numbers, final)
+    writer.formula(sheet, row, at.column, _gravest(row, row + _LISTS, pairs_row - 1), final)
     sheet.cell(row, at.column).style = styles.LINE
     return f"=IF({STRUCTURE_CHANGED}>0,{said},{at.absolute})", final
+
+
+def _inputs_and_sheets(
+    sheet: Worksheet, row: int, states: str, sheets: str, writer: BlockWriter
+) -> str:
+    """Counts of wrong inputs, of sheets with errors and of changes; where the last is judged."""
+    sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
+    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
+    _counted(sheet, row + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
+    _counted(sheet, row + 2, _BROKEN, sheet.title, f'=COUNTIF({sheets},"{NO}")', writer)
+    reshaped = f'=COUNTIF({states},">={RESHAPED_ROW}")'
+    said = _counted(sheet, row + 3, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED)
+    count = DefinedName(
+        STRUCTURE_CHANGED, attr_text=Cell(sheet.title, row + 3, VALUE_COLUMN).absolute
+    )
+    sheet.parent.defined_names[STRUCTURE_CHANGED] = count
+    return said
+
+
+def _gravest(row: int, first: int, last: int) -> str:
+    """The gravest of the counts below a row and of the verdicts on lists."""
+    letter, value = get_column_letter(UNIT_COLUMN), get_column_letter(VALUE_COLUMN)
+    lists = f"{letter}{first}:{letter}{last}"
+    return (
+        f'=IF({value}{row + 2},"{UNKNOWN}",IF({value}{row + 1},"{BEYOND}",'
+        f'IF(COUNTIF({lists},"{NO}"),"{BAD}",IF(COUNTIF({lists},"{ODD}"),"{UNUSUAL}","{GOOD}"))))'
+    )
+
+
+def _of_list(sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter) -> str:
+    """How many values of a list are not as they should be; the verdict on it."""
+    cells = [writer.layout.cells[verdict.key] for _, verdict in block.pairs]
+    within = column_range(block.sheet, cells[0].column, cells[0].row, cells[-1].row)
+    good = (block.verdicts or (YES, NO))[0]
+    values = writer.values.scalars
+    count = sum(values[verdict.key] != good for _, verdict in block.pairs)
+    bad = ODD if block.held is Held.USUAL else NO
+    _counted(
+        sheet, row, f"{block.title}: {_FAILED}", block.sheet,
+        f'={len(cells)}-COUNTIF({within},"{good}")', writer, count, bad=bad,
+    )  # fmt: skip
+    return bad if count else YES
 
 
 def _counted(
@@ -287,7 +301,7 @@ def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: B
 
 
 def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str) -> None:
-    """Verdicts of rows green and red."""
+    """Verdicts of rows green and red, what is unusual yellow."""
     cells = area(*(Cell(sheet.title, row, UNIT_COLUMN) for row in (first, last)))
     green = PatternFill(bgColor="C6EFCE")
     sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{good}"'], fill=green))

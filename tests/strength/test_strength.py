@@ -9,20 +9,20 @@ import pytest
 
 from kshm.mechanics import strength as first
 from reports.commands.new_engine import new_text
-from reports.document.chapters.closing import check_keys
+from reports.document.chapters.closing import checked
 from reports.document.chapters.strength import _MENDS
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.exports.own_books import own_numbers
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.model.blocks import Model
+from reports.model.blocks import Held, Model
 from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.strength_members import EYE_M0, EYE_N0, TORSION, usual_sizes
 from reports.workbook.layout import Layout
 from reports.workbook.sheets import BlockWriter
-from reports.workbook.verdict import check_lists
+from reports.workbook.verdict import judged_lists
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.referee.compare import differences_from_caches, errors_in
@@ -211,6 +211,7 @@ def test_usual_spans_are_no_checks_of_the_calculation():
     model = model_of()
     values = evaluate_model(model)
     writer = BlockWriter(Layout.of(model), values)
-    assert list(check_lists(writer)) == ["checks"]
+    checks = [block.id for block in judged_lists(writer) if block.held is Held.CHECK]
+    assert checks == ["checks"]
     terms = Terms(model, values)
-    assert not {key for key in check_keys(terms) if key.startswith("range_")}
+    assert not {each.key for each in checked(terms) if "range_" in each.key}

@@ -106,12 +106,14 @@ def tell_next(command: str, path: Path) -> None:
 def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     """Print remarks on a solution, on stderr if ``aside``; return whether there is a warning."""
     from reports.inputs.solve_input import power_problems, solution_remarks
+    from reports.shared.standing import Notice, Severity
 
-    power = (f"Внимание: {problem.line()}" for problem in power_problems(loaded.model))
-    lines = (*power, *solution_remarks(loaded.model))
-    for line in lines:
-        click.echo(line, err=aside)
-    return any(line.startswith("Внимание") for line in lines)
+    problems = power_problems(loaded.model)
+    remarks = [Notice(Severity.WARNING, problem.line()) for problem in problems]
+    remarks += solution_remarks(loaded.model)
+    for remark in remarks:
+        click.echo(remark.line, err=aside)
+    return any(remark.severity is Severity.WARNING for remark in remarks)
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:

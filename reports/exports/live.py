@@ -164,5 +164,5 @@ def checks(model: Model) -> Data:
             for each in outcomes(model, {key: value(key) for key in keys})
             if each.held is not Held.USUAL or each.standing is not Standing.INSIDE
         ],
-        "remarks": [*model.remarks, *solution_remarks(model.input)],
+        "remarks": [*model.remarks, *(remark.line for remark in solution_remarks(model.input))],
     }  # fmt: skip

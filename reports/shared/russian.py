@@ -133,6 +133,14 @@ def joined(items: Sequence[object], last_by: str = " и ") -> str:
     return f"{', '.join(most)}{last_by}{last}" if most else last
 
 
+def joined_phrases(items: Sequence[str]) -> str:
+    """Phrases as a sentence lists them, some of which have an «и» or a comma of their own."""
+    if " и " in items[-1]:
+        return joined(items, ", а также ")
+    # A turn of speech has a comma at its end.
+    return joined(items, ", и " if len(items) > 1 and "," in items[-2] else " и ")
+
+
 def runs(numbers: Sequence[str]) -> list[tuple[int, int]]:
     """Stretches of numbers that follow each other: places of the first and the last of each.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import Enum
 
 from reports.shared.russian import as_printed
@@ -20,8 +21,22 @@ class Standing(Enum):
 class Severity(Enum):
     """How grave a remark is."""
 
-    WARNING = "warning"
-    NOTE = "note"
+    WARNING = "Внимание"
+    NOTE = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """A remark for the console and the sheet of checks."""
+
+    severity: Severity
+    text: str
+
+    @property
+    def line(self) -> str:
+        """The remark in a line, a warning with its word."""
+        word = self.severity.value
+        return f"{word}: {self.text}" if word else self.text
 
 
 WORDS: Mapping[Standing, str] = {

@@ -12,7 +12,7 @@ from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import SheetSection
-from reports.shared.russian import joined, last_bound, surname
+from reports.shared.russian import joined_phrases, last_bound, surname
 
 Words = dict[str, Any]
 
@@ -108,10 +108,7 @@ def _aim(names: set[str]) -> str:
     """Aim of the work from its chapters; by default the whole mechanism."""
     fitting = [words for chapters, words in _AIMS if chapters & names]
     aims = fitting or [words for _, words in _AIMS[1:4]]
-    if " и " in aims[-1]:
-        return joined(aims, ", а также ")
-    # A turn of speech has a comma at its end.
-    return joined(aims, ", и " if len(aims) > 1 and "," in aims[-2] else " и ")
+    return joined_phrases(aims)
 
 
 _READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks

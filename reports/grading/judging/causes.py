@@ -26,6 +26,7 @@ _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OTHERS = 200  # variants that are tried
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
 _CLEAR = 50  # tolerances that a number has at least which tells its cause alone
+_EXACT = "exact"  # in the key of a column by the exact formula
 _VARIED = 4  # different values of a column that tells anything
 
 
@@ -272,7 +273,7 @@ class Causes:
                 about = column.quantity
                 where = "соседнего столбца" if table is own else "столбца"
                 words = f"это значения {where} {about.symbol} ({about.title})"
-                if "точн" in about.title or "точн" in table.title.lower():
+                if _EXACT in column.key:
                     words = f"точная формула вместо двучленной: {about.symbol} ({about.title})"
                 value = run.value(node)
                 if not isinstance(value, str):

@@ -39,6 +39,14 @@ WORDS = {
 E = TypeVar("E")
 
 
+_MOST_LABELS = 8
+
+
+def unread_remark(labels: Sequence[str]) -> str:
+    """What is said of a work some of whose items a person has to look at."""
+    return "не удалось проверить: " + ", ".join(labels[:_MOST_LABELS])
+
+
 @dataclass(frozen=True)
 class Rule(Generic[E]):
     """A word for cells, and where the evidence of a column gives it."""

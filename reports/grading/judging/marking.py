@@ -15,7 +15,7 @@ from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.causes import Causes, OtherVariant
-from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN
+from reports.grading.judging.judgement import GROUNDLESS, UNKNOWN, unread_remark
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
@@ -70,6 +70,7 @@ def blank_result(submission: Submission) -> Result:
         "changed": [],
         "altered": [],
         "evidence": [],
+        "identity": [],
     }
 
 
@@ -123,6 +124,7 @@ class Marker:
         except BadBook as error:
             return self.refused(result, submission, str(error))
         _take_match(result, match)
+        result["identity"] = list(match.doubts)
         if match.book is None:
             result["status"] = "unmatched"
             result["manual"].append("не удалось установить, чья это работа")
@@ -230,7 +232,7 @@ class Marker:
         result["manual"] += asked_of_blanks(items)
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
-            result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+            result["manual"].append(unread_remark(unknown))
 
     def _variant_of(self, student: StudentBook, book: Issued) -> str:
         """Owners of the variant typed over the issued input data."""

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from kshm.cycle.inputs import RANGES
 from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
 from kshm.mechanics.masses import BORES, PISTON, ROD, THROW
 from reports.inputs.sections.input_file import InputFile
@@ -84,6 +85,16 @@ _SIMILAR = (
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
 _LIGHT = "сечения тоньше обычных, их прочность следует проверить отдельно"
 _SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
+
+
+def _of_cycle(key: str) -> tuple[Span, Span]:
+    """Usual spans of a result of the cycle: of spark ignition, of all diesels."""
+    groups = RANGES[key]
+    diesels = groups["diesel_na"], groups["diesel_turbo"]
+    both = min(each.low for each in diesels), max(each.high for each in diesels)
+    return (groups["petrol"].low, groups["petrol"].high), both
+
+
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
            (f"1000*S_stroke/{_BORE}",), (0.7, 1.1), (0.9, 1.35), "", 2, "",
@@ -101,11 +112,11 @@ REASONS: tuple[Reason, ...] = (
            ("geometry_compression_ratio",), (6, 12), (14, 23), "", 1, "",
            "растут давление сгорания и нагрузки на детали", "снижается экономичность"),
     Reason("peak", "Наибольшее давление цикла", "p_z",
-           ("cyc_p_z", "gas_max_pressure_mpa"), (3.5, 7.5), (5, 15), "МПа", 2, "",
+           ("cyc_p_z", "gas_max_pressure_mpa"), *_of_cycle("combustion.p_z"), "МПа", 2, "",
            "растут нагрузки на шатун, шейки и подшипники",
            "диаграмма соответствует малой нагрузке"),
     Reason("efficiency", "Механический КПД", r"\eta_{\mathrm{м}}",
-           ("cyc_eta_m", "regime_mechanical_efficiency"), (0.75, 0.92), (0.7, 0.9), "", 2, "",
+           ("cyc_eta_m", "regime_mechanical_efficiency"), *_of_cycle("effective.eta_m"), "", 2, "",
            "потери на трение приняты малыми", "потери на трение приняты большими"),
     Reason("piston_mass", "Удельная масса поршневой группы",
            r"m_{\mathrm{п}}/F_{\mathrm{п}}", ("masses_piston_group_kg/F_piston",),

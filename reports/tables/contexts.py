@@ -13,7 +13,7 @@ from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from kshm.mechanics.journals import PLANES
 from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
-from reports.inputs.checks.cross_checks import USUAL_LAMBDA
+from reports.inputs.checks.bands import LAMBDA
 from reports.inputs.reasons import reason_of
 from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
@@ -117,7 +117,7 @@ def _summary(scope: Scope) -> dict[str, Any]:
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
         "power_gap": MOST_POWER_ERROR,
-        "lam_limits": USUAL_LAMBDA,
+        "lam_limits": LAMBDA.span,
         "lam_usual": reason_of("lam").span(""),
         **_surfaces(scope),
     }

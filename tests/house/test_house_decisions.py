@@ -94,6 +94,18 @@ def test_the_rule_sees_each_kind(text: str) -> None:
     assert list(decisions(ast.parse(text)))
 
 
+def test_no_usual_span_is_typed_where_it_is_said() -> None:
+    """It stands as numbers in a table of spans: warnings, comments, books and chapters read it."""
+    typed = re.compile(r"обычно (?:от )?[−-]?\d|span_text\(-?[\d.]+, ")
+    places = [
+        f"{path.relative_to(ROOT)}: {found[0]}"
+        for pattern in ("reports/**/*.py", "kshm/**/*.py", "templates/**/*.book")
+        for path in ROOT.glob(pattern)
+        for found in typed.finditer(path.read_text(encoding="utf-8"))
+    ]
+    assert places == []
+
+
 def test_every_reader_still_reads() -> None:
     for name in READERS:
         assert list(decisions(ast.parse((ROOT / name).read_text(encoding="utf-8")))), name

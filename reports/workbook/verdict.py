@@ -364,12 +364,12 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     marked = [area(Cell("", min(rows), 1), Cell("", max(rows), 1))]
     marked += [layout.cells[i.name].coordinate for found in rows.values() for i in found
                if not i.listed]  # fmt: skip
-    for state, look in (
+    for test_of, look in (
         (f">={RESHAPED_ROW}", styles.wrong()),
         (f"={_WRONG_ROW}", styles.wrong()),
         (f"={_ODD_ROW}", styles.odd()),
     ):
-        rule = FormulaRule([f"${letter}{min(rows)}{state}"], **look)
+        rule = FormulaRule([f"${letter}{min(rows)}{test_of}"], **look)
         sheet.conditional_formatting.add(" ".join(marked), rule)
     return column_range(sheet.title, column, min(rows), max(rows))
 

@@ -366,7 +366,7 @@ def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside
     assert ("больше обычного (0,24…0,31): растут боковая сила" in text) != inside
     assert ("меньше допускаемого (4,50): возможно касание" in text) == inside
     assert ("вне обычных пределов: " in end and "(обычно 0,24…0,31)" in end) != inside
-    assert ("принятые данные лежат в обычных пределах" in end) == inside
+    assert ("(допускается не менее 4,50)" in end) == inside
 
 
 @pytest.mark.parametrize(("allowed", "side"), [(1.1, "не меньше"), (9.0, "меньше")])

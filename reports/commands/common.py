@@ -107,13 +107,15 @@ def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     """Print remarks on a solution, on stderr if ``aside``; return whether there is a warning."""
     from reports.exports.own_books import failed_own_checks
     from reports.inputs.solve_input import power_problems, solution_remarks
+    from reports.shared.standing import Notice, Severity
 
-    own = (f"Внимание: {failed.line()}" for failed in failed_own_checks(loaded.model))
-    power = (f"Внимание: {problem.line()}" for problem in power_problems(loaded.model))
-    lines = (*power, *own, *solution_remarks(loaded.model))
-    for line in lines:
-        click.echo(line, err=aside)
-    return any(line.startswith("Внимание") for line in lines)
+    power, own = power_problems(loaded.model), failed_own_checks(loaded.model)
+    lines = [*(each.line() for each in power), *(each.line() for each in own)]
+    remarks = [Notice(Severity.WARNING, line) for line in lines]
+    remarks += solution_remarks(loaded.model)
+    for remark in remarks:
+        click.echo(remark.line, err=aside)
+    return any(remark.severity is Severity.WARNING for remark in remarks)
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:

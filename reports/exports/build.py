@@ -19,6 +19,7 @@ from reports.shared.errors import KshmError, SystemPartMissing
 from reports.shared.files import make_dir, refuse_own, write_bytes
 from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
+from reports.shared.standing import Notice, Severity
 
 if TYPE_CHECKING:
     from reports.document.report import Report
@@ -116,7 +117,7 @@ def build(
 
     needs(kinds)
     make_dir(folder)
-    remarks = (*remarks_of(loaded), *solution_remarks(loaded.model))
+    remarks = (*remarks_of(loaded), *(remark.line for remark in solution_remarks(loaded.model)))
     model = build_model(loaded.model, remarks)
     missing: SystemPartMissing | None = None
     with Progress("Расчёт") as progress:
@@ -232,7 +233,7 @@ def _workbook(model: Model, values: Values) -> bytes:
 def remarks_of(loaded: Loaded) -> tuple[str, ...]:
     """Warnings and remarks of an input."""
     return (
-        *(f"Внимание: {problem.line()}" for problem in loaded.warnings),
+        *(Notice(Severity.WARNING, problem.line()).line for problem in loaded.warnings),
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
         *(f"К сведению: {note}" for note in loaded.notes),
     )

@@ -17,11 +17,12 @@ from reports.document.figures.canvas import by_direction
 from reports.document.text.symbols import indexed
 from reports.inputs.solve_input import solution_remarks
 from reports.inputs.units import MM
-from reports.model.blocks import NO, Model, Scalar, ScalarTable
+from reports.model.blocks import Held, Model, Scalar, ScalarTable
 from reports.model.charts import ChartSpec
 from reports.model.evaluation import Evaluation
 from reports.shared.russian import written
-from reports.tables.verdicts import check_value, checks_of, reasons_of
+from reports.shared.standing import Standing
+from reports.tables.verdicts import check_value, outcomes, reasons_of
 
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
@@ -165,11 +166,15 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
 def checks(model: Model) -> Data:
     """The checks of a calculation, each with its value, and what the step leaves out."""
     value, reasons = Evaluation(model).value, reasons_of(model.input)
+    keys = [scalar.key for block in model.blocks if isinstance(block, ScalarTable)
+            for pair in block.pairs for scalar in pair]  # fmt: skip
     return {
         "checks": [
-            {"key": name, "title": scalar.note, "value": check_value(float(value(f"value_{name}"))),
-             "ok": value(scalar.key) != NO, "reason": reasons.get(name, "")}
-            for name, scalar in checks_of(model).items()
+            {"key": each.name, "title": each.title, "value": check_value(each.value),
+             "ok": each.standing is Standing.INSIDE, "odd": each.held is Held.USUAL,
+             "reason": reasons.get(each.name, "")}
+            for each in outcomes(model, {key: value(key) for key in keys})
+            if each.held is not Held.USUAL or each.standing is not Standing.INSIDE
         ],
-        "remarks": [*model.remarks, *solution_remarks(model.input)],
+        "remarks": [*model.remarks, *(remark.line for remark in solution_remarks(model.input))],
     }  # fmt: skip

@@ -58,6 +58,7 @@ _PRECEDENCE: dict[type[ast.AST], tuple[str, int]] = {
 }  # fmt: skip
 _ATOM = 9
 _ROWS = re.compile(r"\$(\d+):\$[A-Z]+\$(\d+)$")  # first and last of a range
+_ONE_CELL = re.compile(r"(\$[A-Z]+\$\d+):\1$")
 
 
 def number(value: float | str) -> str:
@@ -173,7 +174,12 @@ def _call(name: str, args: list[ast.expr], refs: References) -> tuple[str, int]:
 
 
 def _index(run: str, position: str) -> str:
-    """Cell of a range by its number; of a row with the row named, which not all programs guess."""
+    """Cell of a range by its number; of a row with the row named, which not all programs guess.
+
+    A range of one cell is no range to Gnumeric.
+    """
+    if one := _ONE_CELL.search(run):
+        return f"CHOOSE({position},{run[: one.start()]}{one[1]})"
     rows = _ROWS.search(run)
     return f"INDEX({run},{'1,' if rows and rows[1] == rows[2] else ''}{position})"
 

@@ -293,7 +293,7 @@ _PHRASES = (
     ("напишите одно число", "сделайте ячейку числом"),
 )
 _CHOICE = re.compile(r'\b(?:\w+\.)?(?P<key>\w+) = "?(?P<value>\w+)"?(?: или "(?P<other>\w+)")?')
-_SECTION = re.compile(r"(?:добавьте |нужен )?раздел \[(?P<name>\w+)\]|\[(?P<bare>\w+)\]")
+_SECTION = re.compile(r"(?:(?P<add>добавьте )|нужен )?раздел \[(?P<name>\w+)\]|\[(?P<bare>\w+)\]")
 _KEY = re.compile(r"\b(?:[a-z]+\.)?(?P<key>lambda|strokes|layout|source|[a-z0-9]+(?:_[a-z0-9]+)+)"
                   r"(?:\[(?P<n>\d+)\])?")  # fmt: skip
 
@@ -312,8 +312,7 @@ def _group(match: re.Match[str]) -> str:
     if name not in SECTIONS:
         return match[0]
     title = f"данные «{SECTIONS[name].title}»"
-    added = match[0].startswith("добавьте")
-    return f"{title} задаются в файле .toml: добавьте их там" if added else title
+    return f"{title} задаются в файле .toml: добавьте их там" if match["add"] else title
 
 
 def _chosen(match: re.Match[str]) -> str:

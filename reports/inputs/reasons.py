@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from kshm.cycle.inputs import RANGES
 from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
 from kshm.mechanics.masses import BORES, PISTON, ROD, THROW
 from reports.inputs.sections.input_file import InputFile
@@ -18,6 +19,7 @@ from reports.shared.russian import short
 
 Span = tuple[float, float]
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
+FILM_REQUIRED = "bearings_reserve_allowed*oil_hcr_um"  # least film that carries [µm]
 RODS = "rods_on_pin"  # a number beside the model's nodes
 
 
@@ -39,6 +41,7 @@ class Reason:
         below: what follows below it.
         by_size: the span grows with the bore as that of table 4.
         one_rod: the span is that of a throw with one rod.
+        required: formulas of what the calculation allows at least, if it does.
     """
 
     key: str
@@ -54,6 +57,7 @@ class Reason:
     below: str
     by_size: bool = False
     one_rod: bool = False
+    required: tuple[str, ...] = ()
 
     def below_at(self, bore_mm: float) -> str:
         """What follows below the span; a bore below those of the table is light by similarity."""
@@ -81,6 +85,16 @@ _SIMILAR = (
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
 _LIGHT = "сечения тоньше обычных, их прочность следует проверить отдельно"
 _SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
+
+
+def _of_cycle(key: str) -> tuple[Span, Span]:
+    """Usual spans of a result of the cycle: of spark ignition, of all diesels."""
+    groups = RANGES[key]
+    diesels = groups["diesel_na"], groups["diesel_turbo"]
+    both = min(each.low for each in diesels), max(each.high for each in diesels)
+    return (groups["petrol"].low, groups["petrol"].high), both
+
+
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
            (f"1000*S_stroke/{_BORE}",), (0.7, 1.1), (0.9, 1.35), "", 2, "",
@@ -98,11 +112,11 @@ REASONS: tuple[Reason, ...] = (
            ("geometry_compression_ratio",), (6, 12), (14, 23), "", 1, "",
            "растут давление сгорания и нагрузки на детали", "снижается экономичность"),
     Reason("peak", "Наибольшее давление цикла", "p_z",
-           ("cyc_p_z", "gas_max_pressure_mpa"), (3.5, 7.5), (5, 15), "МПа", 2, "",
+           ("cyc_p_z", "gas_max_pressure_mpa"), *_of_cycle("combustion.p_z"), "МПа", 2, "",
            "растут нагрузки на шатун, шейки и подшипники",
            "диаграмма соответствует малой нагрузке"),
     Reason("efficiency", "Механический КПД", r"\eta_{\mathrm{м}}",
-           ("cyc_eta_m", "regime_mechanical_efficiency"), (0.75, 0.92), (0.7, 0.9), "", 2, "",
+           ("cyc_eta_m", "regime_mechanical_efficiency"), *_of_cycle("effective.eta_m"), "", 2, "",
            "потери на трение приняты малыми", "потери на трение приняты большими"),
     Reason("piston_mass", "Удельная масса поршневой группы",
            r"m_{\mathrm{п}}/F_{\mathrm{п}}", ("masses_piston_group_kg/F_piston",),
@@ -137,9 +151,17 @@ REASONS: tuple[Reason, ...] = (
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
            ("value_oil_orbit*oil_hcr_um",), (1, 6), (1, 10), "мкм", 2, "",
-           "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша"),
+           "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша",
+           required=(FILM_REQUIRED,)),
 )  # fmt: skip
 _BY_KEY = {reason.key: reason for reason in REASONS}
+
+
+def reason_of(key: str) -> Reason:
+    """The reason of that name."""
+    return _BY_KEY[key]
+
+
 # Keys of the file whose comments tell the span of a reason.
 _COMMENTED = {
     "geometry.stroke_mm": "stroke_bore", "geometry.rod_length_mm": "lam",

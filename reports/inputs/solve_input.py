@@ -26,6 +26,7 @@ from reports.inputs.to_si.engine import engine_and_cycle, smallness_of
 from reports.inputs.units import number_text
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import NBSP, fixed, written
+from reports.shared.standing import Notice, Severity
 
 
 def solved(model: InputFile, source: str = "") -> Solution:
@@ -336,7 +337,7 @@ def flywheel_remark(model: InputFile) -> str:
     if heavy > _MOST_INERTIA:
         own = _shown(model, inertias[throws + 1])
         return (
-            f"Внимание: torsion.flywheel_kg_m2: момент инерции маховика {own} больше, чем у всех "
+            f"torsion.flywheel_kg_m2: момент инерции маховика {own} больше, чем у всех "
             f"колен вместе, в {number_text(round(heavy))}{NBSP}раз; проверьте, что он в кг·м²"
         )
     throw = lighter_than(inertias, throws)
@@ -345,7 +346,7 @@ def flywheel_remark(model: InputFile) -> str:
     own, other = (_shown(model, inertias[mass]) for mass in (throws + 1, throw - 1))
     whose = "маховика" if model.torsion.flywheel_kg_m2 else "маховика не задан, принятый"
     return (
-        f"Внимание: torsion.flywheel_kg_m2: момент инерции {whose} {own} меньше, чем у одного "
+        f"torsion.flywheel_kg_m2: момент инерции {whose} {own} меньше, чем у одного "
         f"колена ({other}); задайте момент инерции маховика, винта или муфты"
     )
 
@@ -368,13 +369,17 @@ def webs_remark(model: InputFile) -> str:
             if size not in sizes:
                 other = "…".join(map(number_text, sorted({min(sizes), max(sizes)})))
                 return (
-                    f"Внимание: {name}.{key}: {number_text(size)}{NBSP}мм, а в {where} щёки "
+                    f"{name}.{key}: {number_text(size)}{NBSP}мм, а в {where} щёки "
                     f"{other}{NBSP}мм; в расчёт идут они, удалите ключ"
                 )
     return ""
 
 
-def solution_remarks(model: InputFile) -> tuple[str, ...]:
-    """Remarks that need a solution, a line each."""
-    remarks = (flywheel_remark(model), webs_remark(model), grid_remark(model))
-    return tuple(filter(None, remarks))
+def solution_remarks(model: InputFile) -> tuple[Notice, ...]:
+    """Remarks that need a solution."""
+    remarks = (
+        Notice(Severity.WARNING, flywheel_remark(model)),
+        Notice(Severity.WARNING, webs_remark(model)),
+        Notice(Severity.NOTE, grid_remark(model)),
+    )
+    return tuple(remark for remark in remarks if remark.text)

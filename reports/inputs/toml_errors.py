@@ -10,11 +10,12 @@ from reports.inputs.messages import latin, shown
 
 Words = tuple[str, str]  # what, hint
 
+_KEY_TWICE, _SECTION_TWICE = "ключ задан дважды", "раздел задан дважды"
 _PARSER = (
-    ("Cannot overwrite a value", "ключ задан дважды"),
-    ("Cannot declare", "раздел задан дважды"),
-    ("Cannot mutate immutable", "раздел задан дважды"),
-    ("Cannot redefine namespace", "раздел задан дважды"),
+    ("Cannot overwrite a value", _KEY_TWICE),
+    ("Cannot declare", _SECTION_TWICE),
+    ("Cannot mutate immutable", _SECTION_TWICE),
+    ("Cannot redefine namespace", _SECTION_TWICE),
     ("Unterminated string", "строка не закрыта кавычкой"),
     ("Unclosed array", "список не закрыт скобкой «]»"),
     (r"Illegal character '\n'", "строка не закрыта кавычкой"),
@@ -37,8 +38,13 @@ _DECIMAL_COMMA = re.compile(r"(?<![\d.,])([-+]?\d+),(\d+)(?![\d.,]*\d)")
 def toml_error(error: Exception, text: str) -> Words:
     """Return (what, hint) for an error of the TOML parser."""
     message = str(error)
-    what = next(
-        (russian for english, russian in _PARSER if english in message), "ошибка записи TOML"
+    twice, what = next(
+        (
+            (russian is _KEY_TWICE or russian is _SECTION_TWICE, russian)
+            for english, russian in _PARSER
+            if english in message
+        ),
+        (False, "ошибка записи TOML"),
     )
     position = re.search(r"\(at line (\d+), column (\d+)\)", message)
     # tomllib counts lines by "\n" only; splitlines() would also cut at other breaks.
@@ -51,7 +57,7 @@ def toml_error(error: Exception, text: str) -> Words:
     if not row:
         return what, "проверьте запись по примеру из «kshm new»"
     line = lines[row - 1] if row <= len(lines) else ""
-    for rule in () if what.endswith("дважды") else _RULES:
+    for rule in () if twice else _RULES:
         for exact, hint in rule(line):
             return f"строка {row}: {exact}", hint
     hint = f"строка: {shown(line.strip())}" if line.strip() else ""

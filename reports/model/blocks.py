@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 from kshm.arrays import Columns
@@ -13,11 +15,14 @@ from kshm.nomenclature.quantity import Quantity, quantity
 from reports.inputs.fields import Field
 from reports.inputs.sections.input_file import InputFile
 from reports.model.charts import ChartSpec
+from reports.shared.russian import short
 
 _BEFORE = re.compile(r"\bprevious\(")
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
 TURN = "360"
+YES, NO = "да", "НЕТ"
+ALLOWED = "allowed_"  # begins the keys of verdicts on what is held to an allowed value
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,10 +92,26 @@ class TableSpec:
 
 @dataclass(frozen=True, slots=True)
 class Scalar(Node):
-    """One named value."""
+    """One named value.  ``usual`` is the span of a value that is held to one, ends included."""
 
     expr: str
     note: str = ""
+    usual: tuple[float, float] | None = None
+
+    @property
+    def label(self) -> str:
+        """The note with the usual span, as a list says it."""
+        if self.usual is None:
+            return self.note
+        return f"{self.note}: обычно {'…'.join(map(short, self.usual))}"
+
+
+class Held(Enum):
+    """What the verdicts of a list hold its values to."""
+
+    CHECK = "signs of a right calculation"
+    ALLOWED = "an allowed value"
+    USUAL = "what is usual"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +128,20 @@ class ScalarTable:
     scalars: tuple[Scalar, ...]
     note: str = ""
     verdicts: tuple[str, str] | None = None
+
+    @property
+    def held(self) -> Held | None:
+        """What its verdicts are about; a verdict in words of its own, as of a span, is no check."""
+        if not self.pairs:
+            return None
+        if self.verdicts not in (None, (YES, NO)):
+            return Held.USUAL
+        return Held.ALLOWED if self.scalars[-1].key.startswith(ALLOWED) else Held.CHECK
+
+    @property
+    def pairs(self) -> tuple[tuple[Scalar, Scalar], ...]:
+        """Values with their verdicts."""
+        return tuple(pair for pair in pairwise(self.scalars) if pair[1].of == "check")
 
 
 @dataclass(frozen=True, slots=True)
@@ -283,9 +318,6 @@ def scalars_of(block: Block) -> Iterator[Scalar]:
             yield from (cell for cell in row.cells if cell is not None)
 
 
-YES, NO = "да", "НЕТ"
-
-
 def judged(
     value_key: str,
     key: str,
@@ -294,13 +326,14 @@ def judged(
     note: str,
     source: str = "проверка",
     words: tuple[str, str] = (YES, NO),
+    usual: tuple[float, float] | None = None,
 ) -> tuple[Scalar, Scalar]:
     """A value and whether it passes; ``{value}`` in the test stands for it."""
     good, bad = words
     verdict = f'"{good}" if {test.format(value=value_key)} else "{bad}"'
     return (
-        Scalar(value_key, value, source, note=note, of="check_value"),
-        Scalar(key, verdict, note=note, of="check"),
+        Scalar(value_key, value, source, note=note, usual=usual, of="check_value"),
+        Scalar(key, verdict, note=note, usual=usual, of="check"),
     )
 
 
@@ -311,7 +344,7 @@ def allowed(
     scalars = [
         scalar
         for key, value, note in lines
-        for scalar in judged(f"value_{key}", f"allowed_{key}", value, f"{{value}} {limit}", note,
+        for scalar in judged(f"value_{key}", f"{ALLOWED}{key}", value, f"{{value}} {limit}", note,
                              "сравнение с допускаемым")
     ]  # fmt: skip
     return ScalarTable(id_, title, sheet, tuple(scalars), verdicts=(YES, NO))

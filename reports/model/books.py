@@ -16,6 +16,7 @@ from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import solved
 from reports.model.blocks import (
+    ALLOWED,
     NO,
     TURN,
     YES,
@@ -50,6 +51,7 @@ from reports.model.shape import Part, stepped
 
 MOST_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)
+_SPAN = re.compile(r"(-?[\d.]+)…(-?[\d.]+)")  # a condition: within both ends
 _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
@@ -261,14 +263,17 @@ class _BookReader:
         if value_key and key.startswith("check_"):
             raise self._fault(f"имя «{key}» занято", f"пишите check {key[6:]} = … без of", key)
         parse(value)
+        words, span = self._words(block) or (YES, NO), _SPAN.fullmatch(test)
+        if span is not None:  # the last digit of a computed value may miss an end
+            test = f"round(value, 9) >= {span[1]} and round(value, 9) <= {span[2]}"
+        ends = (float(span[1]), float(span[2])) if span and words != (YES, NO) else None
         if not (is_condition(test) and "value" in names(test)):
             raise self._fault(f"«{test}» — не условие о проверяемом значении",
                               "назовите его value: value <= 120", test)  # fmt: skip
         test = renamed(test, lambda name: own if name == "value" else name)
         self._placed(own, verdict)
-        words = self._words(block)
-        return judged(own, verdict, value, _plain(test), title, source or "проверка",
-                      words or (YES, NO))  # fmt: skip
+        source = source or "проверка"
+        return judged(own, verdict, value, _plain(test), title, source, words, ends)
 
     def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
         """``KEY = value | title``, held to the limit of the heading."""
@@ -278,8 +283,8 @@ class _BookReader:
         key, value, title = found.groups()
         own, limit = f"value_{key}", block.about["limit"]
         parse(value)
-        self._placed(own, f"allowed_{key}")
-        return judged(own, f"allowed_{key}", value, f"{own} {limit}", title,
+        self._placed(own, f"{ALLOWED}{key}")
+        return judged(own, f"{ALLOWED}{key}", value, f"{own} {limit}", title,
                       "сравнение с допускаемым")  # fmt: skip
 
     def _words(self, block: _Open) -> tuple[str, str] | None:

@@ -63,6 +63,11 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
     return (MINUS if negative else "") + whole + ("," + part if part else "")
 
 
+def as_printed(value: float, digits: int) -> float:
+    """The number that ``fixed`` writes."""
+    return float(fixed(value, digits, group=False).replace(MINUS, "-").replace(",", "."))
+
+
 def grouped(text: str) -> str:
     """A number that Python wrote, its integer part in groups of three from five digits on."""
     whole = re.match(r"-?(\d*)", text)
@@ -126,6 +131,14 @@ def joined(items: Sequence[object], last_by: str = " и ") -> str:
     """Things as a sentence counts them up: «1, 2 и 4»."""
     *most, last = map(str, items or ("",))
     return f"{', '.join(most)}{last_by}{last}" if most else last
+
+
+def joined_phrases(items: Sequence[str]) -> str:
+    """Phrases as a sentence lists them, some of which have an «и» or a comma of their own."""
+    if " и " in items[-1]:
+        return joined(items, ", а также ")
+    # A turn of speech has a comma at its end.
+    return joined(items, ", и " if len(items) > 1 and "," in items[-2] else " и ")
 
 
 def runs(numbers: Sequence[str]) -> list[tuple[int, int]]:

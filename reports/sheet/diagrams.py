@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.nomenclature.quantity import roman
+from reports.document.chapters.chapter import worst_pin
+from reports.document.chapters.oil_hole import oil_hole
 from reports.document.figures.polar import outline
 from reports.document.text.mathsvg import plain
 from reports.document.text.terms import Terms
@@ -343,8 +345,8 @@ def wear(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None
     radius = _whole(min(room.width, room.height - 3 * TEXT - 4) / 2 - 10)
     scale = round_scale(0.0, float(sums.max()) or 1.0, 0.62 * radius)
     unit = scale.unit
-    hole = terms.value(chart.hole)
-    said = f"М {unit_text(unit)} МПа/мм; отверстие {terms.num(chart.hole)}°"
+    holes, angle = _holes(terms, chart)
+    said = f"М {unit_text(unit)} МПа/мм; отверстие {angle}"
     canvas.words((room.middle[0], room.high - TEXT - 1), said, TEXT, align=0.5)
     centre = (_whole(room.middle[0]), _whole(room.low + radius + 10))
     canvas.circle(centre, radius, layer=CONTOUR)
@@ -358,4 +360,14 @@ def wear(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None
         canvas.circle(polar(centre, radius - depth / unit, -angle), 0.6, layer=THIN, filled=True)
         anchor = polar(centre, radius + 6.5, -angle)
         canvas.words((anchor[0], anchor[1] - TEXT / 2), roman(number), TEXT, align=0.5)
-    canvas.line(polar(centre, radius * 0.55, -hole), polar(centre, radius, -hole), layer=CONTOUR)
+    for hole in holes:
+        ends = (polar(centre, share * radius, -hole) for share in (0.55, 1.0))
+        canvas.line(*ends, layer=CONTOUR)
+
+
+def _holes(terms: Terms, chart: ChartSpec) -> tuple[tuple[float, ...], str]:
+    """Angles of the oil hole [deg] and their text; of the crankpin what the note concludes."""
+    if not chart.hole.startswith("hole_pin"):
+        return (terms.value(chart.hole),), f"{terms.num(chart.hole)}°"
+    hole = oil_hole(terms, worst_pin(terms))
+    return hole.angles, hole.text

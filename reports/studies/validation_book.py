@@ -20,6 +20,8 @@ from reports.studies.validation_checks import (
 )
 from reports.studies.validation_registry import TABLES
 
+EMPTY = "пусто"  # of a cell without a number
+
 WORDS: dict[Verdict, str] = {
     Verdict.AGREES: "совпадает",
     Verdict.MISPRINT: "опечатка",
@@ -165,7 +167,7 @@ def printed(check: Check) -> str:
     """The printed text with a decimal comma, a real minus and minutes of angles."""
     text = check.cell.text
     if check.printed is None:
-        return _plain(text) or "пусто"
+        return _plain(text) or EMPTY
     if check.printed.minutes:
         degrees, minutes = text.split()
         return f"{degrees}°{minutes}′"
@@ -175,7 +177,7 @@ def printed(check: Check) -> str:
 def ours(check: Check) -> str:
     """Our value with a digit more than the book has."""
     if isinstance(check.ours, str):
-        return _plain(check.ours) or "пусто"
+        return _plain(check.ours) or EMPTY
     if check.printed is None:
         return fixed(check.ours, 3)
     return value(check.ours, check.printed)

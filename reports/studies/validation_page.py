@@ -212,7 +212,7 @@ def _cell(check: Check) -> Markup:
     ours, book = shown.ours(check), shown.printed(check)
     if check.printed is None and not shown.is_marked(check):
         # A sign or an empty place that is the same needs no second line.
-        return Markup("{}").format("" if book == "пусто" else book)
+        return Markup("{}").format("" if book == shown.EMPTY else book)
     if not shown.is_marked(check):
         return Markup("{}<br>{}").format(book, ours)  # spans cost as much as the cell itself
     return Markup('<span class="pair {}">{}<i>{}</i>{}</span>').format(

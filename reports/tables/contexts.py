@@ -14,6 +14,8 @@ from kshm.defaults import FINE_STEP
 from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from kshm.mechanics.journals import PLANES
 from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
+from reports.inputs.checks.bands import LAMBDA
+from reports.inputs.reasons import reason_of
 from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
 from reports.inputs.solve_input import MOST_POWER_ERROR
@@ -116,6 +118,8 @@ def _summary(scope: Scope) -> dict[str, Any]:
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
         "power_gap": MOST_POWER_ERROR,
+        "lam_limits": LAMBDA.span,
+        "lam_usual": reason_of("lam").span(""),
         **_surfaces(scope),
     }
 

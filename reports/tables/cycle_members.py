@@ -9,7 +9,6 @@ from kshm.cycle.inputs import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
 from reports.inputs.sections.gas import CycleSection
 from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
-from reports.shared.russian import short
 
 UNCHECKED = "обычные значения, с книгой не сверены"
 
@@ -101,7 +100,6 @@ def ranges_of(section: CycleSection) -> Iterator[CycleRange]:
     for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
         about = titles[key]
         unit = f", {about.unit}" if about.unit else ""
-        limits = f"{short(usual.low)}…{short(usual.high)}"
-        note = f"{about.title} {about.symbol.replace('_', '')}{unit}: обычно {limits}"
+        note = f"{about.title} {about.symbol.replace('_', '')}{unit}"
         source = usual.reference or UNCHECKED
         yield CycleRange(_RANGE_NAMES[key], usual.low, usual.high, note, source)

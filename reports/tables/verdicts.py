@@ -2,15 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reports.inputs.sections.input_file import InputFile
-from reports.model.blocks import NO, Block, Model, Scalar, scalars_of
+from reports.model.blocks import NO, YES, Block, Held, Model, Scalar, ScalarTable, scalars_of
 from reports.model.evaluation import Values
 from reports.shared.russian import fixed
+from reports.shared.standing import Standing
 
 _PREFIX, _ALLOWED = "check_", "allowed_"
+
+
+@dataclass(frozen=True, slots=True)
+class JudgedValue:
+    """A value of the tables and where it stands; ``key`` is that of its verdict."""
+
+    block: str
+    held: Held
+    key: str
+    title: str
+    value: float
+    standing: Standing
+
+    @property
+    def name(self) -> str:
+        """The check's name in a file."""
+        return self.key.partition("_")[2]
+
+
+def outcomes(model: Model, scalars: Mapping[str, float | str]) -> tuple[JudgedValue, ...]:
+    """All values that the tables judge, in order; none of a list that is to be filled in.
+
+    The only place that reads the words of the tables.
+    """
+    return tuple(each for block in model.blocks if isinstance(block, ScalarTable)
+                 for each in _judged(block, scalars))  # fmt: skip
+
+
+def _judged(block: ScalarTable, scalars: Mapping[str, float | str]) -> Iterator[JudgedValue]:
+    held, words = block.held, block.verdicts or (YES, NO)
+    if held is None:
+        return
+    for scalar, verdict in block.pairs:
+        said = scalars.get(verdict.key)
+        if said in words:
+            value = float(scalars[scalar.key])
+            where = Standing.INSIDE if said == words[0] else _outside(value, scalar.usual)
+            yield JudgedValue(block.id, held, verdict.key, scalar.label, value, where)
+
+
+def _outside(value: float, usual: tuple[float, float] | None) -> Standing:
+    if usual is None:
+        return Standing.FAILED
+    return Standing.BELOW if value < usual[0] else Standing.ABOVE
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +91,12 @@ def checks_of(model: Model, *, department: bool = False) -> dict[str, Scalar]:
 
 def failed_checks(model: Model, values: Values, *, department: bool = False) -> list[Failed]:
     """The checks that did not pass, in their order; ``department`` leaves those of own books."""
-    reasons, value = reasons_of(model.input), values.scalars
+    reasons = reasons_of(model.input)
+    names = {scalar.key for scalar in checks_of(model, department=department).values()}
     return [
-        Failed(name, scalar.note, check_value(float(value[f"value_{name}"])), reasons.get(name, ""))
-        for name, scalar in checks_of(model, department=department).items()
-        if value[scalar.key] == NO
+        Failed(each.name, each.title, check_value(each.value), reasons.get(each.name, ""))
+        for each in outcomes(model, values.scalars)
+        if each.standing is not Standing.INSIDE and each.key in names
     ]
 
 

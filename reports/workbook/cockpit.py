@@ -48,7 +48,7 @@ from reports.workbook.places import (
     wrap_across,
 )
 from reports.workbook.sheets import BlockWriter, link
-from reports.workbook.verdict import GOOD
+from reports.workbook.verdict import GOOD, STRUCTURE_CHANGED, UNUSUAL, fade
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -101,12 +101,24 @@ def write_cockpit(
     row = _verdict(sheet, writer, row, verdict)
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
-    row = _values(sheet, writer, row + 1, "Главные результаты", RESULTS)
+    top, row = row + 2, _values(sheet, writer, row + 1, "Главные результаты", results_of(model))
+    if verdict is not None and row > top:
+        fade(sheet, area(Cell("", top, 3), Cell("", row - 1, 3)))
     boxes = _charts(sheet, model, writer, _chapters(sheet, titles, contents_for(model)) + 1)
     row = _sheets(sheet, titles, model, row + 1)
     row = _left_out(sheet, writer, row)
     _legend(sheet, model, legend, row + 1)
     return boxes
+
+
+def results_of(model: Model) -> tuple[str, ...]:
+    """Keys of what came out; the oil hole is where the film puts it, as the report says."""
+    if "oil_film1_deg" not in model.scalars:
+        return RESULTS
+    given = "crankshaft_oil_hole_deg"
+    hole = (given,) if given in model.fields else ("oil_film1_deg", "oil_film2_deg")
+    at = RESULTS.index("hole_pin_deg")
+    return (*RESULTS[:at], *hole, *RESULTS[at + 1 :])
 
 
 def _people(sheet: Worksheet, model: Model, row: int) -> int:
@@ -171,18 +183,25 @@ def _verdict(
     writer.formula(sheet, row, 2, *verdict)
     sheet.cell(row, 2).style = styles.LINE
     # Not bold: the longest verdict ends before the charts.
-    wrong = FormulaRule([f'$B{row}<>"{GOOD}"'], fill=styles.wrong()["fill"])
-    sheet.conditional_formatting.add(f"B{row}:D{row}", wrong)
+    _colour(sheet, f"B{row}:D{row}", f"$B{row}", "")
     # Beside what is changed as well.
     inputs, at = sheet.parent[INPUT_SHEET], Cell(sheet.title, row, 2).absolute
     here = Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
     text, (_, value) = f"{_CHECKS}: ", verdict
-    writer.formula(inputs, here.row, here.column, f'="{text}"&{at}', f"{text}{value}")
+    said = f'=IF({STRUCTURE_CHANGED}>0,{at},"{text}"&{at})'
+    writer.formula(inputs, here.row, here.column, said, f"{text}{value}")
     inputs.cell(here.row, here.column).style = styles.LINE
     mark = here.absolute.partition("!")[2]
-    wrong = FormulaRule([f'{mark}<>"{text}{GOOD}"'], fill=wrong.dxf.fill)
-    inputs.conditional_formatting.add(area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), wrong)
+    _colour(inputs, area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), mark, text)
     return row + 1
+
+
+def _colour(sheet: Worksheet, cells: str, mark: str, before: str) -> None:
+    """Fill of a verdict that is not good."""
+    odd = FormulaRule([f'{mark}="{before}{UNUSUAL}"'], stopIfTrue=True, fill=styles.odd()["fill"])
+    wrong = FormulaRule([f'{mark}<>"{before}{GOOD}"'], fill=styles.wrong()["fill"])
+    for rule in (odd, wrong):
+        sheet.conditional_formatting.add(cells, rule)
 
 
 def _values(
@@ -376,7 +395,7 @@ def write_what_if(book: Workbook, model: Model, writer: BlockWriter) -> None:
         for item in model.inputs
         if not item.structural and isinstance(item.value, float) and not item.listed
     ]
-    row = _part(sheet, writer, HEADER_ROW + 1, "Главные результаты", RESULTS)
+    row = _part(sheet, writer, HEADER_ROW + 1, "Главные результаты", results_of(model))
     last = _part(sheet, writer, row, "Исходные данные", free)
     changed = FormulaRule(formula=[f"$E{HEADER_ROW + 1}<>0"], fill=PatternFill(bgColor="FFEB9C"))
     sheet.conditional_formatting.add(f"D{HEADER_ROW + 1}:E{last}", changed)

@@ -216,7 +216,7 @@ class BlockWriter:
             quantity = scalar.quantity
             if scalar.of != "check":
                 texts = {
-                    TITLE_COLUMN: capital(scalar.note or quantity.title),
+                    TITLE_COLUMN: capital(scalar.label or quantity.title),
                     SYMBOL_COLUMN: "" if scalar.of == "check_value" else quantity.symbol,
                     UNIT_COLUMN: quantity.unit_label,
                     SOURCE_COLUMN: scalar.source,

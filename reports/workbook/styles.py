@@ -55,6 +55,11 @@ def odd() -> dict[str, Any]:
     return {"font": Font(color="7F6000"), "fill": PatternFill(bgColor="FFEB9C")}
 
 
+def outdated() -> dict[str, Any]:
+    """How a conditional format shows results that a change has left behind."""
+    return {"font": Font(color="A6A6A6"), "fill": PatternFill(bgColor="EDEDED")}
+
+
 def excel_format(quantity: Quantity, decimals: int = 0) -> str:
     """Number format of the cells of a quantity; ``decimals`` are those of others above it."""
     digits = quantity.digits

@@ -14,14 +14,16 @@ from openpyxl.formatting.rule import CellIsRule, FormulaRule
 from openpyxl.styles import PatternFill
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.workbook import Workbook
+from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.formula.excel import number
 from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
-from reports.model.blocks import NO, YES, Model, scalars_of
+from reports.model.blocks import NO, YES, Held, Model, ScalarTable
+from reports.tables.verdicts import outcomes
 from reports.workbook import styles
-from reports.workbook.inputs import options
+from reports.workbook.inputs import options, shown
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -151,76 +153,102 @@ def _scaled(text: str, term: Term) -> str:
 
 
 GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
+UNUSUAL = "есть необычное, см. «Проверки»"
 BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
+RESHAPED = "структура изменена: выполните build"
+STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
 ODD, _UNKNOWN = "необычно", "—"
-_BEYOND = "Строки: 1 — вне пределов, 2 — необычно"
+_BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
 _WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
-_FAILED, _BROKEN = "Сколько проверок не выполнено", "На скольких листах ошибки в формулах"
-_WRONG_ROW, _ODD_ROW = 1, 2
+_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах"
+_RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
+_WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
+_LISTS = 4  # rows before those of lists: a title and counts
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
 _CHECKS = "checks"  # the list of the house; a department's book may have checks too
 
 
-def check_lists(writer: BlockWriter) -> dict[str, list[str]]:
-    """Checks by list whose verdicts stand in the book; none of a book to fill in.
-
-    A verdict in other words, as of a usual span, is no check.
-    """
-    values = writer.values.scalars
-    lists = {
-        block.id: [scalar.key for scalar in scalars_of(block) if scalar.key.startswith("check_")]
-        for block in writer.layout.model.blocks
-    }
-    judged = {
-        name: keys
-        for name, keys in lists.items()
-        if name == _CHECKS or any(values.get(key) in (YES, NO) for key in keys)
-    }
-    whole = all(values.get(key) in (YES, NO) for keys in judged.values() for key in keys)
-    return judged if whole and judged.get(_CHECKS) else {}
+def judged_lists(writer: BlockWriter) -> list[ScalarTable]:
+    """Lists whose verdicts stand in the book; none of a book to fill in."""
+    model, scalars = writer.layout.model, writer.values.scalars
+    lists = [block for block in model.blocks if isinstance(block, ScalarTable) and block.held]
+    judged = [each.block for each in outcomes(model, scalars)]
+    whole = all(judged.count(block.id) == len(block.pairs) for block in lists)
+    return lists if whole and _CHECKS in judged else []
 
 
 def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[str, str] | None:
     """Formula and value of what the first sheet says of the numbers; nothing without checks."""
-    lists = check_lists(writer)
+    lists = judged_lists(writer)
     if not lists:
         return None
-    layout, values = writer.layout, writer.values.scalars
-    keys = [key for each in lists.values() for key in each]
-    passed = "+".join(
-        f'COUNTIF({column_range(cell.sheet, cell.column, cell.row, last.row)},"{YES}")'
-        for each in lists.values()
-        for cell, last in [(layout.cells[each[0]], layout.cells[each[-1]])]
-    )
-    first, last = (layout.cells[lists[_CHECKS][end]] for end in (0, -1))
+    layout = writer.layout
+    checks = next(block for block in lists if block.id == _CHECKS)
+    first, last = (layout.cells[checks.scalars[end].key] for end in (0, -1))
     # The verdicts of the sheet's own list follow from these.
     areas = _areas(writer.caches) | {
         first.sheet: column_range(first.sheet, VALUE_COLUMN, first.row, last.row)
     }
-    held = list(conditions(model, layout, values))
-    sheet = book[first.sheet]
+    for title, cells in areas.items():
+        fade(book[title], cells.rpartition("!")[2])
+    held, sheet = list(conditions(model, layout, writer.values.scalars)), book[first.sheet]
     row = sheet.max_row + 2
-    in_order = _in_order(sheet, row + 4, held, writer)
-    beyond = _limits(book[INPUT_SHEET], model, writer, in_order)
+    pairs_row = row + _LISTS + len(lists)
+    states = _limits(book[INPUT_SHEET], model, writer, _in_order(sheet, pairs_row, held, writer))
+    titles = {title: areas[title] for title in book.sheetnames if title in areas}
+    sheets = _without_errors(sheet, pairs_row + len(held), titles, writer)
+    said = _inputs_and_sheets(sheet, row, states, sheets, writer)
+    verdicts = {_of_list(sheet, at, block, writer) for at, block in enumerate(lists, row + _LISTS)}
+    colour_verdicts(sheet, row + 1, pairs_row - 1 + len(held) + len(titles), YES, NO)
+    final = BAD if NO in verdicts else UNUSUAL if ODD in verdicts else GOOD
+    at = Cell(sheet.title, row, UNIT_COLUMN)
+    writer.formula(sheet, row, at.column, _gravest(row, row + _LISTS, pairs_row - 1), final)
+    sheet.cell(row, at.column).style = styles.LINE
+    return f"=IF({STRUCTURE_CHANGED}>0,{said},{at.absolute})", final
+
+
+def _inputs_and_sheets(
+    sheet: Worksheet, row: int, states: str, sheets: str, writer: BlockWriter
+) -> str:
+    """Counts of wrong inputs, of sheets with errors and of changes; where the last is judged."""
     sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
-    within = _counted(
-        sheet, row + 1, _WITHIN, INPUT_SHEET, f"=COUNTIF({beyond},{_WRONG_ROW})", writer
+    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
+    _counted(sheet, row + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
+    _counted(sheet, row + 2, _BROKEN, sheet.title, f'=COUNTIF({sheets},"{NO}")', writer)
+    reshaped = f'=COUNTIF({states},">={RESHAPED_ROW}")'
+    said = _counted(sheet, row + 3, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED)
+    count = DefinedName(
+        STRUCTURE_CHANGED, attr_text=Cell(sheet.title, row + 3, VALUE_COLUMN).absolute
     )
-    titles = [title for title in book.sheetnames if title in areas]
-    own = {title: areas[title] for title in titles}
-    sheets = _without_errors(sheet, row + 4 + len(held), own, writer)
-    colour_verdicts(sheet, row + 1, row + 3 + len(held) + len(titles), YES, NO)
-    failed = sum(values[key] != YES for key in keys)
-    count = f"{len(keys)}-({passed})"
-    held_all = _counted(sheet, row + 2, _FAILED, first.sheet, f"={count}", writer, failed)
-    no_errors = _counted(sheet, row + 3, _BROKEN, first.sheet, f'=COUNTIF({sheets},"{NO}")', writer)
+    sheet.parent.defined_names[STRUCTURE_CHANGED] = count
+    return said
+
+
+def _gravest(row: int, first: int, last: int) -> str:
+    """The gravest of the counts below a row and of the verdicts on lists."""
+    letter, value = get_column_letter(UNIT_COLUMN), get_column_letter(VALUE_COLUMN)
+    lists = f"{letter}{first}:{letter}{last}"
     return (
-        f'=IF({no_errors}<>"{YES}","{UNKNOWN}",IF({within}<>"{YES}","{BEYOND}",'
-        f'IF({held_all}="{YES}","{GOOD}","{BAD}")))',
-        BAD if failed else GOOD,
+        f'=IF({value}{row + 2},"{UNKNOWN}",IF({value}{row + 1},"{BEYOND}",'
+        f'IF(COUNTIF({lists},"{NO}"),"{BAD}",IF(COUNTIF({lists},"{ODD}"),"{UNUSUAL}","{GOOD}"))))'
     )
+
+
+def _of_list(sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter) -> str:
+    """How many values of a list are not as they should be; the verdict on it."""
+    cells = [writer.layout.cells[verdict.key] for _, verdict in block.pairs]
+    within = column_range(block.sheet, cells[0].column, cells[0].row, cells[-1].row)
+    good = (block.verdicts or (YES, NO))[0]
+    values = writer.values.scalars
+    count = sum(values[verdict.key] != good for _, verdict in block.pairs)
+    bad = ODD if block.held is Held.USUAL else NO
+    _counted(
+        sheet, row, f"{block.title}: {_FAILED}", block.sheet,
+        f'={len(cells)}-COUNTIF({within},"{good}")', writer, count, bad=bad,
+    )  # fmt: skip
+    return bad if count else YES
 
 
 def _counted(
@@ -231,13 +259,16 @@ def _counted(
     formula: str,
     writer: BlockWriter,
     count: float = 0.0,
+    *,
+    bad: str = NO,
 ) -> str:
     """A count that must be zero, and whether it is; the address of the verdict."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), title, target)
     at, cell = (Cell(sheet.title, row, column) for column in (VALUE_COLUMN, UNIT_COLUMN))
     writer.formula(sheet, row, at.column, formula, float(count))
     sheet.cell(row, at.column).style = styles.FORMULA
-    _say(sheet, cell, f'=IF({at.coordinate}=0,"{YES}","{NO}")', writer, NO if count else YES)
+    verdict = f'=IF({at.coordinate}=0,"{YES}","{bad}")'
+    _say(sheet, cell, verdict, writer, bad if count else YES)
     return cell.absolute
 
 
@@ -270,11 +301,21 @@ def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: B
 
 
 def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str) -> None:
-    """Verdicts of rows green and red."""
+    """Verdicts of rows green and red, what is unusual yellow."""
     cells = area(*(Cell(sheet.title, row, UNIT_COLUMN) for row in (first, last)))
     green = PatternFill(bgColor="C6EFCE")
     sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{good}"'], fill=green))
     sheet.conditional_formatting.add(cells, CellIsRule("equal", [f'"{bad}"'], **styles.wrong()))
+
+
+def fade(sheet: Worksheet, cells: str) -> None:
+    """Results grey while they follow a structure that is not theirs, before other formats."""
+    for places in sheet.conditional_formatting:
+        for rule in places.rules:
+            rule.priority += 1
+    rule = FormulaRule([f"{STRUCTURE_CHANGED}>0"], stopIfTrue=True, **styles.outdated())
+    rule.priority = 1
+    sheet.conditional_formatting.add(cells, rule)
 
 
 def _say(sheet: Worksheet, cell: Cell, formula: str, writer: BlockWriter, said: str = YES) -> None:
@@ -300,7 +341,7 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     layout = writer.layout
     rows: dict[int, list[Field]] = defaultdict(list)
     for item in model.inputs:
-        if options(item) or item.minimum is not None:
+        if options(item) or item.minimum is not None or item.structural:
             rows[layout.cells[item.name].row].append(item)
     column = 1 + max(KEY_COLUMN, *(layout.cells[item.name].column for item in model.inputs))
     sheet.cell(HEADER_ROW, column, _BEYOND).style = styles.HEADER
@@ -311,7 +352,9 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
             (usual if condition.pair.warning else tests).append(test)
             state = state if condition.holds else _ODD_ROW
         other = f"IF(AND({','.join(usual)}),0,{_ODD_ROW})" if usual else "0"
-        formula = f"=IF(AND({','.join(tests)}),{other},{_WRONG_ROW})"
+        formula = f"=IF(AND({','.join(tests)}),{other},{_WRONG_ROW})" if tests else f"={other}"
+        if changed := [_changed(item, layout) for item in items if item.structural]:
+            formula += f"+IF(OR({','.join(changed)}),{RESHAPED_ROW},0)"
         writer.formula(sheet, row, column, formula, state)
         sheet.cell(row, column).style = styles.HELPER
     letter = get_column_letter(column)
@@ -321,10 +364,19 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     marked = [area(Cell("", min(rows), 1), Cell("", max(rows), 1))]
     marked += [layout.cells[i.name].coordinate for found in rows.values() for i in found
                if not i.listed]  # fmt: skip
-    for state, look in ((_WRONG_ROW, styles.wrong()), (_ODD_ROW, styles.odd())):
-        rule = FormulaRule([f"${letter}{min(rows)}={state}"], **look)
+    for test_of, look in (
+        (f">={RESHAPED_ROW}", styles.wrong()),
+        (f"={_WRONG_ROW}", styles.wrong()),
+        (f"={_ODD_ROW}", styles.odd()),
+    ):
+        rule = FormulaRule([f"${letter}{min(rows)}{test_of}"], **look)
         sheet.conditional_formatting.add(" ".join(marked), rule)
     return column_range(sheet.title, column, min(rows), max(rows))
+
+
+def _changed(item: Field, layout: Layout) -> str:
+    """That a structural cell holds another value than the book is built with: it stands here."""
+    return f"{layout.cells[item.name].coordinate}<>{number(shown(item))}"
 
 
 def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:

@@ -99,7 +99,8 @@ def type_into(book: bytes, data: InputFile, changes: Sequence[Change]) -> bytes:
     for change in changes:
         cell = layout.cells[change.field.name]
         choices = change.field.choices
-        shown = choices[change.value] if choices else change.value
+        words = choices and isinstance(change.value, str)
+        shown = choices[change.value] if words else change.value
         of_sheet.setdefault(cell.sheet, []).append((cell.coordinate, shown))
     stream = io.BytesIO()
     with (

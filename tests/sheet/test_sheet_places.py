@@ -6,6 +6,9 @@ import itertools
 
 import pytest
 
+from reports.document.chapters.chapter import worst_pin
+from reports.document.chapters.oil_hole import oil_hole
+from reports.document.report import Report
 from reports.document.text.texts import of_digits
 from reports.draw.canvas import CURVES, THIN, Canvas, Line, Words, overlap
 from reports.draw.canvas import SIZES as DIMENSIONS
@@ -84,6 +87,19 @@ def test_a_sample_in_the_legend_shows_how_its_line_is_broken():
     for shown in samples:
         (left, _), (right, _) = shown.points
         assert right - left >= sum(shown.dash) + shown.dash[0] - 0.1
+
+
+@pytest.mark.parametrize("name", ["d-240-bearings", "two-stroke", "mwm-6"])
+def test_the_oil_hole_is_drilled_where_the_note_concludes(name: str) -> None:
+    """By the film, the wear or as given; the sheet drilled at 270° what the note put at 295°."""
+    model = terms(name)
+    canvas, *_ = drawn(model)
+    said = [item.text for item in canvas.items if isinstance(item, Words)]
+    hole = oil_hole(model, worst_pin(model))
+    assert any(text.endswith(f"отверстие {hole.text}") for text in said)
+    concluded = " ".join(Report(model.model, model.values).page("screen").split())
+    words = concluded.partition("следует сверлить под углом ")[2]
+    assert words.startswith(hole.text.replace("°", "")) or not words
 
 
 def test_the_place_of_an_oil_hole_is_the_reports():

@@ -10,20 +10,20 @@ import pytest
 from kshm.mechanics import strength as first
 from kshm.mechanics.strength import EYE_M0, EYE_N0, TORSION, SectionLoad, StressCycle
 from reports.commands.new_engine import new_text
-from reports.document.chapters.closing import check_keys
+from reports.document.chapters.closing import checked
 from reports.document.chapters.strength import _MENDS
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
-from reports.model.blocks import Model
+from reports.model.blocks import Held, Model
 from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.strength_members import SAFETIES, UsualStress, usual_sizes, usual_stresses
 from reports.tables.verdicts import failed_checks
 from reports.workbook.layout import Layout
 from reports.workbook.sheets import BlockWriter
-from reports.workbook.verdict import check_lists
+from reports.workbook.verdict import judged_lists
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
@@ -250,8 +250,9 @@ def test_a_weak_part_or_a_large_stress_is_a_failed_check(
     model = model_of("vw-1600", "petrol", **inputs)
     values = evaluate_model(model)
     terms, writer = Terms(model, values), BlockWriter(Layout.of(model), values)
-    assert list(check_lists(writer)) == ["checks", "strength_checks"]
-    assert not {key for key in check_keys(terms) if key.startswith("range_")}
+    lists = [block.id for block in judged_lists(writer) if block.held is Held.CHECK]
+    assert lists == ["checks", "strength_checks"]
+    assert not {each.key for each in checked(terms) if "range_" in each.key}
     bad = {check.key for check in failed_checks(model, values)}
     assert ("st_least" in bad, "st_usual" in bad) == (weak, above)
     least = min(terms.value(key) for key in SAFETIES)

@@ -11,7 +11,6 @@ from markupsafe import Markup
 from reports.document.chapters import (
     balance,
     dynamics,
-    oil,
 )
 from reports.document.chapters.chapter import (
     BOOK,
@@ -25,6 +24,7 @@ from reports.document.chapters.chapter import (
     worst_running,
 )
 from reports.document.chapters.journals import least_ray
+from reports.document.chapters.oil_hole import oil_hole
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
@@ -32,11 +32,12 @@ from reports.document.text.terms import Terms, crankcase_scavenges, with_unit
 from reports.document.text.texts import of_digits
 from reports.document.text.tolerances import tolerance
 from reports.inputs.solve_input import GridError
-from reports.model.blocks import NO, YES
+from reports.model.blocks import Held
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
-from reports.shared.russian import NBSP, capital, fixed
+from reports.shared.russian import NBSP, capital, fixed, uncapital
+from reports.shared.standing import Standing
 from reports.tables.left_out import without_orders
-from reports.tables.verdicts import check_value, reasons_of
+from reports.tables.verdicts import JudgedValue, check_value, reasons_of
 
 _TEXT = "— Текст : непосредственный"
 SOURCES = {
@@ -87,8 +88,7 @@ _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says noth
 def checks(chapter: Chapter) -> Markup:
     """Table of checks and what the failed ones mean."""
     terms = chapter.terms
-    keys = check_keys(terms)
-    plan = TablePlan(partial(_check_table, terms, keys), "Проверки расчёта", lined=True)
+    plan = TablePlan(partial(_check_table, terms), "Проверки расчёта", lined=True)
     return chapter.page(
         "checks",
         plan=plan,
@@ -145,22 +145,17 @@ def difference(percent: float, fine: str) -> str:
     return fixed(percent, 1) if known else "—"
 
 
-def check_keys(terms: Terms) -> list[str]:
-    """Names of the checks in order; a verdict in other words, as of a usual span, is no check."""
-    prefix = "check_"
-    return [
-        key.removeprefix(prefix)
-        for key in terms.model.scalars
-        if key.startswith(prefix) and terms.values.scalars[key] in (YES, NO)
-    ]
+def checked(terms: Terms) -> list[JudgedValue]:
+    """Checks of the calculation in order."""
+    return [each for each in terms.judged if each.held is Held.CHECK]
 
 
 def failed(terms: Terms, without: Collection[str] = ()) -> list[tuple[Markup, Markup]]:
     """Title and what came out of the checks that did not pass."""
     return [
-        _outcome(terms.model.scalars[f"check_{key}"].note, check_value(terms.value(f"value_{key}")))
-        for key in check_keys(terms)
-        if terms.values.scalars[f"check_{key}"] == NO and key not in without
+        _outcome(each.title, check_value(each.value))
+        for each in checked(terms)
+        if each.standing is not Standing.INSIDE and each.name not in without
     ]
 
 
@@ -173,7 +168,7 @@ def _outcome(title: str, value: str) -> tuple[Markup, Markup]:
     return titled_html(head), Markup("{} {}").format(titled_html(what), with_unit(value, unit))
 
 
-def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
+def _check_table(terms: Terms) -> TableBlock:
     columns = (
         TableColumn("Проверка", 6, text=True),
         TableColumn("Значение", 1.5),
@@ -182,12 +177,12 @@ def _check_table(terms: Terms, keys: list[str]) -> TableBlock:
     )
     rows = [
         [
-            titled_html(terms.model.scalars[f"check_{key}"].note),
-            fixed(terms.value(f"value_{key}"), _CHECKED),
-            allows(terms, key),
-            "да" if terms.values.scalars[f"check_{key}"] == YES else "нет",
+            titled_html(each.title),
+            fixed(each.value, _CHECKED),
+            allows(terms, each.name),
+            "да" if each.standing is Standing.INSIDE else "нет",
         ]
-        for key in keys
+        for each in checked(terms)
     ]
     return table_block(columns, rows)
 
@@ -233,7 +228,7 @@ def conclusion(chapter: Chapter) -> Markup:
         pz=peak,
         pz_printed=_is_printed(chapter, peak.angle),
         powers=terms.has("cyc_N_gas"),
-        hole=oil.hole(chapter, pin),
+        hole=oil_hole(terms, pin),
     )
 
 
@@ -252,12 +247,29 @@ def _further(chapter: Chapter) -> list[Markup]:
 
 def verdict(chapter: Chapter) -> str:
     """How many checks passed, in words; where they stand if the report has no table of them."""
-    count, bad = len(check_keys(chapter.terms)), len(failed(chapter.terms))
+    count, bad = len(checked(chapter.terms)), len(failed(chapter.terms))
     absent = "checks" not in chapter.relevant
     where = f" (таблица «Проверки» {ELSEWHERE})" if absent else ""
-    if not bad:
-        return f"Все проверки расчёта{where} выполнены ({count}{NBSP}из{NBSP}{count})."
-    return f"Проверок расчёта{where} выполнено {count - bad}{NBSP}из{NBSP}{count}."
+    beyond = _beyond(chapter.terms)
+    if bad:
+        also = f" Кроме того, {beyond}." if beyond else ""
+        return f"Проверок расчёта{where} выполнено {count - bad}{NBSP}из{NBSP}{count}.{also}"
+    if beyond:
+        share = f"{count}{NBSP}из{NBSP}{count}"
+        return f"Проверки хода расчёта{where} выполнены ({share}), но {beyond}."
+    return f"Все проверки расчёта{where} выполнены ({count}{NBSP}из{NBSP}{count})."
+
+
+def _beyond(terms: Terms) -> str:
+    """What of the results is less than allowed, and how many leave their usual limits."""
+    outside = [each for each in terms.judged if each.standing is not Standing.INSIDE]
+    weak = [f"{uncapital(each.title)} — {fixed(each.value, 2)}"
+            for each in outside if each.held is Held.ALLOWED]  # fmt: skip
+    odd = sum(each.held is Held.USUAL for each in outside)
+    parts = [f"меньше допускаемого: {'; '.join(weak)}"] if weak else []
+    if odd:
+        parts.append(f"результатов вне обычных пределов: {odd}")
+    return "; ".join(parts)
 
 
 def sources(chapter: Chapter) -> Markup:

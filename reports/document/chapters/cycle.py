@@ -24,8 +24,9 @@ from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import limits, of_digits
-from reports.model.blocks import Grid, ScalarTable
-from reports.shared.russian import capital, fixed, uncapital
+from reports.model.blocks import Grid
+from reports.shared.russian import capital, fixed, short, uncapital
+from reports.shared.standing import Standing
 from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
 _MOST_DECIMALS = 8  # of values in passes
@@ -226,17 +227,18 @@ def _range_keys(terms: Terms) -> list[str]:
 
 def _outside(terms: Terms) -> list[str]:
     """Names of the results outside their usual limits."""
-    inside = next(
-        block.verdicts[0] for block in terms.model.blocks
-        if isinstance(block, ScalarTable) and block.verdicts and block.id == "cycle_ranges"
-    )  # fmt: skip
-    return [key for key in _range_keys(terms) if terms.values.scalars[f"range_{key}"] != inside]
+    return [
+        each.key.removeprefix("range_")
+        for each in terms.judged
+        if each.block == "cycle_ranges" and each.standing is not Standing.INSIDE
+    ]
 
 
 def _range_of(terms: Terms, key: str) -> tuple[str, str, str, str]:
     """Title with the symbol, unit, value and usual limits of a result, in print."""
-    title, _, usual = terms.model.scalars[f"range_value_{key}"].note.partition(": обычно ")
-    title, _, unit = title.partition(", ")
+    scalar = terms.model.scalars[f"range_value_{key}"]
+    title, _, unit = scalar.note.partition(", ")
+    usual = "…".join(map(short, scalar.usual or ()))
     value = terms.value(f"range_value_{key}")
     shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
     return title, unit, shown, limits(usual)

@@ -28,7 +28,7 @@ from reports.inputs.checks.gas import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.masses import sizes_of
-from reports.model.blocks import NO, YES, Grid, ScalarTable
+from reports.model.blocks import NO, Grid, ScalarTable
 from reports.model.charts import Series
 from reports.model.context import diagram_kind
 from reports.model.shape import rods_table
@@ -372,7 +372,7 @@ def torque(chapter: Chapter) -> Markup:
         cylinders=chapter.input.engine.cylinders,
         intervals=_intervals(chapter),
         has_power=terms.has("T_ref"),
-        agrees=terms.values.scalars.get("check_power") == YES,
+        agrees=terms.agrees("check_power"),
         accepted=reasons_of(chapter.input).get("power", "").rstrip("."),
         powers=_powers(chapter) if terms.has("cyc_N_gas") else None,
         coarse=any(error.key in ("M_mean", "N_i_calc") for error in chapter.grid_errors),

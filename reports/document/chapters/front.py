@@ -13,7 +13,7 @@ from reports.document.page.fitting import type_pt
 from reports.document.page.style import TitlePage
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import SheetSection
-from reports.shared.russian import joined, last_bound, surname
+from reports.shared.russian import joined_phrases, last_bound, surname
 
 Words = dict[str, Any]
 
@@ -88,11 +88,7 @@ def _aim(chapter: Chapter) -> str:
     def of(names: Collection[str]) -> list[str]:
         return list(dict.fromkeys(r.aim for r in chapter.records if r.aim and r.name in names))
 
-    aims = of(chapter.relevant) or of(_MECHANISM)
-    if " и " in aims[-1]:
-        return joined(aims, ", а также ")
-    # A turn of speech has a comma at its end.
-    return joined(aims, ", и " if len(aims) > 1 and "," in aims[-2] else " и ")
+    return joined_phrases(of(chapter.relevant) or of(_MECHANISM))
 
 
 _READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks

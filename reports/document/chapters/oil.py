@@ -10,11 +10,13 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.arrays import Array
-from reports.document.chapters.chapter import Chapter, pin_stems
+from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name
+from reports.formula.numeric import evaluate
+from reports.inputs.reasons import FILM_REQUIRED
 from reports.inputs.sections.bearings import MATERIALS
 from reports.model.blocks import Grid
 from reports.model.shape import Scope
@@ -87,7 +89,7 @@ def oil(chapter: Chapter) -> Markup:
         thicker=_times(mean, gaps),
         sizes=TablePlan(partial(_sizes, terms, cases), "Размеры подшипников и зазоры", keep=True),
         reserve=fixed(thin.value / critical, 2),
-        carries=thin.value >= section.reserve_allowed * critical,
+        carries=thin.value >= float(evaluate(FILM_REQUIRED, terms.value)),
         given_hole=chapter.input.crankshaft.oil_hole_deg is not None,
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
         angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),
@@ -102,43 +104,6 @@ def oil(chapter: Chapter) -> Markup:
         class_ok=terms.has("safe_class_Q")
         and min(terms.value("safe_class_Q"), terms.value("safe_class_Q_hole")) >= CLASS_RULE,
     )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Hole:
-    """Where the oil hole of a crankpin goes and why; empty where wear alone tells it."""
-
-    pin: int
-    angle: Markup | str = ""
-    why: str = ""
-
-
-def hole(chapter: Chapter, pin: int) -> Hole:
-    """The one verdict on the oil hole: as given, by the film, or by wear of the pin."""
-    terms, given = chapter.terms, chapter.input.crankshaft.oil_hole_deg
-    if "oil" not in chapter.relevant or not terms.has("oil_film1_deg"):
-        return _by_wear(chapter, pin)
-    if given is not None:
-        return Hole(1, terms.val("crankshaft_oil_hole_deg"), "как задано")
-    ends = [terms.value(f"oil_film{n}_deg") for n in (1, 2)]
-    return Hole(1, _between(ends), "там, где плёнка толще всего")
-
-
-def _by_wear(chapter: Chapter, pin: int) -> Hole:
-    """Of neighbouring rays that two steps find both ends are told; else the text's own angle."""
-    key = f"hole_{pin_stems(chapter.shape)[pin - 1]}_deg"
-    fine = next((each.fine for each in chapter.grid_errors if each.key == key), None)
-    if fine is None:
-        return Hole(pin)
-    angle, step = chapter.terms.value(key), 360.0 / chapter.input.calculation.wear_rays
-    if abs(fine - angle) > 1.01 * step:
-        return Hole(pin)
-    return Hole(pin, _between([angle, fine]), "напротив лучей с наименьшими суммами сил")
-
-
-def _between(angles: Sequence[float]) -> Markup:
-    """A span of angles, the smaller one first."""
-    return Markup("…".join(dict.fromkeys(fixed(angle, 0) for angle in sorted(angles))) + "°")
 
 
 def concluded(chapter: Chapter) -> Markup:

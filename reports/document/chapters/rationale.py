@@ -29,9 +29,8 @@ from reports.inputs.reasons import REASONS, RODS, Reason
 from reports.inputs.sections.input_file import InputFile, PrototypeSection
 from reports.inputs.to_si.masses import Sizes
 from reports.shared.russian import NBSP, fixed, joined, short, uncapital
+from reports.shared.standing import WORDS, Standing, printed_span, standing
 from reports.tables.cycle_members import ranges_of, section_of
-
-_NEAR = 1e-9  # a value on the end of its span is inside
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +43,14 @@ class Judged:
     low: float
     high: float
     bore_mm: float
+    required: float | None = None  # what the tables allow at least
 
     @property
-    def verdict(self) -> str:
+    def verdict(self) -> Standing:
         """Where the value lies."""
-        if self.value < self.low * (1 - _NEAR):
-            return "ниже"
-        return "выше" if self.value > self.high * (1 + _NEAR) else "в пределах"
+        if self.required is not None and self.value < self.required:
+            return Standing.FAILED
+        return standing(self.value, (self.low, self.high), self.reason.digits)
 
     @property
     def place(self) -> str:
@@ -67,15 +67,22 @@ class Judged:
     @property
     def usual(self) -> str:
         """The span in print."""
-        ends = (float(f"{end:.3g}") for end in (self.low, self.high))
-        return "…".join(short(end) for end in ends)
+        return "…".join(map(short, printed_span((self.low, self.high))))
+
+    @property
+    def bounds(self) -> str:
+        """What the value should keep to, in print."""
+        if self.verdict is Standing.FAILED and self.required is not None:
+            return f"допускается не менее {fixed(self.required, self.reason.digits)}"
+        return f"обычно {self.usual}"
 
     @property
     def follows(self) -> tuple[str, str]:
-        """On which side of the span the value lies and what follows."""
-        if self.verdict == "выше":
-            return "больше", self.reason.above
-        return "меньше", self.reason.below_at(self.bore_mm)
+        """On which side of what the value lies and what follows."""
+        if self.verdict is Standing.ABOVE:
+            return "больше обычного", self.reason.above
+        of = "допускаемого" if self.verdict is Standing.FAILED else "обычного"
+        return f"меньше {of}", self.reason.below_at(self.bore_mm)
 
     @property
     def named(self) -> Markup:
@@ -120,7 +127,7 @@ def rationale(chapter: Chapter) -> Markup:
         plan=TablePlan(partial(_table, judged, any(each.other is not None for each in judged)),
                        "Принятые данные и обычные пределы", size="dense", lined=True),
         outside=list(_outside(judged)),
-        several=sum(each.verdict != "в пределах" for each in judged) > 1,
+        several=sum(each.verdict is not Standing.INSIDE for each in judged) > 1,
         known_kind=bool(stated_kind(chapter.input)),
         compared=prototype is not None,
         prototype=prototype.name if prototype else "",
@@ -134,16 +141,17 @@ def _outside(judged: list[Judged]) -> Iterator[Markup]:
     """What lies outside; values from which the same follows stand in one sentence."""
     groups: dict[tuple[str, str], list[Judged]] = {}
     for each in judged:
-        if each.verdict != "в пределах":
+        if each.verdict is not Standing.INSIDE:
             groups.setdefault(each.follows, []).append(each)
     for (side, follows), members in groups.items():
         if len(members) == 1:
             (one,) = members
-            yield Markup("{} {} обычного ({}): {}").format(one.named, side, one.usual, follows)
+            limit = one.bounds.split()[-1]
+            yield Markup("{} {} ({}): {}").format(one.named, side, limit, follows)
             continue
-        names = [Markup("{} (обычно {})").format(each.named, each.usual) for each in members]
+        names = [Markup("{} ({})").format(each.named, each.bounds) for each in members]
         said = Markup(joined([names[0], *map(uncapital, names[1:])]))
-        yield Markup("{} {} обычного: {}").format(said, side, follows)
+        yield Markup("{} {}: {}").format(said, side, follows)
 
 
 def stated(section: PrototypeSection) -> Prototype:
@@ -201,10 +209,10 @@ def _denser(pairs: list[tuple[Main, float, float]]) -> str:
 def concluded(chapter: Chapter) -> Markup:
     """What of the data and of the cycle lies outside its usual range, with the range, in a line."""
     parts = [
-        Markup("{} {} (обычно {})").format(
-            uncapital(each.reason.title), with_unit(each.shown, each.reason.unit), each.usual
+        Markup("{} {} ({})").format(
+            uncapital(each.reason.title), with_unit(each.shown, each.reason.unit), each.bounds
         )
-        for each in judge(chapter) if each.verdict != "в пределах"
+        for each in judge(chapter) if each.verdict is not Standing.INSIDE
     ]  # fmt: skip
     found = "cycle" in chapter.relevant
     if found:
@@ -240,7 +248,8 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
             span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
-            yield Judged(own, value, other, *span, bore)
+            required = _value(own.required, number)
+            yield Judged(own, value, other, *span, bore, required)
 
 
 def several_rods(model: InputFile) -> bool:
@@ -297,7 +306,7 @@ def _table(judged: list[Judged], compared: bool) -> TableBlock:
         other = "—" if each.other is None else fixed(each.other, each.reason.digits)
         rows.append([
             rich(each.reason.title + unit), inline_html(each.reason.tex), each.shown,
-            *([other] if compared else []), each.usual, each.verdict,
+            *([other] if compared else []), each.usual, WORDS[each.verdict],
             each.place,
         ])  # fmt: skip
     return table_block(columns, rows)

@@ -55,13 +55,13 @@ _FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the tw
 class Peak:
     """The greatest stress of a curve over the speeds, printed, and where it stands.
 
-    ``edge`` names the end of the range where it stands there: no resonance is met then.
+    ``edge`` is −1 at the start of the range, 1 at its end: no resonance is met there; else 0.
     """
 
     stress: float
     text: str
     speed: str
-    edge: str = ""
+    edge: int = 0
 
     @property
     def shown(self) -> Markup:
@@ -72,9 +72,10 @@ class Peak:
     def at(self) -> Markup:
         """The speed with its unit, and that it is the end of the range."""
         shown = with_unit(self.speed, "мин⁻¹")
-        return (
-            Markup("{}, в {} рабочего диапазона").format(shown, self.edge) if self.edge else shown
-        )
+        if not self.edge:
+            return shown
+        where = "начале" if self.edge < 0 else "конце"
+        return Markup("{}, в {} рабочего диапазона").format(shown, where)
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +206,7 @@ def _peak(terms: Terms, which: str) -> Peak:
     stresses = terms.column(f"torsion_response.tor_tau{which}_MPa")
     row = int(stresses.argmax())
     speed = terms.column("torsion_response.tor_speed_rpm")[row]
-    edge = {0: "начале", len(stresses) - 1: "конце"}.get(row, "")
+    edge = {0: -1, len(stresses) - 1: 1}.get(row, 0)
     return Peak(float(stresses[row]), fixed(float(stresses[row]), 1), fixed(float(speed), 0), edge)
 
 

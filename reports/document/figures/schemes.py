@@ -47,10 +47,10 @@ def mechanism_sketch(lam: float, phi: float = 50.0, *, k: float = 0.0, width: fl
     height = 2 * radius + rod + 78 + 22
     page = Sheet(width, height / PT_PER_MM)
     pen = Pen(page)
-    for share, letter in ((0.27, "а)"), (0.75, "б)")):
+    for share, letter, links in ((0.27, "а)", True), (0.75, "б)", False)):
         origin = (page.width * share, radius + 36)
         part = _Mechanism(pen, origin, radius, rod, math.radians(phi), k * radius)
-        if letter == "а)":
+        if links:
             part.links()
             part.geometry()
         else:

@@ -27,6 +27,8 @@ from reports.model.blocks import Model, Node
 from reports.model.evaluation import Values
 from reports.model.shape import TIMING, Shape
 from reports.shared.russian import NBSP, fixed
+from reports.shared.standing import Standing
+from reports.tables.verdicts import JudgedValue, outcomes
 
 # Symbols that would be ambiguous within a formula.
 _SYMBOLS = {
@@ -138,6 +140,15 @@ class Terms:
     def grid_errors(self) -> tuple[GridError, ...]:
         """Results whose error from the tables' step is visible."""
         return grid_errors(self.model.input)
+
+    @cached_property
+    def judged(self) -> tuple[JudgedValue, ...]:
+        """Values that the tables judge."""
+        return outcomes(self.model, self.values.scalars)
+
+    def agrees(self, key: str) -> bool:
+        """Whether a check passed; one that there is not did not."""
+        return any(each.key == key and each.standing is Standing.INSIDE for each in self.judged)
 
     def curves(self, names: Sequence[str]) -> list[NDArray[np.float64]]:
         """Columns to draw together: at the fine step where all of them are known so."""

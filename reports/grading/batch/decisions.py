@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.issuing.register import Issued, Register
+from reports.grading.judging.judgement import UNKNOWN, unread_remark
 from reports.grading.judging.scoring import rescored
 from reports.grading.judging.works import Work
 from reports.grading.pages.gradebook import DECISION, GROUPS, OF_FILE
@@ -328,16 +329,15 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
     if decided_result["status"] == "graded":
         rescored(decided_result)
     whole = next((entry for entry in own if entry.item == WHOLE), None)
-    open_ = [i for i, line in lines.items() if line["verdict"] == "unknown" and i not in settled]
+    open_ = [i for i, line in lines.items() if line["verdict"] == UNKNOWN and i not in settled]
     if whole is not None:
         decided_result["decision"] = asdict(whole)
         if whole.points is not None:
             decided_result["points"] = whole.points
         decided_result["manual"], decided_result["doubts"] = [], []
     elif not open_:
-        decided_result["manual"] = [
-            text for text in decided_result["manual"] if not text.startswith("не удалось")
-        ]
+        unread = unread_remark([e["label"] for e in lines.values() if e["verdict"] == UNKNOWN])
+        decided_result["manual"] = [text for text in decided_result["manual"] if text != unread]
     return decided_result
 
 

@@ -391,7 +391,7 @@ def _column_item(table: TableSpec, column: Column) -> Item:
 
 def _scalar_item(block: str, scalar: Scalar) -> Item:
     about = scalar.quantity
-    return Item(f"{block}.{scalar.key}", block, scalar.note or about.title, about.symbol, about,
+    return Item(f"{block}.{scalar.key}", block, scalar.label or about.title, about.symbol, about,
                 (scalar.key,), ("",), scalar.source, False)  # fmt: skip
 
 

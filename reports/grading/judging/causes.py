@@ -25,7 +25,7 @@ from reports.grading.judging.judgement import (
     values_of,
 )
 from reports.grading.judging.literal_tables import literals, typed_numbers
-from reports.grading.judging.mistakes import ROOTLESS, mistakes, symbol_of
+from reports.grading.judging.mistakes import OPPOSITE, ROOTLESS, SIGNS, mistakes, symbol_of
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.reading.student import StudentBook, known_values
@@ -35,6 +35,8 @@ from reports.model.evaluation import Evaluation
 from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
+_OF_SIGN = {OPPOSITE, *(words for _, words in SIGNS)}
+_EXACT = "exact"  # in the key of a column by the exact formula
 _VARIED = 4  # different values of a column that tells anything
 
 
@@ -91,7 +93,7 @@ class Causes:
         """The same cause in the words of what the student has written."""
         runs = [run for node in item.nodes for run in self.student.runs(node)]
         formulas = [run.formula for run in runs if run.formula is not None]
-        if "знак" in cause and any(map(squares_a_minus, formulas)):
+        if cause in _OF_SIGN and any(map(squares_a_minus, formulas)):
             return f"{cause}: −x^2 в таблице — это (−x)², а надо −(x^2)"
         if cause == ROOTLESS and any(map(squares_a_cosine, formulas)):
             return "косинус в квадрате, а надо в первой степени"
@@ -225,7 +227,7 @@ class Causes:
         return not (near | (np.isnan(own) & np.isnan(wanted))).all()
 
     def _likely(self, item: Item, scene: Scene) -> Iterator[Attempt]:
-        yield "обратный знак", lambda s: -s.right
+        yield OPPOSITE, lambda s: -s.right
         for factor in _FACTORS:
             times = fixed(factor, 0)
             for more, words in ((factor, "больше"), (1 / factor, "меньше")):
@@ -357,7 +359,7 @@ class Causes:
                 about = column.quantity
                 where = "соседнего столбца" if table is own else "столбца"
                 words = f"это значения {where} {about.symbol} ({about.title})"
-                if "точн" in about.title or "точн" in table.title.lower():
+                if _EXACT in column.key:
                     words = f"точная формула вместо двучленной: {about.symbol} ({about.title})"
                 yield words, partial(_at_rows, node, rows)
 

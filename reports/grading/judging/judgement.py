@@ -52,6 +52,14 @@ def fault(error: Exception) -> str:
     return one_line(f"внутренняя ошибка проверки ({type(error).__name__}: {error})", _FAULT)
 
 
+_MOST_LABELS = 8
+
+
+def unread_remark(labels: Sequence[str]) -> str:
+    """What is said of a work some of whose items a person has to look at."""
+    return "не удалось проверить: " + ", ".join(labels[:_MOST_LABELS])
+
+
 @dataclass(frozen=True)
 class Rule(Generic[E]):
     """A word for cells, and where the evidence of a column gives it."""

@@ -16,7 +16,14 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.judging.causes import Causes
 from reports.grading.judging.foreign import OtherVariant
-from reports.grading.judging.judgement import GROUNDLESS, STILL, UNKNOWN, Judgement, fault
+from reports.grading.judging.judgement import (
+    GROUNDLESS,
+    STILL,
+    UNKNOWN,
+    Judgement,
+    fault,
+    unread_remark,
+)
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
@@ -73,6 +80,7 @@ def blank_result(submission: Submission) -> Result:
         "changed": [],
         "altered": [],
         "evidence": [],
+        "identity": [],
     }
 
 
@@ -126,6 +134,7 @@ class Marker:
         except BadBook as error:
             return self.refused(result, submission, str(error))
         _take_match(result, match)
+        result["identity"] = list(match.doubts)
         if match.book is None:
             result["status"] = "unmatched"
             result["manual"].append("не удалось установить, чья это работа")
@@ -227,7 +236,7 @@ class Marker:
         result["manual"] += [*asked_of_blanks(items), *disguised(student, judged.judgements)]
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
-            result["manual"].append("не удалось проверить: " + ", ".join(unknown[:8]))
+            result["manual"].append(unread_remark(unknown))
 
     @staticmethod
     def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:

@@ -60,6 +60,7 @@ MIXED = (
 )
 
 
+OPPOSITE = "обратный знак"
 SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
 
 

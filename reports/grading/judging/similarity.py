@@ -155,9 +155,4 @@ def _same_people(graded: Works) -> list[str]:
 
 
 def _foreign(results: Works) -> list[str]:
-    labels = []
-    for result in results:
-        for text in result.manual:
-            if "идентификатор" in text:
-                labels.append(f"{who(result)}: {text}")
-    return labels
+    return [f"{who(result)}: {text}" for result in results for text in result.identity]

@@ -26,7 +26,7 @@ from reports.grading.judging.literal_tables import angles_of, of_angles
 from reports.grading.reading.student import StudentBook
 from reports.inputs.fields import Field, cell_name
 from reports.inputs.ranges import ParameterRange
-from reports.inputs.units import MPA
+from reports.inputs.units import MM, MPA
 from reports.model.evaluation import Evaluation
 from reports.recalculation.formulas import Formula, UnknownFormula
 from reports.recalculation.trial_sheet import Bench, Cells, full, pinned, rounds, unrounded_grid
@@ -211,7 +211,9 @@ def known_numbers(
             value, unit = float(fields[name].value), fields[name].unit
             for factor in (1.0,) if own else _OTHER_UNITS.get(unit, ()):
                 number = float(f"{value * factor:.12g}")
-                sure = (unit, factor) == ("мм", _METRES) or (own and (bool(unit) or name in drawn))
+                sure = (unit, factor) == (MM.label, _METRES) or (
+                    own and (bool(unit) or name in drawn)
+                )
                 if sure or number != float(f"{number:.1g}"):
                     wanted[number] = (name, factor)  # 1 or 100 may be anything
     return wanted

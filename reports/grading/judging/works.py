@@ -147,6 +147,7 @@ class Work:
     late: float
     manual: tuple[str, ...]
     doubts: tuple[str, ...]
+    identity: tuple[str, ...]
     notes: tuple[str, ...]
     saved_by: str
     decision: dict[str, Any] | None
@@ -185,6 +186,7 @@ def work_of(result: dict[str, Any], shared: Shared) -> Work:
         late=result.get("late", 1.0),
         manual=tuple(result["manual"]),
         doubts=tuple(result.get("doubts", ())),
+        identity=tuple(result.get("identity", ())),
         notes=tuple(result.get("notes", ())),
         saved_by=result.get("properties", {}).get("lastModifiedBy", "").strip(),
         decision=result.get("decision"),

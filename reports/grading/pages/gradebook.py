@@ -182,6 +182,7 @@ def _decimal(value: float | None) -> str:
 
 TITLE = "Для печати"
 _PRINTED = ("№", "Студент", "Группа", "Баллы", "Состояние")
+_POINTS_COLUMN, _STATE_COLUMN = 4, 5  # points stand in the others behind them as well
 _WIDTHS = (3.2, 20.0, 7.0, 5.0, 11.0)  # in digits of the default font, for letters of _SIZE_PT
 _TABLE = 4.2  # width of a table's points
 _SIZE_PT, _PAGE = 5.6, 142.0  # size of the letters, width of a page
@@ -227,7 +228,7 @@ def add_printed(
                 cell.fill, cell.alignment = fill, (turned if table else upright)
             else:
                 cell.alignment = inside
-                if table or _PRINTED[cell.column - 1] == "Баллы":
+                if cell.column >= _POINTS_COLUMN and cell.column != _STATE_COLUMN:
                     cell.number_format = "0.0#"
         sheet.row_dimensions[number].height = _HEAD_PT if number == 1 else height
     for cell, width in zip(sheet[1], widths, strict=True):

@@ -7,12 +7,11 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from reports.grading.judging.judgement import UNKNOWN
+from reports.grading.judging.judgement import UNKNOWN, unread_remark
 from reports.grading.judging.rings import Ring
 from reports.grading.judging.works import Work
 
 NAME = re.compile(r"Г-[0-9A-F]{6}")
-_UNTOLD = "не удалось проверить"  # said of the items themselves
 _NUMBERS = re.compile(r"\d+([.,]\d+)?")
 
 
@@ -62,7 +61,9 @@ def groups_of(
 
 def _whole(work: Work, doubts: Sequence[str], rings: Sequence[Ring]) -> list[tuple[str, str]]:
     """What a person has to say about a whole work: words that are the same for a group, and why."""
-    reasons = [text for text in work.manual if not text.startswith(_UNTOLD)]
+    # Of its items each is asked about for itself.
+    unread = unread_remark([line.label for line in work.items if line.verdict == UNKNOWN])
+    reasons = [text for text in work.manual if text != unread]
     texts = dict.fromkeys([*doubts, *reasons])
     lines = []
     for ring in rings:

@@ -200,7 +200,7 @@ def summarise(
         "files": len(results),
         "students": len(register.books),
         "graded": len(graded),
-        "absent": [row["student"] for row in rows if row["status"] == "не сдано"],
+        "absent": [row["student"] for row in rows if row["result"] is None],
         "maximum": register.rubric.maximum,
         "mean": mean(marks) if marks else 0.0,
         "median": median(marks) if marks else 0.0,

@@ -234,7 +234,7 @@ class _Search:
     def scalar(self, model: Model, key: str, column: int) -> tuple[str, int, int] | None:
         """The value cell of a scalar by its title and symbol, as far from them as in ``column``."""
         scalar = model.scalars[key]
-        title = _plain(capital(scalar.note or scalar.quantity.title))
+        title = _plain(capital(scalar.label or scalar.quantity.title))
         symbol = _plain(scalar.quantity.symbol)
         step = SYMBOL_COLUMN - TITLE_COLUMN
         hits = [

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from kshm.engine import engine
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.units import span_text
 
 MEMORY = "по памяти"
 TABLE_4 = "таблица 4 учебника с запасом"
@@ -44,6 +45,11 @@ class Band:
     def span(self) -> tuple[float, float]:
         """Both bounds."""
         return self.low, self.high
+
+    @property
+    def usual(self) -> str:
+        """Both bounds as a hint."""
+        return f"обычно {span_text(self.low, self.high)}"
 
     def scaled(self, times: float) -> Band:
         """The band with bounds so many times as large."""
@@ -204,6 +210,12 @@ BANDS: tuple[Band, ...] = (
 
 # Values that follow from more than one key; `plausibility` says from which.
 SIZES = Band("geometry", "", "S/D", 0.6, 1.55)
+LAMBDA = Band("geometry.lambda", "", "λ", 0.15, 0.45)
+OFFSET = Band("geometry.crank_offset_mm", "", "e/r", 0.05, 0.2)
+SMALL_END = Band(
+    "masses.rod_small_end_share", "", "m_1/m_ш", *engine.USUAL_SMALL_END_SHARE, "Гоц, п. 2.2"
+)
+ROD_INERTIA = Band("masses.rod_inertia_kg_m2", "", "I_ш/(m_ш·l²)", 0.05, 0.45)
 LARGE_SIZES = Band("geometry", "", "S/D", *engine.STROKE_TO_BORE)  # crosshead engines
 LARGE_BORE_MM = 250.0
 SPEED = Band(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from reports.inputs.checks.bands import LAMBDA
 from reports.inputs.checks.bearings import PAIRS, check_bearings, check_pair
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
@@ -114,7 +115,6 @@ def check_reference(values: ValidValues) -> Iterator[Finding]:
 
 
 LENGTH_TOLERANCE = 1e-3
-USUAL_LAMBDA = (0.15, 0.45)
 
 
 def _geometry(values: ValidValues) -> Iterator[Finding]:
@@ -152,10 +152,9 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     if not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
         what = f"λ = r/L = {text} вне допустимых пределов"
         yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
-    elif not is_within(ratio, USUAL_LAMBDA):
+    elif not is_within(ratio, LAMBDA.span):
         what = f"λ = {text} необычно"
-        hint = f"обычно {span_text(USUAL_LAMBDA[0], USUAL_LAMBDA[1])}"
-        yield Finding(path, what, hint, warning=True)
+        yield Finding(path, what, LAMBDA.usual, warning=True)
 
 
 def _arms(values: ValidValues) -> Iterator[Finding]:

@@ -8,11 +8,12 @@ from itertools import accumulate, combinations
 
 from kshm.engine.arrangement import Arrangement, pin_counts, rods_beside, side_reach, throw_angle
 from kshm.engine.crankshaft import places
+from reports.inputs.checks.bands import OFFSET
 from reports.inputs.fields import Path
 from reports.inputs.findings import Finding, Keys, ValidValues, in_lines, radius_and_rod
 from reports.inputs.firing import OPPOSED_BANK_DEG, arrangement, arrangement_of, fitting_angle
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.units import number_text, span_text
+from reports.inputs.units import number_text
 
 ANGLE_TOLERANCE_DEG = 0.01
 USUAL_OFFSET = 0.25  # k = e/r; the book names 0.05…0.20
@@ -211,7 +212,7 @@ def _offset(values: ValidValues) -> Iterator[Finding]:
         yield Finding(("geometry", "stroke_mm"), what, hint, warning=True)
     if abs(offset) > USUAL_OFFSET * radius:
         what = f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
-        yield Finding(path, what, f"обычно {span_text(0.05, 0.2)}", warning=True)
+        yield Finding(path, what, OFFSET.usual, warning=True)
 
 
 def _articulated(values: ValidValues) -> Iterator[Finding]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from kshm.engine.engine import USUAL_SMALL_END_SHARE
+from reports.inputs.checks.bands import ROD_INERTIA, SMALL_END
 from reports.inputs.findings import Finding, ValidValues, radius_and_rod
 from reports.inputs.sections.mechanism import ESTIMATE_EXTRA, SWUNG, WEIGHED
-from reports.inputs.units import is_within, number_text, span_text
+from reports.inputs.units import is_within, number_text
 
 DIRECT = ("reciprocating_kg", "rod_big_end_kg")
 PARTS = ("piston_group_kg", "rod_kg")
@@ -141,9 +141,9 @@ def _centre(values: ValidValues) -> Iterator[Finding]:
         if pair is None:
             return
         share = 1 - centre / pair[1]
-    if share is not None and not is_within(share, USUAL_SMALL_END_SHARE):
+    if share is not None and not is_within(share, SMALL_END.span):
         what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
-        hint = f"обычно {span_text(USUAL_SMALL_END_SHARE[0], USUAL_SMALL_END_SHARE[1])}"
+        hint = SMALL_END.usual
         yield Finding(("masses", key), what, hint, warning=True)
 
 
@@ -171,13 +171,13 @@ def _swung(values: ValidValues) -> Iterator[Finding]:
         what = "по качаниям момент инерции шатуна отрицателен"
         yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
         return
-    if pair is not None and not is_within(1 - centre / pair[1], USUAL_SMALL_END_SHARE):
+    if pair is not None and not is_within(1 - centre / pair[1], SMALL_END.span):
         share = number_text(round(1 - centre / pair[1], 4))
         what = f"доля массы шатуна у пальца {share} необычна"
         yield Finding(
             path,
             what,
-            f"обычно {span_text(USUAL_SMALL_END_SHARE[0], USUAL_SMALL_END_SHARE[1])}",
+            SMALL_END.usual,
             warning=True,
         )
 
@@ -189,8 +189,8 @@ def _inertia(values: ValidValues) -> Iterator[Finding]:
     if None in (given, rod) or pair is None:
         return
     ratio = given / (rod * (pair[1] / 1000) ** 2)
-    if not 0.02 <= ratio <= 0.5:
+    if not is_within(ratio, ROD_INERTIA.span):
         what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
         path = ("masses", "rod_inertia_kg_m2")
-        hint = f"обычно {span_text(0.02, 0.5)}: проверьте кг·м²"
+        hint = f"{ROD_INERTIA.usual}: проверьте кг·м²"
         yield Finding(path, what, hint, warning=True)

@@ -299,7 +299,7 @@ const job = ({id, title, name, state: now, place, wait, seconds, files = [], lin
     ${` (${printed(size / 1e6, 2)} МБ) `}`)}
   ${list(lines || errors || [], now === "done" ? "warn" : "bad")}</li>`;
 
-const verdict = ({ok, reason}) => ok ? ["выполнена", "ok"] : reason ? [`принято: ${reason}`, "warn"] : ["не выполнена", "bad"];
+const verdict = ({ok, odd, reason}) => ok ? ["выполнена", "ok"] : odd ? ["необычно", "warn"] : reason ? [`принято: ${reason}`, "warn"] : ["не выполнена", "bad"];
 
 const sheets = () => { // by chapters, in words
   const chapters = Object.groupBy(state.sheets, ([, , chapter]) => chapter);

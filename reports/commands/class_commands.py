@@ -6,6 +6,7 @@ import re
 from contextlib import suppress
 from getpass import getuser
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -20,6 +21,9 @@ from reports.commands.common import (
     verbose_option,
 )
 from reports.shared.errors import KshmError
+
+if TYPE_CHECKING:
+    from reports.grading.issuing.issue import Result
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -62,8 +66,25 @@ def issue(
             "студентам его не давайте.",
             err=True,
         )
-    click.echo(f"{folder}: выдано вариантов: {len(done.register.books)}")
+    for line in _issued_lines(folder, done):
+        click.echo(line)
     return DONE
+
+
+def _issued_lines(folder: Path, done: Result) -> list[str]:
+    """How many are issued of how many lines with a name, who is new, who has left."""
+    books, former = done.register.books, done.register.former
+    told = [f"{folder}: выдано вариантов: {len(books)}, строк с именем в списке: "
+            f"{len(books) + len(done.left)}"]  # fmt: skip
+    told += [f"Не выдано: {line}" for line in done.left]
+    if done.kept:
+        names = ", ".join(f"{book.number} ({book.student.full})" for book in books[done.kept :])
+        told.append(f"Прежние книги, варианты и идентификаторы сохранены: {done.kept}; "
+                    f"новые варианты: {names or 'нет'}")  # fmt: skip
+    if former:
+        names = ", ".join(f"{book.number} ({book.student.full})" for book in former)
+        told.append(f"Нет в списке, варианты оставлены за ними: {names}")
+    return told
 
 
 def _try_rubric(source: Path, samples: Path, rubric: Path | None, ranges: Path | None) -> int:

@@ -25,6 +25,7 @@ from reports.grading.judging.traits import (
     TEXT,
 )
 from reports.grading.judging.works import Trait, Work
+from reports.shared.russian import short
 
 # Kind → the share of people who would have it by chance, before the class tells, and its most bits.
 _KINDS = {
@@ -78,7 +79,7 @@ class Ring:
         named = ", ".join(list(items)[:3]) + (f" и ещё {len(items) - 3}" if len(items) > 3 else "")
         where = f" ({named})" if named else ""
         begin = "общее с" if of is not None else "редкое общее у"
-        return f"{begin}: {', '.join(others)} — {what}{where}"
+        return f"{begin}: {', '.join(others)} — {what}{where}, {short(self.bits, 3)} бит"
 
 
 def who(work: Work) -> str:

@@ -269,7 +269,10 @@ class _Batch:
 
     def rings(self) -> list[Ring]:
         """Works with a common origin, those of earlier classes among them."""
-        return rings_of([work for work in self.ordered if work.status == "graded"], self.past)
+        works = [work for work in self.ordered if work.status == "graded"]
+        return rings_of(
+            works, self.past, past_holds=self.register.rubric.copying.past == "hold"
+        )
 
     @property
     def reused(self) -> int:

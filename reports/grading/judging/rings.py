@@ -36,12 +36,13 @@ _KINDS = {
 }  # fmt: skip
 _WEIGHT = 20  # students that the share before the class counts for
 HELD, TOLD = 20.0, 17.0  # bits from which works are held, and told
-_FORMS_ALONE = 30.0  # bits of forms that hold by themselves, spelt alike to a sign
+_FORMS_ALONE = 30.0  # bits that hold though most are of forms, where these are spelt alike
 _WHOLE_FORMS = 24  # rare forms that hold by themselves though all are of one manner
 _RARE = 2.0  # bits of such a form
 _SPELT = 0.8  # share of the common forms that must be spelt alike for that
-_NEAR = 14.0  # bits from which works may be of one ring, before it is seen whose traits they are
-_RING = 5  # a ring is at most this part of a class; what more of it share is common
+_NEAR = 12.0  # bits from which works may be of one ring, before it is seen whose traits they are
+_RING, _LEAST_RING = 5, 4  # a ring is at most a fifth of a class; what more of it share is common
+_PAIR = 2
 _CLASS = 12  # students in whose class a form may be rare at all
 _FORMS_BESIDE = 8.0  # bits that forms add to other evidence at most
 _UNLIKE = 1.0  # bits that a form which differs takes away
@@ -147,15 +148,12 @@ def _as_ring(
 
     What a whole subgroup has of its lecturer stays common: a ring is a small part of a class.
     """
-    most = max(4, count // _RING)
-    people = {_owner(everyone[index]) for index in group}
-    if len(people) < 3:
+    size = len({_owner(everyone[index]) for index in group})
+    if not _PAIR < size <= max(_LEAST_RING, count // _RING):
         return dict(known)
     inside = _owners([everyone[index] for index in group])
-    outside = {
-        key: n - max(0, min(inside.get(key, 0), most) - 2) for key, n in owners.items()
-    }
-    left = count - (min(len(people), most) - 2)
+    outside = {key: n - max(0, inside.get(key, 0) - _PAIR) for key, n in owners.items()}
+    left = count - (size - _PAIR)
     return {
         (one, other): _evidence(everyone[one].traits, everyone[other].traits, outside, left,
                                 small=count < _CLASS)
@@ -238,7 +236,7 @@ def _evidence(
     alike = sum(trait[3] == others[_key(trait)][3] for trait in common)
     rare = sum(_bits(trait, owners, count) >= _RARE for trait in common)
     whole = not small and rare >= _WHOLE_FORMS and unlike <= (1 - _SPELT) * rare
-    alone = (whole or forms >= _FORMS_ALONE) and alike >= _SPELT * len(common)
+    alone = (whole or forms + strong >= _FORMS_ALONE) and alike >= _SPELT * len(common)
     if whole and alone:  # all of one manner: half as much for each further one tells too little
         forms = max(forms, _FORMS_ALONE)
     held = alone or strong + min(forms, _FORMS_BESIDE) >= HELD

@@ -215,9 +215,9 @@ def grade(
         for line in explain_column(issued, Path(explain[0]), column, rubric, secret):
             click.echo(line)
         return DONE
-    from reports.grading.batch.grade import GradeSetup
     from reports.grading.batch.grade import decide as decide_all
     from reports.grading.batch.grade import grade as grade_all
+    from reports.grading.batch.setup import GradeSetup
 
     author = author or _user()
     if preview and (not decisions or issued is not None):

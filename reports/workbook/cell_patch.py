@@ -23,10 +23,14 @@ _DATA = re.compile(r"<((?:\w+:)?)sheetData\b([^>]*?)(?:/>|>(.*?)</\1sheetData>)"
 _ROW = re.compile(r"<((?:\w+:)?)row\b([^>]*?)(?:/>|>(.*?)</\1row>)", re.DOTALL)
 _CELL = re.compile(r"<((?:\w+:)?)c\b([^>]*?)(?:/>|>(.*?)</\1c>)", re.DOTALL)
 _COL = re.compile(r"<(?:\w+:)?col\b([^>]*?)/?>")
-_DIMENSION = re.compile(r"""(<(?:\w+:)?dimension\b[^>]*?\bref=["'])([A-Z]+)(\d+)(?::([A-Z]+)(\d+))?""")
+_DIMENSION = re.compile(
+    r"""(<(?:\w+:)?dimension\b[^>]*?\bref=["'])([A-Z]+)(\d+)(?::([A-Z]+)(\d+))?"""
+)
 _FORMULA = re.compile(r"<(?:\w+:)?f\b")
 _MASTER = re.compile(r"""<(?:\w+:)?f\b[^>]*\bref=""")
-_SAVED = re.compile(r"(<(\w+:)?f\b[^>]*?(?:/>|>[^<]*</(?:\w+:)?f>)\s*)<(?:\w+:)?v>[^<]*</(?:\w+:)?v>")
+_SAVED = re.compile(
+    r"(<(\w+:)?f\b[^>]*?(?:/>|>[^<]*</(?:\w+:)?f>)\s*)<(?:\w+:)?v>[^<]*</(?:\w+:)?v>"
+)
 _BOOK, _TYPES, _CHAIN = "xl/workbook.xml", "[Content_Types].xml", "xl/calcChain.xml"
 _RELATIONS = "xl/_rels/workbook.xml.rels"
 
@@ -149,7 +153,8 @@ class _Sheet:
         high = [*rows, *(row for row, _ in values)]
         if (min(wide), max(wide), min(high), max(high)) == (*columns, *rows):
             return head
-        extent = f"{get_column_letter(min(wide))}{min(high)}:{get_column_letter(max(wide))}{max(high)}"
+        corners = (edge(wide) for edge in (min, max)), (edge(high) for edge in (min, max))
+        extent = ":".join(f"{get_column_letter(at)}{row}" for at, row in zip(*corners, strict=True))
         return head[: match.start()] + match[1] + extent + head[match.end() :]
 
 

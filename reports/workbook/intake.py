@@ -79,7 +79,7 @@ class Package:
             one.casefold() == other.casefold()
             for one, other in zip(target[::-1], part[::-1], strict=False)
         ]
-        tail = (same + [False]).index(False)
+        tail = [*same, False].index(False)
         target = target[: len(target) - tail] + part[len(part) - tail :]
         return match[1] + target.encode() + match[3]
 
@@ -117,12 +117,12 @@ def _as_named(data: bytes) -> bytes:
     patched = bytearray(data)
     for _ in names:
         length, extra, comment = struct.unpack_from("<HHH", data, at + 28)
-        name = data[at + _ENTRY : at + _ENTRY + length]
-        if name in renamed:
+        entry = data[at + _ENTRY : at + _ENTRY + length]
+        if entry in renamed:
             begin = struct.unpack_from("<I", data, at + 42)[0] + _LOCAL
-            if data[begin : begin + length] == name:
-                patched[at + _ENTRY : at + _ENTRY + length] = renamed[name]
-                patched[begin : begin + length] = renamed[name]
+            if data[begin : begin + length] == entry:
+                patched[at + _ENTRY : at + _ENTRY + length] = renamed[entry]
+                patched[begin : begin + length] = renamed[entry]
         at += _ENTRY + length + extra + comment
     return bytes(patched)
 

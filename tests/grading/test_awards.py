@@ -60,7 +60,7 @@ def test_a_share_of_two_things_is_asked_back():
 
 # --- a class that waits for one reason -----------------------------------------------------------
 
-LATE = '[late]\ndeadline = 2020-01-01T00:00:00\nrules = [{after_hours = 0, factor = 0.75}]\n'
+LATE = "[late]\ndeadline = 2020-01-01T00:00:00\nrules = [{after_hours = 0, factor = 0.75}]\n"
 SHARES = {1: 1.0, 2: 0.6, 3: 0.0}  # of the columns that are filled in
 
 
@@ -112,7 +112,8 @@ def test_a_factor_is_one_of_the_points_that_are_there(out):
     """It is shown before it is applied, and taken back by the name of the group."""
     groups = summary(out)["groups"]
     group, before = groups[0], points(out)
-    assert "умножить баллы на 0,75?" in group["why"] and before[0] == 100 and 0 < before[1] < 90 and before[2] < 1
+    assert "умножить баллы на 0,75?" in group["why"]
+    assert before[0] == 100 and 0 < before[1] < 90 and before[2] < 1
     assert group["points"] == before
     files = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
     refused = command(out, "--decide", group["name"], "всё", "75%", "опоздали")

@@ -177,8 +177,9 @@ def test_the_command_says_who_is_issued_of_how_many_lines(tmp_path):
     text.insert(1, "Points Possible;;;")
     del text[2]
     (tmp_path / "group.csv").write_text("\n".join(text), encoding="utf-8")
-    words = ["issue", str(tmp_path / "base.toml"), "--roster", str(tmp_path / "group.csv"), "--seed=7",
-             "-o", str(tmp_path / "issued"), "--secret", str(tmp_path / "secret.key")]  # fmt: skip
+    places = {"--roster": "group.csv", "-o": "issued", "--secret": "secret.key"}
+    words = ["issue", str(tmp_path / "base.toml"), "--seed=7"]
+    words += [word for key, name in places.items() for word in (key, str(tmp_path / name))]
     said = CliRunner().invoke(main, words).output
     assert "выдано вариантов: 2, строк с именем в списке: 3" in said
     assert "Не выдано: group.csv, строка 2: «Points Possible» — служебная строка" in said

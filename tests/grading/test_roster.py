@@ -185,7 +185,7 @@ def test_a_word_of_a_head_is_nobodys_name(tmp_path, word):
     """The list of a column that the program does not know."""
     path = tmp_path / "group.csv"
     path.write_text(f"Слушатель;{word}\nАбрамова;{word}\nБелов;Студент\n", encoding="utf-8")
-    with pytest.raises(InputError, match="«Студент» — не фамилия|нет ни одного студента"):
+    with pytest.raises(InputError, match=r"«Студент» — не фамилия|нет ни одного студента"):
         read_roster(path)
 
 

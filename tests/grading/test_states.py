@@ -7,7 +7,6 @@ import io
 import json
 from pathlib import Path
 
-import pytest
 from openpyxl import load_workbook
 
 from reports.grading.batch import grade as room
@@ -46,6 +45,7 @@ def graded(where: Path, out: Path, *words: tuple[str, str, str, str]) -> None:
 
 def told(out: Path) -> dict[str, list[tuple[str, float | None]]]:
     """State and points of each student as each output has them."""
+
     def rows(name: str, delimiter: str) -> list[dict[str, str]]:
         text = (out / name).read_text(encoding="utf-8-sig")
         return list(csv.DictReader(io.StringIO(text), delimiter=delimiter))

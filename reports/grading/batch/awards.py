@@ -40,7 +40,7 @@ class Award:
         return self.points is None
 
     def of(self, points: float, most: float) -> float:
-        """Points instead of those of the program; no work has more than ``most``, or less than 0."""
+        """Points instead of those of the program, at least 0 and at most ``most``."""
         if self.factor is not None:
             return round(min(most, points * self.factor), 6)
         if self.more is not None:

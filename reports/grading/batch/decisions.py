@@ -159,7 +159,7 @@ def of_groups(
         if not members:
             hint = "имена групп — на странице группы и на листе «Решения» ведомости"
             if who in decided_ones:
-                hint = f"о ней уже решено; отменить: --decide {who} всё - \"\""
+                hint = f'о ней уже решено; отменить: --decide {who} всё - ""'
             raise InputError(Problem(who, "такая группа работ не ждёт решения", hint))
         spoken += [
             Spoken(n, item or "всё", points, remark, who) for n, item in dict.fromkeys(members)
@@ -197,8 +197,8 @@ def decided(
             }
             continue
         work = counted.get(book.number)
-        worth = _worth(work, item, register.rubric)
-        worth = None if said.group and item == WHOLE else worth  # a share could mean two things
+        is_unclear = said.group and item == WHOLE  # a share could mean two things
+        worth = None if is_unclear else _worth(work, item, register.rubric)
         award = award_of(said.points, register.rubric, worth)
         file = work.sha256 if work else ""
         _refuse_idle(said.who, award, item, file, work)

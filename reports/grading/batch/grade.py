@@ -5,10 +5,9 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
-import re
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -36,16 +35,22 @@ from reports.grading.batch.extras import (
     write_copies,
     write_questions,
 )
-from reports.grading.batch.memory import remember, remembered
-from reports.grading.batch.settled import as_graded, is_settled, settled
-from reports.grading.batch.pool import TIMEOUT_S, Job, Outcome, grade_all, grade_far
-from reports.grading.issuing.names import latin
+from reports.grading.batch.memory import keep_past, kept_past, remember, remembered
+from reports.grading.batch.pool import Job, Outcome, grade_all, grade_far
+from reports.grading.batch.settled import (
+    as_graded,
+    file_stem,
+    is_settled,
+    plain_row,
+    result_text,
+    settled,
+)
+from reports.grading.batch.setup import Graded, GradeSetup
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
-from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
-from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
+from reports.grading.judging.rings import Past, Ring, rings_of
 from reports.grading.judging.similarity import suspicions
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
@@ -62,42 +67,6 @@ from reports.shared.resources import source_digest
 
 PAGES, _PAST = "pages", "past.json"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
-
-
-@dataclass(frozen=True, slots=True)
-class GradeSetup:
-    """Options of grading; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
-
-    workers: int = 0
-    dask: str | None = None
-    timeout_s: float = TIMEOUT_S
-    pdf: bool = False
-    decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
-    preview: bool = False  # what decisions would change; nothing is written
-    author: str = ""
-    worksheet: Path | None = None  # of Moodle, to be filled in
-    roster: Path | None = None  # with the deadlines put off since the issue
-    memory: Path | None = None  # folder with the traits of earlier classes
-    form: Path | None = None  # of the institute, to be filled in
-    copies: bool = False  # the students' books back with marks in them
-    questions: bool = False  # for the defence
-    anonymous: bool = False  # numbers for names on all pages
-
-
-@dataclass(frozen=True, slots=True)
-class Graded:
-    """Outcome of a batch."""
-
-    folder: Path
-    summary: dict[str, Any]
-    reused: int
-    seconds: float
-    effects: Sequence[tuple[str, float | None, float | None]] = ()  # whom, points before and after
-
-    @property
-    def needs_a_person(self) -> bool:
-        """Whether anything could not be decided."""
-        return bool(self.summary["manual"])
 
 
 def grade(
@@ -135,7 +104,7 @@ def grade(
     make_dir(folder)
     batch.start(submissions)
     if options.memory is not None:
-        batch.keep_past()
+        keep_past(folder / RESULTS / _PAST, batch.past)
     workers = options.workers or processors()
     outcomes = (
         grade_far(
@@ -202,9 +171,7 @@ def decide(folder: Path, options: GradeSetup) -> Graded:
     summary = batch.finish()
     if options.form is not None:
         fill_form(folder, batch.table(), register.rubric, options.form)
-    return Graded(
-        folder, summary, len(batch.works), time.monotonic() - started, batch.effects
-    )
+    return Graded(folder, summary, len(batch.works), time.monotonic() - started, batch.effects)
 
 
 class _Batch:
@@ -230,7 +197,7 @@ class _Batch:
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
         self._by_group: list[tuple[str, str, str, str]] = []  # what the gradebook says of groups
         self._group_author = ""
-        self.past: Past = _kept_past(folder)
+        self.past: Past = kept_past(folder / RESULTS / _PAST)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
         self.effects: list[tuple[str, float | None, float | None]] = []
         self._settled: set[str] = set()  # keys of results whose files say more than the program
@@ -243,11 +210,6 @@ class _Batch:
     def shown(self, page: str, *files: str) -> str:
         """A page as people see it: with numbers for names where that is asked."""
         return page if self._veil is None else self._veil.over(page, files)
-
-    def keep_past(self) -> None:
-        """Keep what was remembered beside the results: decisions come without the memory."""
-        data = [[work.batch, work.number, *map(list, work.traits)] for work in self.past]
-        write_text(self.folder / RESULTS / _PAST, json.dumps(data, ensure_ascii=False) + "\n")
 
     def by_number(self) -> dict[int, Work]:
         """The work that counts of each student, by the number of the variant."""
@@ -270,9 +232,7 @@ class _Batch:
     def rings(self) -> list[Ring]:
         """Works with a common origin, those of earlier classes among them."""
         works = [work for work in self.ordered if work.status == "graded"]
-        return rings_of(
-            works, self.past, past_holds=self.register.rubric.copying.past == "hold"
-        )
+        return rings_of(works, self.past, past_holds=self.register.rubric.copying.past == "hold")
 
     @property
     def reused(self) -> int:
@@ -460,7 +420,7 @@ class _Batch:
             blank["sha256"] = self._sha256[submission.key]
             result = marker.refused(blank, submission, outcome.problem)
             page = student_page(result, self.register.rubric)
-        stem = _stem(result, number_only=self._veil is not None)
+        stem = file_stem(result, number_only=self._veil is not None)
         result["fingerprint"] = self._hashes[submission.key]
         result["page"] = f"{PAGES}/{stem}.html"
         write_text(self.folder / result["page"], self.shown(page, result["file"]))
@@ -496,13 +456,11 @@ class _Batch:
         summary["decided"] = decided_groups(load_decisions(self.folder), self.by_number())
         self._settle(rows, rings)
         maximum = self.register.rubric.maximum
-        data = {**summary, "rows": [_row(row) for row in rows], "anonymous": bool(self._veil)}
+        data = {**summary, "rows": [plain_row(row) for row in rows], "anonymous": bool(self._veil)}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
-            "gradebook.xlsx": gradebook_xlsx(
-                rows, maximum, summary["groups"], summary["decided"]
-            ),
+            "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"], summary["decided"]),
             "moodle.csv": moodle_csv(rows),
             "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
             "summary.json": text + "\n",
@@ -535,34 +493,3 @@ class _Batch:
             page = self.folder / work.page
             pdf = render(page.read_text(encoding="utf-8"), variant=None)
             write_bytes(page.with_suffix(".pdf"), pdf.pdf)
-
-
-def result_text(result: dict[str, Any]) -> str:
-    """A result as a file."""
-    return json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
-
-
-def _row(row: dict[str, Any]) -> dict[str, Any]:
-    """A row of the gradebook as plain data, with the items that only a person can judge."""
-    items = row["result"].items if row["result"] else ()
-    unknown = [item.id for item in items if item.verdict == UNKNOWN]
-    return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
-
-
-def _stem(result: dict[str, Any], *, number_only: bool) -> str:
-    """A file name that depends on the submission alone; it may tell no name."""
-    mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
-    if number_only:
-        return f"{result['number'] or 0:03d}-{mark}"
-    name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
-    return f"{name.strip('-') or 'file'}-{mark}"
-
-
-def _kept_past(folder: Path) -> list[PastWork]:
-    """What an earlier run has kept of earlier classes."""
-    path = folder / RESULTS / _PAST
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
-    except (OSError, ValueError, TypeError):
-        return []

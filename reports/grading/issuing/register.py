@@ -213,9 +213,7 @@ def load_register(folder: Path) -> Register:
         raise InputError(Problem(str(path), what, "обновите kshm"))
     rubric = rubric_of(data.get("rubric") or {}, str(path))
     try:
-        books, former = (
-            tuple(map(_issued, data.get(key) or ())) for key in ("books", "former")
-        )
+        books, former = (tuple(map(_issued, data.get(key) or ())) for key in ("books", "former"))
         return Register(str(data["batch"]), int(data["seed"]), str(data["source"]), rubric, books,
                         former, str(data.get("identity", "")))  # fmt: skip
     except (KeyError, TypeError, ValueError):

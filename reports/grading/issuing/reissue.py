@@ -62,9 +62,7 @@ def reissue(folder: Path, batch: str, secret: Path, students: Sequence[Student])
     )  # fmt: skip
 
 
-def _matched(
-    books: Sequence[Issued], students: Sequence[Student]
-) -> list[tuple[Student, Issued]]:
+def _matched(books: Sequence[Issued], students: Sequence[Student]) -> list[tuple[Student, Issued]]:
     """Students with their books: by identity, else by a name that nobody else has."""
     pairs: list[tuple[Student, Issued]] = []
     for key in _KEYS:

@@ -257,7 +257,9 @@ def _together(cells: Sequence[str]) -> str:
 
 def _is_name(text: str) -> bool:
     plain = _NAME.fullmatch(text) is not None and text[0].isupper()
-    return plain and text.split()[0].casefold().replace("ё", "е").rstrip(".") not in _REMARKS
+    return (
+        plain and text.split(maxsplit=1)[0].casefold().replace("ё", "е").rstrip(".") not in _REMARKS
+    )
 
 
 def _are_names(people: Sequence[RosterLine], start: int, end: int) -> bool:
@@ -265,8 +267,11 @@ def _are_names(people: Sequence[RosterLine], start: int, end: int) -> bool:
 
     Behind a surname nearly everybody has a name of his own, behind a name a patronymic.
     """
-    pairs = [(_together(line.cells[start:end]).split(), line.cells[end])
-             for line in people if end < len(line.cells) and any(line.cells[start:end])]  # fmt: skip
+    pairs = [
+        (_together(line.cells[start:end]).split(), line.cells[end])
+        for line in people
+        if end < len(line.cells) and any(line.cells[start:end])
+    ]
     names = [text for _, text in pairs if _is_name(text)]
     if not names or 2 * len(names) <= sum(bool(text) for _, text in pairs):
         return False

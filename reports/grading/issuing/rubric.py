@@ -120,7 +120,7 @@ class Attempts(_Section):
 
 
 class Copying(_Section):
-    """[copying]: what a likeness with a work of an earlier year does: holds the points, or tells."""
+    """[copying]: a likeness with a work of an earlier year holds the points, or is told."""
 
     past: Literal["hold", "tell"] = "hold"
 

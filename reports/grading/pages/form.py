@@ -153,5 +153,9 @@ def _number(mark: str) -> int | str:
 def _general(what: str, students: Sequence[Row]) -> Value:
     """What stands once in a form: the group, the date, how many; else the text itself."""
     groups = ", ".join(sorted({row["group"] for row in students if row["group"]}))
-    known: dict[str, Value] = {"группа": groups, "дата": f"{date.today():%d.%m.%Y}", "студентов": len(students)}
+    known: dict[str, Value] = {
+        "группа": groups,
+        "дата": f"{date.today():%d.%m.%Y}",
+        "студентов": len(students),
+    }
     return known.get(what.strip().casefold(), what)

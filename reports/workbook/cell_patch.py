@@ -53,7 +53,7 @@ def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value])
         names = set(archive.namelist())
         texts = {part: archive.read(part).decode("utf-8") for part in {*places.values(), _BOOK}}
         others = {name: archive.read(name).decode("utf-8") for name in (_TYPES, _RELATIONS)}
-    sheet = _Sheet(texts[places[title]])
+    sheet = _SheetText(texts[places[title]])
     changed = {places[title]: _unsaved(sheet.filled(values))}
     for name, part in places.items():
         if name != title and _FORMULA.search(texts[part]) and escape(title) in texts[part]:
@@ -70,7 +70,7 @@ def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value])
 
 
 @dataclass
-class _Sheet:
+class _SheetText:
     """The text of a sheet; ``lost`` are cells that had formulas."""
 
     text: str

@@ -98,7 +98,8 @@ def gradebook_xlsx(
         sheet.append(
             [row["number"], row["student"], row["group"], row["points"], maximum, row["status"],
              whole_remark(row), points, word.get("remark"),
-             *(shares.get(block) for block in blocks), row["file"], row["result"].sha256 if row["result"] else ""]
+             *(shares.get(block) for block in blocks), row["file"],
+             row["result"].sha256 if row["result"] else ""]
         )  # fmt: skip
         for cell in sheet[sheet.max_row]:
             as_text(cell)

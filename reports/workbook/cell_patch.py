@@ -163,7 +163,7 @@ def _cell(prefix: str, row: int, column: int, style: str, value: Value) -> str:
     if value == "":
         return f"{head}/>"
     if not isinstance(value, str):
-        return f"{head}><{prefix}v>{value!r}</{prefix}v></{prefix}c>"
+        return f"{head}><{prefix}v>{value:.15g}</{prefix}v></{prefix}c>"
     text = f'<{prefix}t xml:space="preserve">{escape(value)}</{prefix}t>'
     return f'{head} t="inlineStr"><{prefix}is>{text}</{prefix}is></{prefix}c>'
 

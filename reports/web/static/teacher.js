@@ -77,7 +77,7 @@ const decision = ({number, student, manual, unknown}) => html`
 
 // One decision for all works that wait for the same reason.
 const many = groups => table("Решить сразу для многих", groups.map(({name, what, why, formula, students, points}) =>
-  row([[name], [`${what}: ${why}`], [formula], [students.map((each, i) => `${each} (${printed(points[i])})`).join(", ")],
+  row([[name], [`${what}: ${why}`], [formula], [students.map((each, i) => `${each} (${printed(points[i] ?? "—")})`).join(", ")],
     [judge(name, name, "75, ×0,75, +5 или +", "", true)]], {key: name})),
 heads("Группа", "Что и почему", "Формула", "Студенты (баллы сейчас)", "Решение"));
 

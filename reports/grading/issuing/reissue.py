@@ -48,7 +48,7 @@ def reissue(folder: Path, batch: str, secret: Path, students: Sequence[Student])
         raise InputError(Problem(str(folder), what, hint))
     earlier.check(read_secret(secret), folder)
     every = (*earlier.books, *earlier.former)
-    books = _matched(every, students)
+    books = matched(every, students)
     kept = {book.number for _, book in books}
     newcomers = [student for student in students if all(one is not student for one, _ in books)]
     is_alike = not newcomers and kept == {book.number for book in earlier.books}
@@ -62,13 +62,13 @@ def reissue(folder: Path, batch: str, secret: Path, students: Sequence[Student])
     )  # fmt: skip
 
 
-def _matched(books: Sequence[Issued], students: Sequence[Student]) -> list[tuple[Student, Issued]]:
+def matched(books: Sequence[Issued], students: Sequence[Student]) -> list[tuple[Student, Issued]]:
     """Students with their books: by identity, else by a name that nobody else has."""
     pairs: list[tuple[Student, Issued]] = []
     for key in _KEYS:
-        taken = {book.number for _, book in pairs}
-        free = [book for book in books if book.number not in taken]
-        open_ = [student for student in students if all(one is not student for one, _ in pairs)]
+        taken = {id(one) for pair in pairs for one in pair}
+        free = [book for book in books if id(book) not in taken]
+        open_ = [student for student in students if id(student) not in taken]
         of_books = Counter(key(book.student) for book in free)
         of_students = Counter(map(key, open_))
         by_key = {key(book.student): book for book in free}

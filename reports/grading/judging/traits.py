@@ -33,7 +33,7 @@ _TELLING = 6  # tokens of a formula that may tell who wrote it
 _MOST_NAMES = 100  # sets of names for which trees are kept
 Names = frozenset[tuple[str, tuple[str, int, int]]]
 _PLAIN_TITLES = ("лист", "sheet", "таблица")
-_ISSUED_NAMES = ("col_", "_xlnm", "_xlfn", "_xlpm", "kshm", "print_", "_filter")
+_ISSUED_NAMES = ("col_", "cell_", "_xlnm", "_xlfn", "_xlpm", "kshm", "print_", "_filter")
 _HABIT = 8  # columns in which a step that does nothing is a manner of writing
 
 

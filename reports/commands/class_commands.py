@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from getpass import getuser
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -20,6 +24,9 @@ from reports.commands.common import (
     verbose_option,
 )
 from reports.shared.errors import KshmError
+
+if TYPE_CHECKING:
+    from reports.grading.issuing.issue import Result
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -62,8 +69,28 @@ def issue(
             "студентам его не давайте.",
             err=True,
         )
-    click.echo(f"{folder}: выдано вариантов: {len(done.register.books)}")
+    for line in _issued_lines(folder, done):
+        click.echo(line, err=line.startswith(_LEFT))
     return DONE
+
+
+_LEFT = "Не выдано"
+
+
+def _issued_lines(folder: Path, done: Result) -> list[str]:
+    """How many are issued of how many lines with a name, who is new, who has left."""
+    books, former = done.register.books, done.register.former
+    told = [f"{folder}: выдано вариантов: {len(books)}, строк с именем в списке: "
+            f"{len(books) + len(done.left)}"]  # fmt: skip
+    told += [f"{_LEFT}: {line}" for line in done.left]
+    if done.kept:
+        names = ", ".join(f"{book.number} ({book.student.full})" for book in books[done.kept :])
+        told.append(f"Прежние книги, варианты и идентификаторы сохранены: {done.kept}; "
+                    f"новые варианты: {names or 'нет'}")  # fmt: skip
+    if former:
+        names = ", ".join(f"{book.number} ({book.student.full})" for book in former)
+        told.append(f"Нет в списке, варианты оставлены за ними: {names}")
+    return told
 
 
 def _try_rubric(source: Path, samples: Path, rubric: Path | None, ranges: Path | None) -> int:
@@ -86,6 +113,31 @@ def _user() -> str:
     with suppress(ImportError, KeyError, OSError):
         return getuser()
     return ""
+
+
+def _is_for_many(decisions: tuple[tuple[str, str, str, str], ...]) -> bool:
+    from reports.grading.pages.groups import NAME
+
+    return any(NAME.fullmatch(who) for who, *_ in decisions)
+
+
+def _tell_effects(effects: Sequence[tuple[str, float | None, float | None]]) -> None:
+    """Who gains and who loses by a decision, and how many neither."""
+    from reports.shared.russian import short
+
+    alike = 0
+    for who, before, after in effects:
+        change = (after or 0.0) - (before or 0.0)
+        if before is not None and abs(change) < _LEAST_CHANGE:
+            alike += 1
+            continue
+        first, last = ("—" if points is None else short(points, 4) for points in (before, after))
+        sign = "+" if change >= 0 else "−"
+        click.echo(f"{who}: {first} → {last} ({sign}{short(abs(change), 4)})", err=True)
+    click.echo(f"Без изменений: {alike}", err=True)
+
+
+_LEAST_CHANGE = 0.005  # points that are printed
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -119,8 +171,11 @@ def _user() -> str:
     nargs=4,
     multiple=True,
     metavar="КТО ЧТО БАЛЛЫ ПРИМЕЧАНИЕ",
-    help="Решение преподавателя: кто или группа Г-…, столбец или «всё», баллы, примечание.",
+    help="Решение преподавателя: кто или группа Г-…, столбец или «всё», баллы (75, ×0,75, +5, -5, "
+    "50% столбца; + принять, - отменить), примечание.",
 )
+@click.option("--preview", is_flag=True,
+              help="С --decide: показать, кому сколько баллов, ничего не записывая.")  # fmt: skip
 @click.option(
     "--author", metavar="ИМЯ", default="", help="Кто решает (по умолчанию имя пользователя)."
 )
@@ -144,6 +199,7 @@ def grade(
     dask: str | None,
     worksheet: Path | None,
     decisions: tuple[tuple[str, str, str, str], ...],
+    preview: bool,
     author: str,
     explain: tuple[str, str] | None,
 ) -> int:
@@ -159,13 +215,24 @@ def grade(
         for line in explain_column(issued, Path(explain[0]), column, rubric, secret):
             click.echo(line)
         return DONE
-    from reports.grading.batch.grade import GradeSetup
     from reports.grading.batch.grade import decide as decide_all
     from reports.grading.batch.grade import grade as grade_all
+    from reports.grading.batch.setup import GradeSetup
 
     author = author or _user()
+    if preview and (not decisions or issued is not None):
+        raise KshmError("--preview показывает решение: grade -o ПАПКА --decide … --preview")
     if decisions and issued is None and folder is not None:
-        done = decide_all(folder, GradeSetup(decisions=decisions, author=author, form=form))
+        setup = GradeSetup(decisions=decisions, author=author, form=form)
+        if preview or _is_for_many(decisions):
+            seen = decide_all(folder, replace(setup, preview=True))
+            _tell_effects(seen.effects)
+            if preview:
+                click.echo("Ничего не записано: это показ.", err=True)
+                return DONE
+            if sys.stdin.isatty() and not click.confirm("Применить?", default=True):
+                return DONE
+        done = decide_all(folder, setup)
         click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
         return LOOK if done.needs_a_person else DONE
     if issued is None or submitted is None or folder is None:

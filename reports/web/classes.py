@@ -129,6 +129,8 @@ class Classes(Queue):
         if "who" in data:
             decision = [str(data.get(key, ""))[:500] for key in ("who", "what", "points", "remark")]
             command += ["--decide", *decision, "--author", "преподаватель"]
+            if data.get("preview"):
+                command = ["grade", "-o", "results", "--decide", *decision, "--preview"]
         else:
             # An earlier one counts where a later one turns out to be somebody else's.
             works = {
@@ -137,9 +139,9 @@ class Classes(Queue):
                 for path in (*earlier(each)[-1:], each)
             }
             write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
-        if (folder / "worksheet.csv").exists():
+        if (folder / "worksheet.csv").exists() and not data.get("preview"):
             command += ["--moodle", "worksheet.csv"]
-        self.put(folder.name, {}, [*command, *self.far])
+        self.put(folder.name, {}, [*command, *([] if data.get("preview") else self.far)])
 
     async def _rules(self, request: Request) -> None:
         """Whether pages are shown, until when and whether later works count."""
@@ -217,6 +219,7 @@ class Classes(Queue):
         return Shown(
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
              "rows": summary.get("rows", []), "groups": summary.get("groups", []),
+             "decided": summary.get("decided", []),
              "files": [*files], "graded": len(pages), "address": self._address(request)},
             {**files, **pages, **works, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},

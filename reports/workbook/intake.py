@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import io
+import posixpath
 import re
+import struct
 import zipfile
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NoReturn
 
@@ -24,13 +27,20 @@ class Package:
         Raises:
             zipfile.BadZipFile: it is none.
         """
-        self._archive = zipfile.ZipFile(io.BytesIO(data))
+        self._source = _as_named(data)
+        self._archive = zipfile.ZipFile(io.BytesIO(self._source))
         self._parts: dict[str, bytes] = {}
         self._kept = 0
+        self._mended: dict[str, bytes] = {}
+        self._spelt = {name.casefold(): name for name in self._archive.namelist()}
 
     def infos(self) -> list[zipfile.ZipInfo]:
         """All parts as the directory tells them."""
         return self._archive.infolist()
+
+    def names(self) -> list[str]:
+        """Names of all parts."""
+        return self._archive.namelist()
 
     def info(self, name: str) -> zipfile.ZipInfo:
         """What the directory tells of a part.
@@ -44,11 +54,34 @@ class Package:
         """A part as a stream."""
         return self._archive.open(info)  # type: ignore[return-value]
 
+    @property
+    def data(self) -> bytes:
+        """The zip with the names and targets that other readers understand."""
+        return repacked(self._source, self._mended) if self._mended else self._source
+
     def keep(self, name: str, part: bytes) -> None:
         """Remember a part that was unpacked whole."""
+        if name == _TYPES or name.endswith(".rels"):
+            mended = _TARGET.sub(lambda match: self._existing(name, match), part)
+            if mended != part:
+                part = self._mended[name] = mended
         if self._kept + len(part) <= _KEPT:
             self._kept += len(part)
             self._parts[name] = part
+
+    def _existing(self, source: str, match: re.Match[bytes]) -> bytes:
+        """A reference between parts with slashes, in the case of the part that it names."""
+        target = match[2].decode("utf-8", "replace").replace("\\", "/")
+        folder = "" if source == _TYPES else posixpath.dirname(posixpath.dirname(source))
+        whole = posixpath.normpath(posixpath.join("/", folder, target))[1:]
+        part = self._spelt.get(whole.casefold(), "")
+        same = [
+            one.casefold() == other.casefold()
+            for one, other in zip(target[::-1], part[::-1], strict=False)
+        ]
+        tail = [*same, False].index(False)
+        target = target[: len(target) - tail] + part[len(part) - tail :]
+        return match[1] + target.encode() + match[3]
 
     def read(self, name: str) -> bytes:
         """A part.
@@ -56,8 +89,55 @@ class Package:
         Raises:
             KeyError: there is no such part.
         """
-        part = self._parts.get(name)
+        part = self._parts.get(name, self._mended.get(name))
         return self._archive.read(name) if part is None else part
+
+
+_TARGET = re.compile(rb"""(\b(?:Target|PartName)\s*=\s*["'])([^"']*)(["'])""")
+# Parts that readers look for by these very names, whatever their case in a file.
+_USUAL_NAMES = ("[Content_Types].xml", "_rels/.rels", "xl/workbook.xml", "xl/sharedStrings.xml",
+                "xl/styles.xml", "xl/_rels/workbook.xml.rels")  # fmt: skip
+_ENTRY, _LOCAL = 46, 30  # bytes before the name in the directory of a zip, and before a part
+
+
+def _as_named(data: bytes) -> bytes:
+    """A zip with slashes and the usual case in the names of its parts; nothing is unpacked."""
+    usual = {name.casefold(): name for name in _USUAL_NAMES}
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        names = [info.orig_filename for info in archive.infolist()]
+        at = archive.start_dir
+    renamed = {}
+    for name in names:
+        slashed = name.replace("\\", "/")
+        usually = usual.get(slashed.casefold(), slashed)
+        if usually != name and usually not in names and name.isascii():
+            renamed[name.encode()] = usually.encode()
+    if not renamed:
+        return data
+    patched = bytearray(data)
+    for _ in names:
+        length, extra, comment = struct.unpack_from("<HHH", data, at + 28)
+        entry = data[at + _ENTRY : at + _ENTRY + length]
+        if entry in renamed:
+            begin = struct.unpack_from("<I", data, at + 42)[0] + _LOCAL
+            if data[begin : begin + length] == entry:
+                patched[at + _ENTRY : at + _ENTRY + length] = renamed[entry]
+                patched[begin : begin + length] = renamed[entry]
+        at += _ENTRY + length + extra + comment
+    return bytes(patched)
+
+
+def repacked(data: bytes, changed: Mapping[str, bytes]) -> bytes:
+    """A zip with some parts changed, the others as they were."""
+    stream = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(data)) as source,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as target,
+    ):
+        for info in source.infolist():
+            part = changed.get(info.filename)
+            target.writestr(info, source.read(info) if part is None else part)
+    return stream.getvalue()
 
 
 _BOOK, _TYPES = "xl/workbook.xml", "[Content_Types].xml"
@@ -88,6 +168,7 @@ _DAMAGED = (
     RuntimeError,
     ValueError,
     OSError,
+    struct.error,
 )
 
 
@@ -130,7 +211,7 @@ def check_data(data: bytes, name: str) -> Package:
 
 def _check_parts(name: str, package: Package) -> None:
     infos = package.infos()
-    names = [info.filename for info in infos]
+    names = package.names()
     if len(infos) > MAX_PARTS or len(set(names)) != len(names):
         _refuse(name, "в книге слишком много частей", "это не книга kshm")
     if _BOOK not in names:

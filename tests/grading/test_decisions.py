@@ -19,7 +19,7 @@ from reports.commands import class_commands
 from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import GradeSetup, decide, grade
-from reports.grading.issuing.rubric import rubric_of
+from reports.grading.issuing.rubric import Rubric, rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.scoring import HandedIn, late_factor, score
 from reports.grading.judging.works import Work, work_of
@@ -126,7 +126,7 @@ def test_another_remark_with_the_same_points_is_taken_over(tmp_path, remark):
     book.active.append([2, "55.5", remark, "sha"])
     book.save(path)
     kept = [Decision(2, WHOLE, 55.5, "болел", "Петрова", "2026-01-01T00:00", "sha")]
-    (found,) = from_gradebook(path, kept, {}, 100.0)
+    (found,) = from_gradebook(path, kept, {}, Rubric())
     assert (found.points, found.remark, found.file) == (55.5, remark, "sha")
     assert (found == kept[0]) == (remark == "болел")
 

@@ -9,8 +9,10 @@ import tomllib
 import zipfile
 
 import pytest
+from click.testing import CliRunner
 from openpyxl import load_workbook
 
+from reports.cli import main
 from reports.exports.build import load_input
 from reports.grading.issuing.assignment import assignment_of
 from reports.grading.issuing.handout import _live_cells, fill_cells
@@ -108,6 +110,81 @@ def test_an_issue_can_be_repeated_and_every_variant_passes_the_check(tmp_path):
         assert load_input(toml).warnings == ()
     assert load_register(tmp_path / "issued") == first.register
     assert len({book.ticket for book in first.register.books}) == 3
+
+
+def test_a_latecomer_and_one_who_leaves_orphan_no_book(tmp_path):
+    """Whatever the list becomes: a name in the middle, a mail more, another order, a return."""
+    first = classroom.issue_class(tmp_path, 5).register
+    handed = {book.student.full: book for book in first.books}
+    lines = classroom.roster_text(5).splitlines()
+    mails = [line.rpartition(";")[0] for line in lines]
+    lists = [
+        [*lines[:2], "Ильин;Илья;ДВС-1;i@example.org", *lines[2:]],
+        [*lines[:2], "Ильин;Илья;ДВС-1;i@example.org", *lines[3:]],
+        [mails[0], *reversed(mails[1:]), "Ильин;Илья;ДВС-1"],
+        [*lines[:1], "Якин;Ян;ДВС-1;j@example.org", *lines[1:]],
+        lines,
+    ]
+    for number, text in enumerate(lists):
+        (tmp_path / "group.csv").write_text("\n".join(text), encoding="utf-8")
+        done = issue(tmp_path / "base.toml", tmp_path / "group.csv", tmp_path / "issued", seed=7,
+                     secret_file=tmp_path / "secret.key")  # fmt: skip
+        register = load_register(tmp_path / "issued")
+        assert register == done.register
+        assert {book.student.full for book in register.books} == {
+            " ".join(line.split(";")[:2]) for line in text[1:]
+        }
+        for book in (*register.books, *register.former):
+            before = handed.setdefault(book.student.full, book)
+            same = ("number", "file", "folder", "ticket", "drawn", "raw")
+            assert [getattr(book, key) for key in same] == [getattr(before, key) for key in same]
+        numbers = [book.number for book in (*register.books, *register.former)]
+        assert len(set(numbers)) == len(numbers) == len(handed)
+        assert register.trial_seed == first.trial_seed, number
+        register.check(bytes.fromhex((tmp_path / "secret.key").read_text()), tmp_path)
+    assert done.kept == 5 and len(register.former) == 2
+
+
+@pytest.mark.parametrize(
+    ("what", "words"),
+    [("seed", "по другой базе, другим диапазонам или другому зерну"),
+     ("base", "по другой базе, другим диапазонам или другому зерну"),
+     ("secret", "секрет не читается"), ("another", "не соответствует секрету"),
+     ("register", "это не реестр kshm или он повреждён")],
+)  # fmt: skip
+def test_a_second_issue_that_would_orphan_books_is_refused(tmp_path, what, words):
+    classroom.issue_class(tmp_path, 2)
+    if what == "base":
+        text = classroom.base_text().replace("step = 50", "step = 100")
+        (tmp_path / "base.toml").write_text(text, encoding="utf-8")
+    elif what == "secret":
+        (tmp_path / "secret.key").unlink()
+    elif what == "another":
+        (tmp_path / "secret.key").write_text("ab" * 32, encoding="ascii")
+    elif what == "register":
+        (tmp_path / "issued" / "register.json").write_text("{", encoding="utf-8")
+    before = {p: p.read_bytes() for p in (tmp_path / "issued").rglob("*") if p.is_file()}
+    with pytest.raises(InputError, match=words):
+        issue(tmp_path / "base.toml", tmp_path / "group.csv", tmp_path / "issued",
+              seed=8 if what == "seed" else 7, secret_file=tmp_path / "secret.key")  # fmt: skip
+    assert {p: p.read_bytes() for p in (tmp_path / "issued").rglob("*") if p.is_file()} == before
+    assert (tmp_path / "secret.key").exists() == (what != "secret")
+
+
+def test_the_command_says_who_is_issued_of_how_many_lines(tmp_path):
+    classroom.issue_class(tmp_path, 2)
+    text = classroom.roster_text(3).splitlines()
+    text.insert(1, "Points Possible;;;")
+    del text[2]
+    (tmp_path / "group.csv").write_text("\n".join(text), encoding="utf-8")
+    places = {"--roster": "group.csv", "-o": "issued", "--secret": "secret.key"}
+    words = ["issue", str(tmp_path / "base.toml"), "--seed=7"]
+    words += [word for key, name in places.items() for word in (key, str(tmp_path / name))]
+    said = CliRunner().invoke(main, words).output
+    assert "выдано вариантов: 2, строк с именем в списке: 3" in said
+    assert "Не выдано: group.csv, строка 2: «Points Possible» — служебная строка" in said
+    assert "сохранены: 1; новые варианты: 3 (Сидорова Имя)" in said
+    assert "Нет в списке, варианты оставлены за ними: 1 (Иванов Имя)" in said
 
 
 def test_the_secret_may_not_go_out_with_the_books(tmp_path):

@@ -17,12 +17,13 @@ from reports.grading.judging import rings, similarity, traits
 from reports.grading.judging import works as judging_works
 from reports.grading.judging.canonical import Reader
 from reports.grading.judging.rings import PastWork, rings_of
-from reports.grading.judging.traits import ERROR, FORM, HELPER, IDLE, SLIP, TEXT
+from reports.grading.judging.traits import ERROR, FORM, HELPER, IDLE, NAME, SLIP, TEXT
 from reports.grading.judging.works import Trait, Work, work_of
 from reports.recalculation.formulas import pattern
 from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
 from tests.grading import classroom
+from tests.grading.drawn import cosmetics
 from tests.grading.drawn.classroom import Drawn, DrawnClass
 from tests.grading.fill import filled_book, solved_formulas
 from tests.grading.test_similarity import result
@@ -99,6 +100,46 @@ def test_a_ring_of_any_size_is_held_and_nobody_else(size):
     assert {work.number for work in ring.works} == set(range(1, size + 1))
 
 
+STEPS = [of(IDLE, "a"), of(IDLE, "b"), of(IDLE, "c"), of(TEXT, "", "t"), of(TEXT, "", "u")]
+ONE_MANNER = [(FORM, f"f{i}", f"m{i}", f"s{i}", "manner") for i in range(47)]
+
+
+@pytest.mark.parametrize("traits", [STEPS, ONE_MANNER], ids=["steps", "forms of one manner"])
+@pytest.mark.parametrize("size", [2, 4, 8, 12])
+def test_what_a_ring_shares_is_no_less_rare_for_its_size(traits, size):
+    """Nor for being one manner throughout: nobody else writes 47 such formulas to a sign."""
+    chance = random.Random(size)
+    class_ = works([traits] * size + [honest(chance) for _ in range(60 - size)])
+    (ring,) = rings_of(class_)
+    assert ring.held and len(ring.works) == size
+
+
+def test_a_manner_that_is_spelt_otherwise_or_differs_in_places_is_no_copy():
+    chance = random.Random(1)
+    rest = [honest(chance) for _ in range(58)]
+    spelt = [(kind, item, mark, f"{text}'", group) for kind, item, mark, text, group in ONE_MANNER]
+    other = [*ONE_MANNER[:33], *(of(FORM, f"f{i}", "other") for i in range(33, 47))]
+    for own in (spelt, other):
+        assert not any(ring.held for ring in rings_of(works([ONE_MANNER, own, *rest])))
+
+
+@pytest.mark.parametrize("size", [16, 20, 30])
+def test_what_a_subgroup_has_of_its_lecturer_holds_nobody(size):
+    taught = [*(of(SLIP, f"t{i}") for i in range(4)), *(of(FORM, f"f{i}", "t") for i in range(5))]
+    chance = random.Random(size)
+    class_ = works([taught + honest(chance)[-2:] for _ in range(size)]
+                   + [honest(chance) for _ in range(60 - size)])  # fmt: skip
+    assert not any(ring.held for ring in rings_of(class_))
+
+
+@pytest.mark.parametrize(("holds", "held"), [(True, True), (False, False)])
+def test_the_rubric_says_whether_a_work_of_an_earlier_year_holds_points(holds, held):
+    past = [PastWork("2025-12", 1, tuple(RARE))]
+    class_ = works([RARE] + [[of(SLIP, f"x{i}")] for i in range(20)])
+    (ring,) = rings_of(class_, past, past_holds=holds)
+    assert ring.held == held and ring.past == tuple(past)
+
+
 def test_what_most_of_a_class_write_is_no_ring():
     """A slip of the lecture, a common source: whatever it is, it is not rare."""
     chance = random.Random(1)
@@ -136,7 +177,9 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
     assert f"меньше {rings._CLASS} человек" in text
     words = {FORM: "своя формула — до", SLIP: "ошибка с известной причиной — до",
              ERROR: "редкая ошибка — до", IDLE: "действие без смысла (`+0`, `*1`) — до",
-             HELPER: "вспомогательный столбец — до", TEXT: "раскладка — до"}  # fmt: skip
+             HELPER: "вспомогательный столбец — до", TEXT: "раскладка — до",
+             NAME: "своё имя ячейки — до"}  # fmt: skip
+    assert f"от {rings._WHOLE_FORMS} редких" in text
     share = f"не меньше {judging_works.VERBATIM} формул и не меньше {judging_works.NEARLY_ALL:.0%}"
     held, told = text.split("**Только сообщает:**")
     assert share.replace("%", " %") in held
@@ -151,14 +194,44 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
 
 
 @lru_cache(maxsize=1)
+def drawn_class() -> DrawnClass:
+    return DrawnClass("V8", 20)
+
+
+@lru_cache(maxsize=1)
 def drawn() -> Drawn:
-    return DrawnClass("V8", 20).drawn(5, (2, 5))
+    return drawn_class().drawn(5, (2, 5))
 
 
 def test_the_rings_of_a_drawn_class_are_named_and_nobody_honest():
     found = drawn().rings()
     assert drawn().named(found, held=True) == {1, 2, 3, 4, 5, 6, 7}
     assert drawn().named(found, held=False) == {1, 2, 3, 4, 5, 6, 7}
+
+
+@pytest.mark.parametrize(
+    "looks",
+    [
+        {"titles": ["Расчёт"]}, {"titles": ["Расчёт", "Черновик", "Мой", "А"]},
+        {"titles": ["Расчёт"], "fixed": True},
+        {"titles": ["Расчёт", "Черновик", "Мой", "А"], "fixed": True, "headed": False},
+        {"titles": ["Расчёт", "Черновик"], "headed": False, "names": cosmetics.NAMES},
+    ],
+)  # fmt: skip
+def test_looks_let_no_ring_pass(looks):
+    ring = cosmetics.ring(drawn_class(), **looks)
+    (found,) = rings_of([*ring, *drawn().works[7:]])
+    assert found.held and [work.number for work in found.works] == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "alike"),
+    [("=N6+0", "=$N6+0", True), ("=N6+0", "=N6 - 0", True), ("=N6*1", "=($N6)*1", True),
+     ("=N6*1", "=N6/1", True), ("=N6+0", "=N6*1", False), ("=N6-N6+B6", "=B6+N6 - N6", True)],
+)  # fmt: skip
+def test_idle_steps_are_told_by_what_they_are(one, other, alike):
+    first, second = (judging_works.idle_steps(pattern(text[1:], 6, 5)) for text in (one, other))
+    assert first and second and (first == second) == alike
 
 
 def test_a_ring_of_last_year_is_found_through_the_memory(tmp_path):

@@ -10,10 +10,11 @@ from datetime import date
 from pathlib import Path
 
 import pytest
+import xlsxwriter
 from openpyxl import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.grading.issuing.roster import read_roster
+from reports.grading.issuing.roster import read_roster, roster_of
 from reports.shared.errors import InputError
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET
 
@@ -105,6 +106,87 @@ def test_a_surname_is_found_wherever_it_stands(tmp_path, head, names, told):
             read_roster(path)
     else:
         assert read_roster(path)[0].full == told
+
+
+ABC = ["Абрамова Анна", "Белов Борис", "Власов Виктор"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        # A word of a head in the first student's line.
+        "Имя,Фамилия,Роли\nАнна,Абрамова,Студент\nБорис,Белов,Студент\nВиктор,Власов,Студент",
+        "ФИО;Статус\nАбрамова Анна;Обучающийся\nБелов Борис;Обучающийся\nВласов Виктор;Обучающийся",
+        "ФИО;\nАбрамова Анна;Student\nБелов Борис;\nВласов Виктор;Student",
+        "Фамилия;Имя;Роль;Группы\nАбрамова;Анна;Студенты;Группа\nБелов;Борис;;\nВласов;Виктор;;",
+        "Студенты\n№;ФИО;Статус\n1;Абрамова Анна;ФИО\n2;Белов Борис;\n3;Власов Виктор;Имя",
+        # A remark in a column without a head.
+        "№;ФИО;;Группа\n1;Абрамова Анна;староста;Д\n2;Белов Борис;;Д\n3;Власов Виктор;;Д",
+        "ФИО;\nАбрамова Анна;Староста\nБелов Борис;Бюджет\nВласов Виктор;Контракт",
+        "ФИО;;\nАбрамова;Анна;Бюджет\nБелов;Борис;Бюджет\nВласов;Виктор;Бюджет",
+        "ФИО;\nАбрамова Анна;да\nБелов Борис;нет\nВласов Виктор;да",
+        "Фамилия;;\nАбрамова;Анна;\nБелов;Борис;академ\nВласов;Виктор;Академ.",
+        # A sign before the name.
+        "ФИО\n1. Абрамова Анна\n2. Белов Борис\n3. Власов Виктор",
+        "ФИО\n№1 Абрамова Анна\n№ 2 Белов Борис\n№3. Власов Виктор",
+        "ФИО\n• Абрамова Анна\n– Белов Борис\n✔ Власов Виктор*",
+        "Фамилия;Имя\n1)Абрамова;Анна\n2) Белов;Борис\n3 - Власов;Виктор",
+        "ФИО\nа) Абрамова Анна\nII. Белов Борис\n[3] Власов Виктор".replace("[3]", "3:"),
+        "№;ФИО\n№1;Абрамова Анна\n№2;Белов Борис\n№3;Власов Виктор\n№4;\n•;",
+        # Lines of Canvas.
+        'Student,ID,x\n,,Manual Posting\n    Points Possible,,(read only)\n"Абрамова, Анна",1,\n'
+        '"Белов, Борис",2,\n"Власов, Виктор",3,',
+        'Student,ID\n,(read only)\n"Абрамова, Анна",1\n"Белов, Борис",2\n"Власов, Виктор",3',
+        'Student,ID\nManual Posting,\n"Абрамова, Анна",1\n"Белов, Борис",2\n"Власов, Виктор",3',
+    ],
+)  # fmt: skip
+def test_no_student_is_lost_nor_called_by_what_stands_beside_the_name(tmp_path, text):
+    path = tmp_path / "group.csv"
+    path.write_text(f"{text}\n", encoding="utf-8")
+    assert [student.full for student in read_roster(path)] == ABC
+
+
+def test_patronymics_stand_in_a_column_of_their_own(tmp_path):
+    """And a remark among them is none."""
+    path = tmp_path / "group.csv"
+    lines = [
+        "ФИО;",
+        "Абрамова Анна;Ильинична",
+        "Белов Борис;Ильич",
+        "Ли Чен;староста",
+        "Али Вагиф;",
+    ]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    names = ["Абрамова Анна Ильинична", "Белов Борис Ильич", "Ли Чен", "Али Вагиф"]
+    assert [student.full for student in read_roster(path)] == names
+
+
+def test_lines_that_are_left_out_are_told_with_their_reason(tmp_path):
+    path = tmp_path / "group.csv"
+    lines = [
+        "Student,ID",
+        "Points Possible,",
+        '"Абрамова, Анна",1',
+        "Student,ID",
+        "3,",
+        '"Белов, Б",2',
+    ]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    roster = roster_of(path)
+    assert len(roster.students) == 2
+    assert roster.left == (
+        "group.csv, строка 2: «Points Possible» — служебная строка",
+        "group.csv, строка 4: «Student» — повтор заголовка",
+    )
+
+
+@pytest.mark.parametrize("word", ["Студент", "Обучающийся", "ФИО"])
+def test_a_word_of_a_head_is_nobodys_name(tmp_path, word):
+    """The list of a column that the program does not know."""
+    path = tmp_path / "group.csv"
+    path.write_text(f"Слушатель;{word}\nАбрамова;{word}\nБелов;Студент\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"«Студент» — не фамилия|нет ни одного студента"):
+        read_roster(path)
 
 
 # --- books of Excel --------------------------------------------------------------------------
@@ -266,6 +348,50 @@ def test_a_book_that_no_program_wrote_is_refused(tmp_path):
     path.write_bytes(made.getvalue())
     with pytest.raises(InputError, match="книга не читается; сохраните список как CSV"):
         read_roster(path)
+
+
+def _renamed(data: bytes, names: dict[str, str], texts: dict[str, tuple[str, str]]) -> bytes:
+    """A book with other names of its parts, and with texts replaced in some."""
+    made = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(made, "w") as target:
+        for info in source.infolist():
+            part = source.read(info).decode("utf-8")
+            for old, new in (texts[key] for key in texts if key in info.filename):
+                part = part.replace(old, new)
+            info.filename = names.get(info.filename, info.filename)
+            target.writestr(info, part)
+    return made.getvalue()
+
+
+_STRINGS = "xl/sharedStrings.xml"
+
+
+@pytest.mark.parametrize(
+    ("names", "texts"),
+    [
+        ({_STRINGS: "xl/SharedStrings.xml"}, {}),
+        ({_STRINGS: "xl/SharedStrings.xml"}, {"_Types": (_STRINGS, "xl/SharedStrings.xml")}),
+        ({_STRINGS: "xl/SHAREDSTRINGS.XML", "xl/styles.xml": "xl/Styles.xml"}, {}),
+        ({"xl/workbook.xml": "xl\\workbook.xml", "xl/styles.xml": "xl\\styles.xml",
+          "xl/worksheets/sheet1.xml": "xl\\worksheets\\sheet1.xml"}, {}),
+        ({}, {"workbook.xml.rels": ("worksheets/", "worksheets\\")}),
+        ({}, {".rels": ("/xl/", "\\xl\\")}),
+        ({"xl/worksheets/sheet1.xml": "xl/worksheets/Sheet1.xml"}, {}),
+        ({}, {"styles": ("<fill><patternFill/></fill>", "<fill/>")}),
+        ({}, {"styles": ("<fill><patternFill/></fill>", "<fill></fill>")}),
+    ],
+)  # fmt: skip
+def test_a_book_of_another_program_is_read_whatever_its_parts_are_called(tmp_path, names, texts):
+    path = book(tmp_path, [HEAD, IVANOV, PETROV])
+    if _STRINGS in names:
+        with xlsxwriter.Workbook(path) as written:
+            sheet = written.add_worksheet()
+            for number, row in enumerate((HEAD, IVANOV, PETROV)):
+                sheet.write_row(number, 0, row)
+    data = _renamed(path.read_bytes(), names, texts)
+    assert data != _renamed(path.read_bytes(), {}, {})
+    path.write_bytes(data)
+    assert [student.surname for student in read_roster(path)] == ["Иванов", "Петров"]
 
 
 def test_a_cell_at_the_edge_costs_nothing(tmp_path):

@@ -10,8 +10,9 @@ import pytest
 
 from reports.grading.batch.extras import put_off
 from reports.grading.batch.rubric_trial import try_rubric
+from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.roster import Student, read_roster
-from reports.grading.issuing.rubric import load_rubric, rubric_of
+from reports.grading.issuing.rubric import Rubric, load_rubric, rubric_of
 from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, WRONG
 from reports.grading.judging.marking import Marker
 from reports.grading.judging.scoring import HandedIn, hours_late, score
@@ -72,6 +73,14 @@ def test_an_own_deadline_of_nobody_in_the_class_is_told():
                            (Student("г", "Гоц", ""), "в списке нет её студентов")):  # fmt: skip
         with pytest.raises(InputError, match=words):
             put_off(register, [student])
+
+
+def test_an_own_deadline_reaches_who_was_issued_under_another_identity():
+    """The list has got mails since, and another order of letters in a name."""
+    student = Student("Ким Пётр, Д", "Ким", "Пётр", "Д")
+    register = Register("", 1, "", Rubric(), (Issued(1, student, "", "", "", {}, {}),))
+    (book,) = put_off(register, [Student("k@x.ru", "Ким", "Петр", "Д", extension="+24")]).books
+    assert (book.student.id, book.student.extension) == (student.id, "+24")
 
 
 def test_an_own_deadline_that_is_none_is_one_clear_line(tmp_path):

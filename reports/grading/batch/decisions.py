@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import copy
 import json
+import math
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from reports.grading.batch.awards import ACCEPT, WITHDRAW, Award, award_of
 from reports.grading.issuing.register import Issued, Register
+from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.judgement import UNKNOWN, unread_remark
 from reports.grading.judging.scoring import rescored
 from reports.grading.judging.works import Work
-from reports.grading.pages.gradebook import DECISION, GROUPS, OF_FILE
+from reports.grading.pages.gradebook import DECIDED, DECISION, GROUPS, OF_FILE
 from reports.grading.pages.groups import NAME, WaitingGroup
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import write_text
 
 FILE = "decisions.json"
 WHOLE = ""  # in the place of an item: the whole work
-ACCEPT, WITHDRAW = "+", "-"  # in the place of points
 _MOST = 500  # signs of a remark
 _WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
 _ANOTHER = "после решения преподавателя сдан другой файл: решите о нём заново"
@@ -33,7 +36,8 @@ _SHEET = "Оценки"
 class Decision:
     """Points for an item or a whole work; None accepts the points of the program.
 
-    ``file`` is the SHA-256 of the work: what is handed in later has not been looked at.
+    ``file`` is the SHA-256 of the work: what is handed in later has not been looked at.  ``word``
+    is a change of the program's points (×0,75), ``group`` whom it was said of together.
     """
 
     number: int
@@ -43,6 +47,8 @@ class Decision:
     author: str
     date: str
     file: str = ""
+    word: str = ""
+    group: str = ""
 
     @property
     def key(self) -> tuple[int, str, str]:
@@ -109,44 +115,56 @@ def refuse_wrong_words(
             continue
         if who not in files:
             _student(register, (), who)
-        item = _item(what, items)
-        if item and points.strip().endswith("%"):
-            _points(_of_share(points, register.rubric.maximum), register.rubric.maximum)
-        elif points.strip() not in (ACCEPT, WITHDRAW):
-            _points(points, register.rubric.maximum)
+        _item(what, items)
+        if points.strip() != WITHDRAW:
+            award_of(points, register.rubric, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """Words of a person on one work; ``group`` where they are about several together."""
+
+    who: str
+    what: str
+    points: str
+    remark: str
+    group: str = ""
 
 
 def of_groups(
-    words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup]
-) -> list[tuple[str, str, str, str]]:
-    """The words of a command with those about a group said of each of its works.
+    words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup],
+    kept: Sequence[Decision] = (), *, anew: bool = False,
+) -> list[Spoken]:  # fmt: skip
+    """The words of a command with those on a group said of each of its works.
 
-    Points may be a share: «50%» of what the group is about.
+    What was decided on together can be taken back; ``anew``: or decided otherwise.
 
     Raises:
-        InputError: no such group waits.
+        InputError: there is no such group.
     """
-    by_name = {group.name: group for group in groups}
-    said = []
+    waiting_ones = {group.name: [(str(n), group.item) for n in group.numbers] for group in groups}
+    decided_ones: dict[str, list[tuple[str, str]]] = {}
+    for entry in kept:
+        if entry.group:
+            decided_ones.setdefault(entry.group, []).append((str(entry.number), entry.item))
+    spoken = []
     for who, what, points, remark in words:
         if not NAME.fullmatch(who):
-            said.append((who, what, points, remark))
+            spoken.append(Spoken(who, what, points, remark))
             continue
-        group = by_name.get(who)
-        if group is None:
+        is_taken_back = points.strip() == WITHDRAW
+        members = [*waiting_ones.get(who, ())]
+        if is_taken_back or (anew and not members):
+            members += decided_ones.get(who, [])
+        if not members:
             hint = "имена групп — на странице группы и на листе «Решения» ведомости"
+            if who in decided_ones:
+                hint = f'о ней уже решено; отменить: --decide {who} всё - ""'
             raise InputError(Problem(who, "такая группа работ не ждёт решения", hint))
-        value = _of_share(points, group.of)
-        said += [(str(n), group.item or "всё", value, remark) for n in group.numbers]
-    return said
-
-
-def _of_share(points: str, of: float) -> str:
-    text = points.strip().replace(",", ".")
-    try:
-        return f"{float(text[:-1]) / 100 * of:.6g}" if text.endswith("%") else points
-    except ValueError:
-        return points
+        spoken += [
+            Spoken(n, item or "всё", points, remark, who) for n, item in dict.fromkeys(members)
+        ]
+    return spoken
 
 
 def _item(what: str, known: Collection[str]) -> str:
@@ -159,9 +177,9 @@ def _item(what: str, known: Collection[str]) -> str:
 
 def decided(
     kept: Sequence[Decision], register: Register, works: Sequence[Work],
-    counted: Mapping[int, Work], words: Sequence[tuple[str, str, str, str]], author: str,
+    counted: Mapping[int, Work], words: Sequence[Spoken], author: str,
 ) -> list[Decision]:  # fmt: skip
-    """Decisions with those of a command added: who, what, points, remark.
+    """Decisions with those of a command added.
 
     They are about the files that are ``counted``.
 
@@ -169,47 +187,43 @@ def decided(
         InputError: no such student or item, or points that are none.
     """
     entries = {entry.key: entry for entry in kept}
-    for who, what, points, remark in words:
-        book = _student(register, works, who)
+    for said in words:
+        book = _student(register, works, said.who)
         known = {line.id for work in works if work.number == book.number for line in work.items}
-        item = _item(what, known)
-        if points.strip() == WITHDRAW:
+        item = _item(said.what, known)
+        if said.points.strip() == WITHDRAW:
             entries = {
                 key: entry for key, entry in entries.items() if key[:2] != (book.number, item)
             }
             continue
         work = counted.get(book.number)
-        of = next((line.of for line in work.items if line.id == item), None) if work else None
-        given = points if of is None else _of_share(points, of)
-        value = None if points.strip() == ACCEPT else _points(given, register.rubric.maximum)
+        is_unclear = said.group and item == WHOLE  # a share could mean two things
+        worth = None if is_unclear else _worth(work, item, register.rubric)
+        award = award_of(said.points, register.rubric, worth)
         file = work.sha256 if work else ""
-        _refuse_idle(who, value, item, file, work)
+        _refuse_idle(said.who, award, item, file, work)
         entry = Decision(
-            book.number, item, value, one_line(remark, _MOST), one_line(author, 100),
-            datetime.now().isoformat(timespec="minutes"), file,
+            book.number, item, award.points, one_line(said.remark, _MOST), one_line(author, 100),
+            datetime.now().isoformat(timespec="minutes"), file, award.word, said.group,
         )  # fmt: skip
         entries[entry.key] = entry
     return list(entries.values())
 
 
-def _points(text: str, maximum: float) -> float:
-    try:
-        value = float(text.replace(",", "."))
-    except ValueError:
-        value = -1.0
-    if not 0 <= value <= maximum:
-        hint = f"нужно число от 0 до {maximum:g}, «+» — принять баллы программы, «-» — отменить"
-        raise InputError(Problem(text or "баллы", "это не баллы", hint))
-    return value
+def _worth(work: Work | None, item: str, rubric: Rubric) -> float:
+    """Points that a column or a whole work is worth."""
+    lines = work.items if work is not None and item != WHOLE else ()
+    return next((line.of for line in lines if line.id == item), rubric.maximum)
 
 
-def _refuse_idle(who: str, value: float | None, item: str, file: str, work: Work | None) -> None:
-    """Refuse a word that would change nothing: of no file, or accepting no points."""
+def _refuse_idle(who: str, award: Award, item: str, file: str, work: Work | None) -> None:
+    """Refuse a word that would change nothing: of no file, or on points that there are not."""
     if not file:
         hint = "поставьте эти баллы сами там, куда переносите ведомость"
         raise InputError(Problem(who, "работа не сдана: решать не о чем", hint))
-    if value is None and item == WHOLE and work and work.sha256 == file and work.points is None:
-        what = "у файла нет баллов программы: принять нечего"
+    is_same = work is not None and work.sha256 == file
+    if award.is_change and item == WHOLE and is_same and work and work.points is None:
+        what = "у файла нет баллов программы: принять или изменить нечего"
         raise InputError(Problem(who, what, "впишите баллы числом"))
 
 
@@ -231,7 +245,7 @@ def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
 
 
 def from_gradebook(
-    path: Path, kept: Sequence[Decision], counted: Mapping[int, Work], maximum: float
+    path: Path, kept: Sequence[Decision], counted: Mapping[int, Work], rubric: Rubric
 ) -> list[Decision]:
     """Decisions with those that a person has written into the gradebook.
 
@@ -260,32 +274,70 @@ def from_gradebook(
         file = work.sha256 if work is not None else ""
         key = int(number), WHOLE, file if file_at is None else str(line[file_at] or "")
         earlier = entries.get(key)
-        if not points.strip():
-            if earlier is not None and not text:  # taken out by hand
-                del entries[key]
+        if points.strip() in ("", WITHDRAW):
+            if points.strip() or not text:  # taken out by hand
+                entries.pop(key, None)
             continue
         try:
-            value = None if points.strip() == ACCEPT else _points(points, maximum)
-            _refuse_idle("", value, *key[1:], work)
+            award = award_of(points, rubric, rubric.maximum)
+            _refuse_idle("", award, *key[1:], work)
         except InputError as error:
             where = f"{path.name}, строка {row}: «{one_line(points, 40)}»"
             problems += [replace(problem, where=where) for problem in error.problems]
             continue
-        if earlier is None or (earlier.points, earlier.remark) != (value, text):
-            entries[key] = Decision(*key[:2], value, text, one_line(author, 100), date, key[2])
+        said = award.points, award.word, text
+        if earlier is None or (earlier.points, earlier.word, earlier.remark) != said:
+            entries[key] = Decision(
+                *key[:2], award.points, text, one_line(author, 100), date, key[2], award.word
+            )
     if problems:
         raise InputError(problems)
     return list(entries.values())
 
 
-def words_of_groups(path: Path) -> tuple[list[tuple[str, str, str, str]], str]:
-    """Decisions on groups that a person has written into the gradebook, and who saved it."""
+def words_of_groups(
+    path: Path, kept: Sequence[Decision]
+) -> tuple[list[tuple[str, str, str, str]], str]:
+    """Decisions on groups that a person has written into the gradebook, and who saved it.
+
+    What stands there as it was decided is no new word; a decision that was wiped out is withdrawn.
+    """
     lines, author, _ = _lines(path, GROUPS)
     if not lines or any(head not in lines[0] for head in ("Группа", *DECISION)):
         return [], author
     at = [lines[0].index(head) for head in ("Группа", *DECISION)]
-    rows = [[str("" if line[i] is None else line[i]).strip() for i in at] for line in lines[1:]]
-    return [(name, "", points, remark) for name, points, remark in rows if points], author
+    stand = {entry.group: (written(entry), entry.remark) for entry in kept if entry.group}
+    words = []
+    for line in lines[1:]:
+        name, points, remark = (str("" if line[i] is None else line[i]).strip() for i in at)
+        if not points and not remark and name in stand and DECIDED in line:
+            words.append((name, "", WITHDRAW, ""))
+        elif points and (points, remark) != stand.get(name):
+            words.append((name, "", points, remark))
+    return words, author
+
+
+def written(entry: Decision) -> str:
+    """The points of a decision as the gradebook has them."""
+    return entry.word or (ACCEPT if entry.points is None else f"{entry.points:g}")
+
+
+def decided_groups(
+    decisions: Sequence[Decision], works: Mapping[int, Work]
+) -> list[dict[str, Any]]:
+    """Groups that were decided on together: what was said, of whom."""
+    groups: dict[str, dict[str, Any]] = {}
+    for entry in decisions:
+        work = works.get(entry.number)
+        if not entry.group or work is None or work.sha256 != entry.file:
+            continue
+        label = next((line.label for line in work.items if line.id == entry.item), "вся работа")
+        blank = {"name": entry.group, "what": label, "points": written(entry),
+                 "remark": entry.remark, "numbers": [], "students": []}  # fmt: skip
+        group = groups.setdefault(entry.group, blank)
+        group["numbers"].append(entry.number)
+        group["students"].append(work.student)
+    return [groups[name] for name in sorted(groups)]
 
 
 def _lines(path: Path, title: str = _SHEET) -> tuple[list[tuple[Any, ...]], str, str]:
@@ -301,13 +353,26 @@ def _lines(path: Path, title: str = _SHEET) -> tuple[list[tuple[Any, ...]], str,
         if title not in book.sheetnames:
             return [], "", ""
         sheet = book[title]
-        lines = list(sheet.iter_rows(values_only=True))
+        lines = [tuple(map(_meant, row)) for row in sheet.iter_rows()]
         author = book.properties.lastModifiedBy or "ведомость"
         date = datetime.fromtimestamp(int(path.stat().st_mtime)).isoformat(timespec="minutes")
         book.close()
     except Exception:  # a gradebook that someone has broken is written anew
         return [], "", ""
     return lines, author, date
+
+
+def _meant(cell: Any) -> Any:  # noqa: ANN401 - a cell of openpyxl and what it holds
+    """The value of a cell as its sheet shows it: 0.5 in the format of per cents is 50%."""
+    value = cell.value
+    if type(value) in (int, float) and "%" in _PLAIN_TEXT.sub("", cell.number_format or ""):
+        return f"{value * 100:.10g}%"
+    if type(value) in (int, float) and value < 0:  # no points; what is to be taken away is a text
+        return f"число {value:g}"
+    return value
+
+
+_PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a format: signs that mean themselves
 
 
 def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
@@ -322,8 +387,8 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
     for entry in own:
         line = lines.get(entry.item)
         if line is not None:
-            if entry.points is not None:
-                line["points"] = entry.points
+            base = line["of"] if line["verdict"] == UNKNOWN and entry.word else line["points"]
+            line["points"] = _award(entry).of(base, decided_result.get("maximum", math.inf))
             line["decision"] = asdict(entry)
             settled.add(entry.item)
     if decided_result["status"] == "graded":
@@ -332,13 +397,23 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
     open_ = [i for i, line in lines.items() if line["verdict"] == UNKNOWN and i not in settled]
     if whole is not None:
         decided_result["decision"] = asdict(whole)
-        if whole.points is not None:
-            decided_result["points"] = whole.points
+        award, points = _award(whole), decided_result.get("points")
+        if points is not None or not award.is_change:
+            most = decided_result.get("maximum", math.inf)
+            decided_result["points"] = award.of(points or 0.0, most)
         decided_result["manual"], decided_result["doubts"] = [], []
     elif not open_:
         unread = unread_remark([e["label"] for e in lines.values() if e["verdict"] == UNKNOWN])
         decided_result["manual"] = [text for text in decided_result["manual"] if text != unread]
     return decided_result
+
+
+def _award(entry: Decision) -> Award:
+    """The award of a decision, its change read from its word."""
+    return award_of(entry.word, _ANY, None) if entry.word else Award(entry.points)
+
+
+_ANY = Rubric(maximum=1e9)  # words are held to the rubric when they are taken in
 
 
 def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from markupsafe import escape
 
 from reports.grading.batch.pool import Job, copies
 from reports.grading.issuing.register import FILE, Register, load_register
+from reports.grading.issuing.reissue import matched
 from reports.grading.issuing.roster import Student
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.marking import Marker
@@ -89,16 +90,17 @@ def write_questions(
 
 def put_off(register: Register, students: Sequence[Student]) -> Register:
     """The register with the deadlines of a newer roster; nothing else is taken from it."""
-    given = {student.id: student.extension for student in students}
-    known = {book.student.id for book in register.books}
-    lost = [student.full for student in students if student.extension and student.id not in known]
-    if lost or known.isdisjoint(given):
+    pairs = matched(register.books, students)
+    given = {book.number: student.extension for student, book in pairs}
+    found = [student for student, _ in pairs]
+    lost = [one.full for one in students if one.extension and one not in found]
+    if lost or not pairs:
         hint = "возьмите список, по которому выданы варианты, и впишите в него столбец «Срок»"
         what = f"в этой выдаче нет: {', '.join(lost[:5])}" if lost else "в списке нет её студентов"
         raise InputError(Problem("--roster", what, hint))
     books = (
-        replace(book, student=replace(book.student, extension=given[book.student.id]))
-        if book.student.id in given
+        replace(book, student=replace(book.student, extension=given[book.number]))
+        if book.number in given
         else book
         for book in register.books
     )

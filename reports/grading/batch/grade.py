@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
-import re
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from reports.grading.batch.decisions import (
     Decision,
     applied,
     decided,
+    decided_groups,
     from_gradebook,
     load_decisions,
     of_groups,
@@ -34,19 +35,28 @@ from reports.grading.batch.extras import (
     write_copies,
     write_questions,
 )
-from reports.grading.batch.memory import remember, remembered
-from reports.grading.batch.pool import TIMEOUT_S, Job, Outcome, grade_all, grade_far
-from reports.grading.issuing.names import latin
+from reports.grading.batch.memory import keep_past, kept_past, remember, remembered
+from reports.grading.batch.pool import Job, Outcome, grade_all, grade_far
+from reports.grading.batch.settled import (
+    as_graded,
+    file_stem,
+    is_settled,
+    plain_row,
+    result_text,
+    settled,
+)
+from reports.grading.batch.setup import Graded, GradeSetup
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
-from reports.grading.judging.judgement import UNKNOWN
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
-from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
+from reports.grading.judging.rings import Past, Ring, rings_of
+from reports.grading.judging.similarity import suspicions
 from reports.grading.judging.works import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
+from reports.grading.pages.states import state_of, state_of_result
 from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
 from reports.shared.background import processors
@@ -57,40 +67,6 @@ from reports.shared.resources import source_digest
 
 PAGES, _PAST = "pages", "past.json"
 _EVERY_S = 5.0  # how often the gradebook is written anew while the batch runs
-
-
-@dataclass(frozen=True, slots=True)
-class GradeSetup:
-    """Options of grading; ``workers`` 0 takes all processors, ``dask`` a cluster instead."""
-
-    workers: int = 0
-    dask: str | None = None
-    timeout_s: float = TIMEOUT_S
-    pdf: bool = False
-    decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
-    author: str = ""
-    worksheet: Path | None = None  # of Moodle, to be filled in
-    roster: Path | None = None  # with the deadlines put off since the issue
-    memory: Path | None = None  # folder with the traits of earlier classes
-    form: Path | None = None  # of the institute, to be filled in
-    copies: bool = False  # the students' books back with marks in them
-    questions: bool = False  # for the defence
-    anonymous: bool = False  # numbers for names on all pages
-
-
-@dataclass(frozen=True, slots=True)
-class Graded:
-    """Outcome of a batch."""
-
-    folder: Path
-    summary: dict[str, Any]
-    reused: int
-    seconds: float
-
-    @property
-    def needs_a_person(self) -> bool:
-        """Whether anything could not be decided."""
-        return bool(self.summary["manual"])
 
 
 def grade(
@@ -128,7 +104,7 @@ def grade(
     make_dir(folder)
     batch.start(submissions)
     if options.memory is not None:
-        batch.keep_past()
+        keep_past(folder / RESULTS / _PAST, batch.past)
     workers = options.workers or processors()
     outcomes = (
         grade_far(
@@ -189,10 +165,13 @@ def decide(folder: Path, options: GradeSetup) -> Graded:
     batch.check(options)
     if (refused := batch.decide(options)) is not None:
         raise refused
+    if options.preview:
+        return Graded(folder, batch.summary(), len(batch.works), time.monotonic() - started,
+                      batch.effects)  # fmt: skip
     summary = batch.finish()
     if options.form is not None:
         fill_form(folder, batch.table(), register.rubric, options.form)
-    return Graded(folder, summary, len(batch.works), time.monotonic() - started)
+    return Graded(folder, summary, len(batch.works), time.monotonic() - started, batch.effects)
 
 
 class _Batch:
@@ -218,8 +197,10 @@ class _Batch:
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
         self._by_group: list[tuple[str, str, str, str]] = []  # what the gradebook says of groups
         self._group_author = ""
-        self.past: Past = _kept_past(folder)
+        self.past: Past = kept_past(folder / RESULTS / _PAST)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
+        self.effects: list[tuple[str, float | None, float | None]] = []
+        self._settled: set[str] = set()  # keys of results whose files say more than the program
 
     @property
     def class_id(self) -> str:
@@ -230,15 +211,13 @@ class _Batch:
         """A page as people see it: with numbers for names where that is asked."""
         return page if self._veil is None else self._veil.over(page, files)
 
-    def keep_past(self) -> None:
-        """Keep what was remembered beside the results: decisions come without the memory."""
-        data = [[work.batch, work.number, *map(list, work.traits)] for work in self.past]
-        write_text(self.folder / RESULTS / _PAST, json.dumps(data, ensure_ascii=False) + "\n")
+    def by_number(self) -> dict[int, Work]:
+        """The work that counts of each student, by the number of the variant."""
+        return choose(list(self.works.values()), self.register.rubric.attempts.count)
 
     def counted(self) -> list[Work]:
         """The work that counts of each student."""
-        chosen = choose(list(self.works.values()), self.register.rubric.attempts.count)
-        return [work for _, work in sorted(chosen.items())]
+        return [work for _, work in sorted(self.by_number().items())]
 
     def results(self, submissions: Sequence[Submission]) -> list[Job]:
         """The files that count with their results, as people have decided."""
@@ -252,7 +231,8 @@ class _Batch:
 
     def rings(self) -> list[Ring]:
         """Works with a common origin, those of earlier classes among them."""
-        return rings_of([work for work in self.ordered if work.status == "graded"], self.past)
+        works = [work for work in self.ordered if work.status == "graded"]
+        return rings_of(works, self.past, past_holds=self.register.rubric.copying.past == "hold")
 
     @property
     def reused(self) -> int:
@@ -281,8 +261,8 @@ class _Batch:
         rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
         seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
         counted = choose(seen, rubric.attempts.count)
-        self._kept = from_gradebook(book, kept, counted, rubric.maximum)
-        self._by_group, self._group_author = words_of_groups(book)
+        self._kept = from_gradebook(book, kept, counted, rubric)
+        self._by_group, self._group_author = words_of_groups(book, kept)
         refuse_too_many(self._kept, self.register)
         if submissions and options.decisions:
             items = Marker(self.register).assignment(self.register.books[0])[0].items
@@ -297,28 +277,43 @@ class _Batch:
         counted = self._decided(kept, also=before)  # what was seen before the new words
         works, decisions = list(self.works.values()), kept
         groups = waiting_groups(self.register, self.ordered, self.rings())
-        names = {group.name for group in groups}
+        names = {group.name for group in groups} | {entry.group for entry in kept}
         # What the gradebook says of a group that waits no more was taken in before.
         by_group = [words for words in self._by_group if words[0] in names]
         try:
-            decisions = decided(
-                kept, self.register, works, counted, of_groups(by_group, groups),
-                self._group_author,
-            )  # fmt: skip
-            words = of_groups(options.decisions, groups)
-            decisions = decided(decisions, self.register, works, counted, words, options.author)
+            spoken = of_groups(by_group, groups, kept, anew=True)
+            decisions = decided(kept, self.register, works, counted, spoken, self._group_author)
+            spoken = of_groups(options.decisions, groups, decisions)
+            decisions = decided(decisions, self.register, works, counted, spoken, options.author)
         except InputError as error:
             refused = error
+        if options.preview:
+            self.effects = [] if refused else self._effects(kept, decisions)
+            return refused
+        self.effects = self._effects(kept, decisions)
         if decisions or before:
             save_decisions(self.folder, decisions)
         if decisions != kept:
             self._decided(decisions, also=kept)
         return refused
 
+    def _effects(
+        self, before: Sequence[Decision], after: Sequence[Decision]
+    ) -> list[tuple[str, float | None, float | None]]:
+        """Students whom the new decisions are about, their points before and after."""
+        touched = {entry.number for entry in {*before} ^ {*after}}
+        counted = self.by_number()
+        lines = []
+        for number in sorted(touched & counted.keys()):
+            program = self._result(counted[number])
+            points = [applied(program, decisions).get("points") for decisions in (before, after)]
+            lines.append((counted[number].student, points[0], points[1]))
+        return lines
+
     def _decided(
         self, decisions: Sequence[Decision], also: Sequence[Decision] = ()
     ) -> dict[int, Work]:
-        """Take decisions into the works and pages of their students; which works count then."""
+        """Take decisions into the works of their students; which works count then."""
         touched = {entry.number for entry in (*decisions, *also)}
         results = {
             work.key: applied(self._result(work), decisions)
@@ -327,19 +322,39 @@ class _Batch:
         }
         for result in results.values():
             self._keep(result)
-        counted = choose(list(self.works.values()), self.register.rubric.attempts.count)
+        counted = self.by_number()
         for key, result in results.items():
-            counts = counted[result["number"]].key == key
-            shown = waiting(result, decisions) if counts else result
-            page = self.shown(student_page(shown, self.register.rubric), shown["file"])
-            write_text(self.folder / shown["page"], page)
-            self._keep(shown)
+            if counted[result["number"]].key == key:
+                self._keep(waiting(result, decisions))
         return counted
+
+    def _settle(self, rows: Sequence[dict[str, Any]], rings: Sequence[Ring]) -> None:
+        """Write the pages and results anew that say less than the gradebook."""
+        decisions = load_decisions(self.folder)
+        touched = {entry.number for entry in decisions}
+        doubts = suspicions(self.ordered, rings)
+        of_rows = {row["result"].key: row for row in rows if row["result"] is not None}
+        for work in self.ordered:
+            row = of_rows.get(work.key)
+            why = () if work.decision else row["doubts"] if row else doubts.get(work.key, ())
+            state = row["status"] if row else state_of(work.status, work.manual, why)
+            is_plain = state == state_of(work.status, work.manual, work.doubts)
+            if is_plain and work.number not in touched and work.key not in self._settled:
+                continue
+            program = self._result(work)
+            shown = applied(copy.deepcopy(program), decisions)
+            shown = waiting(shown, decisions) if row else shown
+            final = settled(program, shown, state, why)
+            page = self.shown(
+                student_page({**shown, "state": state}, self.register.rubric), shown["file"]
+            )
+            write_text(self.folder / work.page, page)
+            write_text(self._json_of(work), result_text(final))
 
     def _result(self, work: Work) -> dict[str, Any]:
         """The result of a work as the program has made it."""
         result: dict[str, Any] = json.loads(self._json_of(work).read_text(encoding="utf-8"))
-        return result
+        return as_graded(result)
 
     def _json_of(self, work: Work) -> Path:
         return self.folder / RESULTS / f"{Path(work.page).stem}.json"
@@ -371,7 +386,9 @@ class _Batch:
         for path in sorted((self.folder / RESULTS).glob("*.json")):
             result = read_json(path) if path.name != FILE else {}
             if result.get("format") == FORMAT and result.get("fingerprint"):
-                yield path, result
+                if is_settled(result):
+                    self._settled.add(result["key"])
+                yield path, as_graded(result)
 
     def _earlier(self, keys: set[str]) -> dict[str, Work]:
         earlier = {}
@@ -403,12 +420,13 @@ class _Batch:
             blank["sha256"] = self._sha256[submission.key]
             result = marker.refused(blank, submission, outcome.problem)
             page = student_page(result, self.register.rubric)
-        stem = _stem(result, number_only=self._veil is not None)
+        stem = file_stem(result, number_only=self._veil is not None)
         result["fingerprint"] = self._hashes[submission.key]
         result["page"] = f"{PAGES}/{stem}.html"
         write_text(self.folder / result["page"], self.shown(page, result["file"]))
-        text = json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
-        write_text(self.folder / RESULTS / f"{stem}.json", text)
+        stated = {**result, "state": state_of_result(result)}
+        write_text(self.folder / RESULTS / f"{stem}.json", result_text(stated))
+        self._settled.discard(result["key"])
         self._keep(result)
         if not self._stands and time.monotonic() - self._written > _EVERY_S:
             table = gradebook_csv(
@@ -426,17 +444,23 @@ class _Batch:
         """Rows of the gradebook, with what rings hold."""
         return table_rows(self.register, self.ordered, self.rings())
 
+    def summary(self) -> dict[str, Any]:
+        """Everything that the page of the class shows."""
+        return summarise(self.register, self.ordered, self.rings())
+
     def finish(self) -> dict[str, Any]:
         """All tables, the page of the class and its JSON: made first, then written together."""
         rings = self.rings()
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
+        summary["decided"] = decided_groups(load_decisions(self.folder), self.by_number())
+        self._settle(rows, rings)
         maximum = self.register.rubric.maximum
-        data = {**summary, "rows": [_row(row) for row in rows], "anonymous": bool(self._veil)}
+        data = {**summary, "rows": [plain_row(row) for row in rows], "anonymous": bool(self._veil)}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
-            "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"]),
+            "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"], summary["decided"]),
             "moodle.csv": moodle_csv(rows),
             "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
             "summary.json": text + "\n",
@@ -469,29 +493,3 @@ class _Batch:
             page = self.folder / work.page
             pdf = render(page.read_text(encoding="utf-8"), variant=None)
             write_bytes(page.with_suffix(".pdf"), pdf.pdf)
-
-
-def _row(row: dict[str, Any]) -> dict[str, Any]:
-    """A row of the gradebook as plain data, with the items that only a person can judge."""
-    items = row["result"].items if row["result"] else ()
-    unknown = [item.id for item in items if item.verdict == UNKNOWN]
-    return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
-
-
-def _stem(result: dict[str, Any], *, number_only: bool) -> str:
-    """A file name that depends on the submission alone; it may tell no name."""
-    mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
-    if number_only:
-        return f"{result['number'] or 0:03d}-{mark}"
-    name = result["folder"] or re.sub(r"[^a-z0-9]+", "-", latin(Path(result["key"]).stem))[:40]
-    return f"{name.strip('-') or 'file'}-{mark}"
-
-
-def _kept_past(folder: Path) -> list[PastWork]:
-    """What an earlier run has kept of earlier classes."""
-    path = folder / RESULTS / _PAST
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
-    except (OSError, ValueError, TypeError):
-        return []

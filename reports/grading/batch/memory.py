@@ -55,6 +55,21 @@ def remember(folder: Path, batch: str, works: Sequence[Work]) -> None:
     write_text(known, json.dumps(data, ensure_ascii=False) + "\n")
 
 
+def kept_past(path: Path) -> list[PastWork]:
+    """What an earlier run has kept of earlier classes."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]
+    except (OSError, ValueError, TypeError):
+        return []
+
+
+def keep_past(path: Path, past: Sequence[PastWork]) -> None:
+    """Keep what was remembered beside the results: decisions come without the memory."""
+    data = [[work.batch, work.number, *map(list, work.traits)] for work in past]
+    write_text(path, json.dumps(data, ensure_ascii=False) + "\n")
+
+
 def _read(path: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > _MOST_BYTES:

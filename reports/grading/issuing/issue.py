@@ -9,7 +9,7 @@ import json
 import math
 import random
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,8 @@ from reports.grading.issuing.register import (
     secret_path,
     ticket_of,
 )
-from reports.grading.issuing.roster import Student, read_roster
+from reports.grading.issuing.reissue import reissue
+from reports.grading.issuing.roster import Student, roster_of
 from reports.grading.issuing.rubric import Rubric, load_rubric
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import iter_fields, set_value, tables_shape
@@ -66,7 +67,7 @@ class Variant:
     @property
     def key(self) -> str:
         """Identity of a variant."""
-        return json.dumps(self.drawn, ensure_ascii=False, sort_keys=True)
+        return variant_key(self.drawn)
 
 
 def load_base(path: Path, beside: Path | None = None) -> Base:
@@ -98,17 +99,24 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     return Base(path.name, raw, tuple(ranges), loaded)
 
 
-def draw_variants(base: Base, students: Sequence[str], seed: int) -> list[Variant]:
-    """A variant for each student, the same for the same seed and student.
+def variant_key(drawn: Mapping[str, float | int | str]) -> str:
+    """Identity of a variant: its drawn values."""
+    return json.dumps(drawn, ensure_ascii=False, sort_keys=True)
+
+
+def draw_variants(
+    base: Base, students: Sequence[str], seed: int, taken: Iterable[str] = ()
+) -> list[Variant]:
+    """A variant for each student, the same for the same seed and student; none is ``taken``.
 
     Raises:
         InputError: the ranges do not give enough different variants that pass the check.
     """
-    total = math.prod(len(item.values) for item in base.ranges)
-    if total < len(students):
-        what = f"вариантов в диапазонах {total}, а студентов {len(students)}"
+    taken = set(taken)
+    total, count = math.prod(len(item.values) for item in base.ranges), len(students) + len(taken)
+    if total < count:
+        what = f"вариантов в диапазонах {total}, а студентов {count}"
         raise InputError(Problem(base.source, what, "расширьте диапазоны или уменьшите шаги"))
-    taken: set[str] = set()
     variants: list[Variant] = []
     for student in students:
         variant = _draw(base, random.Random(f"{seed}:{student}"), taken)
@@ -150,7 +158,7 @@ def _values(
 def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -> Variant | str:
     """The variant, or why the check does not accept it; nothing where it is taken."""
     drawn = {item.key: value for item, value in zip(base.ranges, values, strict=True)}
-    if json.dumps(drawn, ensure_ascii=False, sort_keys=True) in taken:
+    if variant_key(drawn) in taken:
         return ""
     raw = copy.deepcopy(base.raw)
     for item, value in zip(base.ranges, values, strict=True):
@@ -170,11 +178,17 @@ def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """Result of an issue; ``new_secret`` where one had to be made."""
+    """Result of an issue; ``new_secret`` where one had to be made.
+
+    ``kept`` is how many work-books are those of an earlier issue, ``left`` which lines of the
+    list have a name and are no student.
+    """
 
     register: Register
     folder: Path
     new_secret: Path | None
+    kept: int = 0
+    left: tuple[str, ...] = ()
 
 
 def issue(
@@ -194,33 +208,39 @@ def issue(
         OutputError: the folder cannot be written.
     """
     base = load_base(base_file, ranges_file)
-    students = read_roster(roster_file)
+    roster = roster_of(roster_file)
     rubric = load_rubric(rubric_file)
     source = rubric_file.name if rubric_file is not None else "рубрика по умолчанию"
     assignment_of(build_model(base.loaded.model), rubric, source)
     _refuse_foreign(folder)
     for read in (base_file, *base.loaded.beside, roster_file, rubric_file, ranges_file):
         _refuse_own(read, folder)
-    variants = draw_variants(base, [student.id for student in students], seed)
+    batch = _batch(base, seed)
     secret_at = secret_path(secret_file)
     _refuse_inside(secret_at, folder)
     fresh = not secret_at.exists()
+    again = reissue(folder, batch, secret_at, roster.students)
+    taken = [variant_key(book.drawn) for book in (*again.kept, *again.former)]
+    variants = draw_variants(base, [student.id for student in again.newcomers], seed, taken)
     secret = kept_secret(secret_at)
-    batch = _batch(base, seed)
+    newcomers = enumerate(zip(again.newcomers, variants, strict=True), again.first_number)
+    books = (*again.kept, *(_issued(number, *one, secret, batch) for number, one in newcomers))
+    register = Register(batch, seed, base.source, rubric, books, again.former, again.identity)
+    _write_all(folder, register, source)
+    return Result(register, folder, secret_at if fresh else None, len(again.kept), roster.left)
+
+
+def _write_all(folder: Path, register: Register, source: str) -> None:
+    """Write the work-books and the register in place of what the folder held."""
     with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
-        books = []
         first: Assignment | None = None
-        for number, (student, variant) in enumerate(zip(students, variants, strict=True), 1):
-            progress.step(f"Выдача вариантов: {number} из {len(students)}")
-            book = _issued(number, student, variant, secret, batch)
-            assignment = assignment_for(book, rubric, first)
+        for number, book in enumerate(register.books, 1):
+            progress.step(f"Выдача вариантов: {number} из {len(register.books)}")
+            assignment = assignment_for(book, register.rubric, first)
             first = first or assignment
             _write(temporary, book, assignment, source)
-            books.append(book)
-        register = Register(batch, seed, base.source, rubric, tuple(books))
         (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
         (temporary / "register.csv").write_text(register.csv_text(), encoding="utf-8")
-    return Result(register, folder, secret_at if fresh else None)
 
 
 def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:

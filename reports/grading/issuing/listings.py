@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.file_types import ARCHIVE, OFFICE, TEXT, UTF16, kind_of, read_bytes
-from reports.workbook.intake import check_data
+from reports.workbook.intake import check_data, repacked
 from reports.workbook.layout import Cell
 
 if TYPE_CHECKING:  # openpyxl is loaded when a book is read
@@ -137,10 +137,20 @@ def _russian(text: str) -> float:
 # --- a book of Excel -------------------------------------------------------------------------
 
 
+# A fill that says nothing, as some programs write it: openpyxl reads no such book.
+_STYLES = "xl/styles.xml"
+_NO_FILL = re.compile(rb"<((?:\w+:)?)fill\s*(?:/>|></\1fill>)")
+_EMPTY_FILL = rb"<\1fill><\1patternFill/></\1fill>"
+
+
 def _sheets(path: Path, data: bytes) -> list[RosterListing]:
     from openpyxl import load_workbook
 
-    check_data(data, path.name)
+    package = check_data(data, path.name)
+    data = package.data
+    styles = package.read(_STYLES) if _STYLES in package.names() else b""
+    if _NO_FILL.search(styles):
+        data = repacked(data, {_STYLES: _NO_FILL.sub(_EMPTY_FILL, styles)})
     try:
         with warnings.catch_warnings(action="ignore"):  # of what a list does not need
             shown, written = (

@@ -121,17 +121,24 @@ class Issued:
 
 @dataclass(frozen=True, slots=True)
 class Register:
-    """All work-books of a batch and the rubric that they were issued under."""
+    """All work-books of a batch and the rubric that they were issued under.
+
+    ``former`` are those of students who have left; ``identity`` is that of the first issue.
+    """
 
     batch: str
     seed: int
     source: str
     rubric: Rubric
     books: tuple[Issued, ...]
+    former: tuple[Issued, ...] = ()
+    identity: str = ""
 
     @property
     def trial_seed(self) -> str:
         """Seed of the input data on which formulas are tried; no student has all of it."""
+        if self.identity:
+            return self.identity
         return hashlib.sha256(" ".join(book.ticket for book in self.books).encode()).hexdigest()
 
     def json_text(self) -> str:
@@ -145,6 +152,8 @@ class Register:
             "rubric": self.rubric.model_dump(mode="json"),
             "books": [asdict(book) for book in self.books],
         }
+        if self.identity:
+            data |= {"identity": self.identity, "former": [asdict(one) for one in self.former]}
         return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
 
     def csv_text(self) -> str:
@@ -167,7 +176,7 @@ class Register:
         Raises:
             InputError: an identifier that this secret did not make.
         """
-        for book in self.books:
+        for book in (*self.books, *self.former):
             identifier = ticket_of(secret, self.batch, book.student, book.file, book.raw)
             if not hmac.compare_digest(identifier, book.ticket):
                 what = f"запись {book.number} ({book.student.full}) не соответствует секрету"
@@ -204,21 +213,23 @@ def load_register(folder: Path) -> Register:
         raise InputError(Problem(str(path), what, "обновите kshm"))
     rubric = rubric_of(data.get("rubric") or {}, str(path))
     try:
-        books = tuple(
-            Issued(
-                int(book["number"]),
-                Student(**book["student"]),
-                str(book["folder"]),
-                str(book["file"]),
-                str(book["ticket"]),
-                dict(book["drawn"]),
-                dict(book["raw"]),
-            )
-            for book in data["books"]
-        )
-        return Register(str(data["batch"]), int(data["seed"]), str(data["source"]), rubric, books)
+        books, former = (tuple(map(_issued, data.get(key) or ())) for key in ("books", "former"))
+        return Register(str(data["batch"]), int(data["seed"]), str(data["source"]), rubric, books,
+                        former, str(data.get("identity", "")))  # fmt: skip
     except (KeyError, TypeError, ValueError):
         raise InputError(_damaged(path)) from None
+
+
+def _issued(book: dict[str, Any]) -> Issued:
+    return Issued(
+        int(book["number"]),
+        Student(**book["student"]),
+        str(book["folder"]),
+        str(book["file"]),
+        str(book["ticket"]),
+        dict(book["drawn"]),
+        dict(book["raw"]),
+    )
 
 
 def checked_register(issued: Path, secret_file: Path | None) -> Register:

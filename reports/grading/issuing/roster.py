@@ -46,8 +46,14 @@ _SURNAMES = ("surname", "full", "turned", "either")  # columns with a surname, t
 _BESIDES = frozenset(("студента", "студентов", "обучающегося", "полностью", "учебная"))
 # Lines of Canvas and Google Classroom between the head and the people.
 _SERVICE = frozenset(("points possible", "student, test", "test student", "read only", "date",
-                      "points", "дата", "баллы", "максимальный балл", "class average"))  # fmt: skip
+                      "points", "дата", "баллы", "максимальный балл", "class average",
+                      "manual posting", "(read only)", "публикация вручную",
+                      "(только для чтения)"))  # fmt: skip
 _NOBODY = frozenset(("группа", "итого", "всего", "куратор", "староста", "преподаватель"))
+# Remarks beside a name, in a column without a head.
+_REMARKS = _NOBODY | frozenset(("профорг", "зам", "заместитель", "академ", "отпуск", "отчислен",
+                                "отчислена", "переведен", "переведена", "бюджет", "контракт",
+                                "платно", "целевое", "декрет", "должник"))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +74,25 @@ class Student:
         return f"{self.surname} {self.name}".strip()
 
 
+@dataclass(frozen=True, slots=True)
+class Roster:
+    """The students of a list, and its lines with a name that are no student: where and why."""
+
+    students: list[Student]
+    left: tuple[str, ...]
+
+
 def read_roster(path: Path) -> list[Student]:
-    """Students of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
+    """Students of a list.
+
+    Raises:
+        InputError: everything that is wrong with it.
+    """
+    return roster_of(path).students
+
+
+def roster_of(path: Path) -> Roster:
+    """The list of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -89,7 +112,7 @@ def read_roster(path: Path) -> list[Student]:
     if len(lists[0].people) > MAX_STUDENTS:
         raise refused(path, f"в списке больше {MAX_STUDENTS} студентов", "разделите его")
     _refuse_another(path, lists)
-    return _students(lists[0])
+    return Roster(_students(lists[0]), lists[0].left)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,11 +122,17 @@ class _List:
     listing: RosterListing
     columns: dict[str, int]
     people: list[RosterLine]
+    left: tuple[str, ...] = ()
 
     def given(self, line: RosterLine) -> dict[str, str]:
         """Texts under each known head."""
         cells = line.cells
         return {key: cells[i] if i < len(cells) else "" for key, i in self.columns.items()}
+
+    def text(self, line: RosterLine) -> str:
+        """What stands under the heads of names."""
+        given = self.given(line)
+        return " ".join(given[key] for key in (*_SURNAMES, "name") if given.get(key))
 
     def where(self, line: RosterLine) -> str:
         """The cell of a surname, for messages."""
@@ -125,16 +154,24 @@ def _headed(listing: RosterListing) -> _List | None:
         what = f"столбец «{names[0]}» назван дважды"
         hint = "поставьте списки один под другим"
         raise InputError(Problem(listing.place(head, 0), what, hint))
-    last = first + 1 if named[first + 1 : first + 2] == [True] else first
-    repeated = [line.cells for line in listing.lines[first : last + 1]]  # on each printed page
-    people = [
-        line
-        for line in listing.lines[last + 1 :]
-        if line.cells not in repeated and not _is_number(line)
-    ]
+    second = listing.lines[first + 1 : first + 2]
+    last = first + 1 if second and _continues(head, second[0]) else first
     columns = heads[first] | heads[last]
-    people = [line for line in people if not _is_service(line, columns)]
+    lines = [_unmarked(line, columns) for line in listing.lines[last + 1 :] if not _is_bare(line)]
+    repeated = [line.cells for line in listing.lines[first : last + 1]]  # on each printed page
+    why = {
+        line.number: "повтор заголовка" if line.cells in repeated else "служебная строка"
+        for line in lines
+        if line.cells in repeated or _is_service(line, columns)
+    }
+    people = [line for line in lines if line.number not in why]
     headed = _List(listing, columns, _joined(people, columns, listing.lines[first : last + 1]))
+    left = [
+        f"{headed.where(line)}: «{name}» — {why[line.number]}"
+        for line in lines
+        if line.number in why and (name := headed.text(line))
+    ]
+    headed = replace(headed, left=tuple(left))
     if headed.columns.keys() & set(_SURNAMES) != {"either"}:
         return headed
     column = headed.columns.pop("either")
@@ -142,15 +179,50 @@ def _headed(listing: RosterListing) -> _List | None:
     return headed
 
 
+def _continues(head: RosterLine, line: RosterLine) -> bool:
+    """Whether a line is the lower half of a head: it names what the upper half leaves open.
+
+    A person's line has a name under the head of the names, whatever stands in other columns.
+    """
+    above = head.cells + [""] * (len(line.cells) - len(head.cells))
+    kinds = [_columns([cell]).keys() & set(_SURNAMES) for cell in above]
+    named = [bool(_columns([cell]).keys() & set(_SURNAMES)) for cell in line.cells]
+    pairs = list(zip(above, kinds, named, line.cells, strict=False))
+    if any(kind and not name and any(map(str.isalpha, cell)) for _, kind, name, cell in pairs):
+        return False
+    return any(name and (kind or not cell) for cell, kind, name, _ in pairs)
+
+
+_LETTERED = re.compile(r"(?:[^\W\d_]|[IVXLC]+)\)\s*|[IVXLC]+\.\s+")
+
+
+def _unmarked(line: RosterLine, columns: dict[str, int]) -> RosterLine:
+    """A line whose names have no number, bullet or other sign before and behind them."""
+    cells = list(line.cells)
+    for index in {columns[key] for key in _SURNAMES if key in columns}:
+        if index < len(cells):
+            cells[index] = _without_mark(cells[index])
+    return replace(line, cells=cells)
+
+
+def _without_mark(text: str) -> str:
+    begin = next((i for i, char in enumerate(text) if char.isalpha() or char in "«\"'’(["), None)
+    if begin is None:
+        return ""
+    return re.sub(r"[\s*•·,;]+$", "", _LETTERED.sub("", text[begin:], count=1))
+
+
 def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
     """Whether a site of learning has put a line of its own among the people."""
+    filled = {cell.casefold().strip() for cell in line.cells if cell}
     at = [columns[key] for key in _SURNAMES if key in columns]
-    texts = [line.cells[i].casefold().strip() for i in at if i < len(line.cells)]
+    texts = {line.cells[i].casefold().strip() for i in at if i < len(line.cells)} - {""}
     alone = all(not line.cells[i] for i in (columns.get("name"), columns.get("email"))
                 if i is not None and i < len(line.cells))  # fmt: skip
-    return alone and any(text in _SERVICE for text in texts)
+    return alone and bool(texts & _SERVICE or (not texts and filled & _SERVICE))
 
 
+_FEW = 3  # people of whom two may well have one name
 _NAME = re.compile(r"[^\W\d_]+(?:[- .’'][^\W\d_]+)*\.?")
 
 
@@ -164,7 +236,7 @@ def _joined(
     start = columns[key]
     end = start + 1
     while all(end < len(line.cells) and not line.cells[end] for line in head) and _are_names(
-        [line.cells[end] for line in people if end < len(line.cells)]
+        people, start, end
     ):
         end += 1
     if end == start + 1:
@@ -172,15 +244,40 @@ def _joined(
     if key == "surname":
         columns["full"] = columns.pop(key)
     return [
-        replace(line, cells=[*line.cells[:start], " ".join(filter(None, line.cells[start:end])),
+        replace(line, cells=[*line.cells[:start], _together(line.cells[start:end]),
                              *[""] * (end - start - 1), *line.cells[end:]])
         for line in people
     ]  # fmt: skip
 
 
-def _are_names(cells: Sequence[str]) -> bool:
-    known = [cell for cell in cells if cell]
-    return bool(known) and all(_NAME.fullmatch(cell) for cell in known)
+def _together(cells: Sequence[str]) -> str:
+    """A name whose parts stand in several cells; a remark is none of them."""
+    return " ".join([*filter(None, cells[:1]), *filter(_is_name, cells[1:])])
+
+
+def _is_name(text: str) -> bool:
+    plain = _NAME.fullmatch(text) is not None and text[0].isupper()
+    return (
+        plain and text.split(maxsplit=1)[0].casefold().replace("ё", "е").rstrip(".") not in _REMARKS
+    )
+
+
+def _are_names(people: Sequence[RosterLine], start: int, end: int) -> bool:
+    """Whether a column without a head goes on with the names before it; a remark does not.
+
+    Behind a surname nearly everybody has a name of his own, behind a name a patronymic.
+    """
+    pairs = [
+        (_together(line.cells[start:end]).split(), line.cells[end])
+        for line in people
+        if end < len(line.cells) and any(line.cells[start:end])
+    ]
+    names = [text for _, text in pairs if _is_name(text)]
+    if not names or 2 * len(names) <= sum(bool(text) for _, text in pairs):
+        return False
+    if 2 * sum(len(words) > 1 for words, _ in pairs) > len(pairs):
+        return 2 * sum(_is_patronymic(name.split()[-1]) for name in names) > len(names)
+    return 2 * len(names) > len(pairs) and (len(pairs) < _FEW or len(set(names)) > 1)
 
 
 def _order(headed: _List, head: RosterLine, column: int) -> str:
@@ -201,12 +298,12 @@ def _order(headed: _List, head: RosterLine, column: int) -> str:
 
 
 def _is_patronymic(word: str) -> bool:
-    return re.fullmatch(r"\w+(ич|вна|чна)", word.casefold()) is not None
+    return re.fullmatch(r"\w+(ич|вна|чна)|оглы|кызы|улы", word.casefold()) is not None
 
 
-def _is_number(line: RosterLine) -> bool:
+def _is_bare(line: RosterLine) -> bool:
     """Whether a line holds only its number: lists are numbered ahead."""
-    return not line.faults and all(not c or c.rstrip(".)").isdigit() for c in line.cells)
+    return not line.faults and not any(char.isalpha() for cell in line.cells for char in cell)
 
 
 def _refuse_another(path: Path, lists: list[_List]) -> None:
@@ -270,6 +367,7 @@ def _student(headed: _List, line: RosterLine) -> Student | Problem:
         return Problem(where, line.faults[faults[0]], "впишите текст")
     words = given.get("turned", "").split()
     nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
+    nobody = nobody or bool(surname and not name and _columns([surname]))
     if nobody or not surname:
         what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
         return Problem(where, what, "впишите её или удалите строку")

@@ -119,6 +119,12 @@ class Attempts(_Section):
     count: Literal["last", "best"] = "last"
 
 
+class Copying(_Section):
+    """[copying]: a likeness with a work of an earlier year holds the points, or is told."""
+
+    past: Literal["hold", "tell"] = "hold"
+
+
 class Minimum(_Section):
     """[minimum]: share of the items that must be filled in for any points at all.
 
@@ -170,6 +176,7 @@ class Rubric(_Section):
     tolerance: ToleranceRules = ToleranceRules()
     late: Late = Late()
     attempts: Attempts = Attempts()
+    copying: Copying = Copying()
     minimum: Minimum = Minimum()
     needs: dict[str, tuple[Name, ...]] = {}
     messages: tuple[Message, ...] = ()

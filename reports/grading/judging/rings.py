@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 from math import log2
 
 import numpy as np
@@ -21,20 +22,27 @@ from reports.grading.judging.traits import (
     HELPER,
     IDLE,
     LAYOUT,
+    NAME,
     SLIP,
     TEXT,
 )
 from reports.grading.judging.works import Trait, Work
+from reports.shared.russian import short
 
 # Kind → the share of people who would have it by chance, before the class tells, and its most bits.
 _KINDS = {
     FORM: (0.25, 2.5), SLIP: (0.15, 3.0), ERROR: (0.03, 5.0), IDLE: (0.01, 6.0),
-    HELPER: (0.08, 4.0), TEXT: (0.05, 3.0), LAYOUT: (0.1, 3.0),
+    HELPER: (0.08, 4.0), TEXT: (0.05, 3.0), LAYOUT: (0.1, 3.0), NAME: (0.05, 3.0),
 }  # fmt: skip
 _WEIGHT = 20  # students that the share before the class counts for
 HELD, TOLD = 20.0, 17.0  # bits from which works are held, and told
-_FORMS_ALONE = 30.0  # bits of forms that hold by themselves, spelt alike to a sign
+_FORMS_ALONE = 30.0  # bits that hold though most are of forms, where these are spelt alike
+_WHOLE_FORMS = 24  # rare forms that hold by themselves though all are of one manner
+_RARE = 2.0  # bits of such a form
 _SPELT = 0.8  # share of the common forms that must be spelt alike for that
+_NEAR = 12.0  # bits from which works may be of one ring, before it is seen whose traits they are
+_RING, _LEAST_RING = 5, 4  # a ring is at most a fifth of a class; what more share is common
+_PAIR = 2
 _CLASS = 12  # students in whose class a form may be rare at all
 _FORMS_BESIDE = 8.0  # bits that forms add to other evidence at most
 _UNLIKE = 1.0  # bits that a form which differs takes away
@@ -42,6 +50,7 @@ _WORDS = {
     FORM: "редких формул", SLIP: "одинаковых ошибок", ERROR: "одинаковых редких ошибок",
     IDLE: "формул с лишним действием", HELPER: "редких вспомогательных столбцов",
     TEXT: "одинаковых заголовков", LAYOUT: "одинаковых раскладок",
+    NAME: "одинаковых своих имён",
 }  # fmt: skip
 
 Past = Sequence["PastWork"]
@@ -78,7 +87,7 @@ class Ring:
         named = ", ".join(list(items)[:3]) + (f" и ещё {len(items) - 3}" if len(items) > 3 else "")
         where = f" ({named})" if named else ""
         begin = "общее с" if of is not None else "редкое общее у"
-        return f"{begin}: {', '.join(others)} — {what}{where}"
+        return f"{begin}: {', '.join(others)} — {what}{where}, {short(self.bits, 3)} бит"
 
 
 def who(work: Work) -> str:
@@ -95,17 +104,26 @@ class _Evidence:
     shared: tuple[Trait, ...]
 
 
-def rings_of(graded: Sequence[Work], past: Past = ()) -> list[Ring]:
-    """Rings of a class, the held ones first."""
+def rings_of(graded: Sequence[Work], past: Past = (), *, past_holds: bool = True) -> list[Ring]:
+    """Rings of a class, the held ones first; ``past_holds``: works of earlier years hold, too."""
     people = [work for work in graded if work.traits]
     everyone: list[Work | PastWork] = [*people, *past]
     owners = _owners(everyone)
     count = len({_owner(work) for work in everyone})
-    pairs: dict[tuple[int, int], _Evidence] = {}
+    near: dict[tuple[int, int], _Evidence] = {}
     for one, other in _near(everyone, len(people), owners, count):
         evidence = _evidence(everyone[one].traits, everyone[other].traits, owners, count)
-        if evidence.bits >= TOLD:
-            pairs[one, other] = evidence
+        if evidence.bits >= _NEAR:
+            near[one, other] = evidence
+    pairs: dict[tuple[int, int], _Evidence] = {}
+    for group in _groups(near):
+        known = {pair: near[pair] for pair in near if pair[0] in group}
+        pairs |= _as_ring(group, everyone, known, owners, count)
+    pairs = {
+        pair: _with_past(evidence, everyone[pair[1]], holds=past_holds)
+        for pair, evidence in pairs.items()
+        if evidence.bits >= TOLD
+    }
     rings: list[Ring] = []
     for held in (True, False):
         links = {pair: evidence for pair, evidence in pairs.items() if evidence.held == held}
@@ -114,6 +132,34 @@ def rings_of(graded: Sequence[Work], past: Past = ()) -> list[Ring]:
             if not any(_has(known, ring) for known in rings):  # a part of what is told already
                 rings.append(ring)
     return rings
+
+
+def _with_past(evidence: _Evidence, other: Work | PastWork, *, holds: bool) -> _Evidence:
+    """Evidence beside a work of an earlier year: the rubric says whether it holds points."""
+    return replace(evidence, held=holds) if isinstance(other, PastWork) else evidence
+
+
+def _as_ring(
+    group: Sequence[int], everyone: Sequence[Work | PastWork],
+    known: Mapping[tuple[int, int], _Evidence],
+    owners: Mapping[tuple[str, str, str], int], count: int,
+) -> dict[tuple[int, int], _Evidence]:  # fmt: skip
+    """Evidence in a group, where what its members share is no less rare for their number.
+
+    What a whole subgroup has of its lecturer stays common: a ring is a small part of a class.
+    """
+    size = len({_owner(everyone[index]) for index in group})
+    if not _PAIR < size <= max(_LEAST_RING, count // _RING):
+        return dict(known)
+    inside = _owners([everyone[index] for index in group])
+    outside = {key: n - max(0, inside.get(key, 0) - _PAIR) for key, n in owners.items()}
+    left = count - (size - _PAIR)
+    return {
+        (one, other): _evidence(everyone[one].traits, everyone[other].traits, outside, left,
+                                small=count < _CLASS)
+        for one, other in combinations(group, 2)
+        if isinstance(everyone[one], Work) and _owner(everyone[one]) != _owner(everyone[other])
+    }  # fmt: skip
 
 
 def _has(whole: Ring, part: Ring) -> bool:
@@ -159,7 +205,7 @@ def _near(
             if at is not None:
                 table[row, at] = _bits(trait, owners, count) ** 0.5
     sums = table[:people] @ table.T
-    near = np.argwhere(sums >= TOLD - 1e-3)
+    near = np.argwhere(sums >= _NEAR - 1e-3)
     return [
         (int(one), int(other))
         for one, other in near
@@ -169,8 +215,10 @@ def _near(
 
 def _evidence(
     mine: Sequence[Trait], theirs: Sequence[Trait],
-    owners: Mapping[tuple[str, str, str], int], count: int,
+    owners: Mapping[tuple[str, str, str], int], count: int, *, small: bool | None = None,
 ) -> _Evidence:  # fmt: skip
+    """Evidence of two works; ``small``: no form is rare in so few works."""
+    small = count < _CLASS if small is None else small
     others = {_key(trait): trait for trait in theirs}
     shared = [trait for trait in mine if _key(trait) in others]
     sums = dict.fromkeys(_KINDS, 0.0)
@@ -180,12 +228,17 @@ def _evidence(
         sums[trait[0]] += _bits(trait, owners, count) * 0.5 ** times[group]
         times[group] += 1
     forms, strong = sums[FORM], sum(sums.values()) - sums[FORM]
-    forms = max(0.0, forms - _UNLIKE * _differing(mine, theirs))
-    if count < _CLASS:
+    unlike = _differing(mine, theirs)
+    forms = max(0.0, forms - _UNLIKE * unlike)
+    if small:
         forms = min(forms, _FORMS_BESIDE)
     common = [trait for trait in shared if trait[0] == FORM]
     alike = sum(trait[3] == others[_key(trait)][3] for trait in common)
-    alone = forms >= _FORMS_ALONE and alike >= _SPELT * len(common)
+    rare = sum(_bits(trait, owners, count) >= _RARE for trait in common)
+    whole = not small and rare >= _WHOLE_FORMS and unlike <= (1 - _SPELT) * rare
+    alone = (whole or forms + strong >= _FORMS_ALONE) and alike >= _SPELT * len(common)
+    if whole and alone:  # all of one manner: half as much for each further one tells too little
+        forms = max(forms, _FORMS_ALONE)
     held = alone or strong + min(forms, _FORMS_BESIDE) >= HELD
     telling = tuple(trait for trait in shared if _bits(trait, owners, count) >= 1)
     return _Evidence(forms + strong, held, telling)

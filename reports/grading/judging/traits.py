@@ -7,6 +7,7 @@ tells (``similarity``).  A trait is a digest: no name, no number and no mark is 
 from __future__ import annotations
 
 import hashlib
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,15 +17,15 @@ from typing import Any
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.judging.canonical import Reader, Tree, leaves, subtrees
 from reports.grading.judging.judgement import EMPTY, WRONG
-from reports.grading.judging.works import Trait, is_odd
+from reports.grading.judging.works import Trait, idle_steps
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
 from reports.recalculation.formulas import Formula, Token, UnknownFormula
 from reports.recalculation.grid import Run
 from reports.workbook.layout import Layout
 
-FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT = (
-    "form", "slip", "error", "idle", "helper", "text", "layout",
+FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT, NAME = (
+    "form", "slip", "error", "idle", "helper", "text", "layout", "name",
 )  # fmt: skip
 _MOST_HELPERS = 300  # runs outside the tables that are looked at
 _PASTED = 6  # formulas of the program on a sheet that green cells only refer to
@@ -32,6 +33,8 @@ _TELLING = 6  # tokens of a formula that may tell who wrote it
 _MOST_NAMES = 100  # sets of names for which trees are kept
 Names = frozenset[tuple[str, tuple[str, int, int]]]
 _PLAIN_TITLES = ("лист", "sheet", "таблица")
+_ISSUED_NAMES = ("col_", "cell_", "_xlnm", "_xlfn", "_xlpm", "kshm", "print_", "_filter")
+_HABIT = 8  # columns in which a step that does nothing is a manner of writing
 
 
 def digest(what: object) -> str:
@@ -203,15 +206,16 @@ def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trai
     student, book = own.student, own.book
     by_item = {line["id"]: line for line in lines}
     traits: list[Trait] = []
+    idle: list[tuple[str, list[str], str]] = []
     for item in student.assignment.items:
         line = by_item[item.id]
         runs = [_main(student.runs(node)) for node in item.nodes]
         if line["verdict"] == EMPTY or any(run is None or run.formula is None for run in runs):
             continue
         patterns = [run.formula.pattern for run in runs if run is not None and run.formula]
-        spelt = digest(patterns)
-        if any(map(is_odd, patterns)):
-            traits.append((IDLE, item.id, spelt, spelt, item.id))
+        spelt = digest([_spelling(run) for run in runs if run is not None])
+        if steps := [step for tokens in patterns for step in idle_steps(tokens)]:
+            idle.append((item.id, steps, spelt))
         pairs = list(zip(item.nodes, runs, strict=True))
         trees = [own.tree(run, node) for node, run in pairs if run is not None]
         right = [book.trees.get(node) for node in item.nodes]
@@ -223,7 +227,48 @@ def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trai
             traits.append((kind, item.id, mark, spelt, line["cause"] or item.id))
         else:
             traits.append((FORM, item.id, mark, spelt, _manner(trees, right) or item.id))
-    return [*traits, *_helper_traits(own)]
+    return [*traits, *_idle_traits(idle), *_helper_traits(own), *_name_traits(own)]
+
+
+def _idle_traits(idle: Sequence[tuple[str, list[str], str]]) -> list[Trait]:
+    """Idle steps by column and kind; what stands in column after column is one habit."""
+    times = Counter(step for _, steps, _ in idle for step in {*steps})
+    return [
+        (IDLE, item, digest(steps), spelt, steps[0] if times[steps[0]] > _HABIT else item)
+        for item, steps, spelt in idle
+    ]
+
+
+_CELL = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
+
+
+def _spelling(run: Run) -> tuple[tuple[str, str], ...]:
+    """Tokens of a formula without spaces and without what ``$`` alone makes different."""
+    assert run.formula is not None
+
+    def placed(match: re.Match[str]) -> str:
+        down, row, across, column = match.groups()
+        at = int(column) + (run.column if across else 0)
+        if run.count == 1 and down:
+            down, row = "", str(int(row) + run.first)
+        return f"R{down}{row}C{at}"
+
+    return tuple(
+        (kind, _CELL.sub(placed, value) if kind == "ref" else value.upper())
+        for kind, value in run.formula.pattern
+        if kind != "space"
+    )
+
+
+def _name_traits(own: OwnFormulas) -> list[Trait]:
+    """Names that a student has given to cells himself."""
+    grid = own.student.grid
+    names = {*grid.names, *grid.areas} - own.book.names.keys()
+    return [
+        (NAME, "", digest(name), digest(name), "")
+        for name in sorted(names)
+        if len(name) > 1 and not name.startswith(_ISSUED_NAMES)
+    ][:_MOST_HELPERS]
 
 
 def _main(runs: Sequence[Run]) -> Run | None:
@@ -252,15 +297,15 @@ def _helper_traits(own: OwnFormulas) -> list[Trait]:
         places.add((run.sheet, run.column))
         above = grid.constant(run.sheet, run.first - 1, run.column)
         if isinstance(above, str) and len(above.strip()) > 2:
-            text = digest(above.strip().casefold())
+            text = digest("".join(filter(str.isalnum, above.casefold())))
             traits[TEXT, "", text, text, ""] = None
     issued = {sheet for sheet, _, _ in book.places.values()}
     for title in {run.sheet for run in own.helpers} - issued:
         if not title.casefold().startswith(_PLAIN_TITLES):
             mark = digest(("sheet", title.casefold()))
             traits[TEXT, "", mark, mark, ""] = None
-    if len(places) > 2:
-        mark = digest(sorted(places))
+    if len(places) > 2:  # whatever a sheet of one's own is called
+        mark = digest(sorted((title if title in issued else "", at) for title, at in places))
         traits[LAYOUT, "", mark, mark, ""] = None
     return list(traits)
 

@@ -83,10 +83,11 @@ def fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> st
     return hashlib.sha256(printed.tobytes()).hexdigest()[:16]
 
 
-def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
-    """Whether a formula has a step that does nothing: ``+0``, ``*1``, ``A6-A6``."""
-    text = ["" if kind == "space" else value for kind, value in tokens]
-    around = [("op", "("), *tokens, ("op", ")")]
+def idle_steps(tokens: Sequence[tuple[str, str]]) -> list[str]:
+    """Steps of a formula that do nothing, ``+0``, ``*1``, ``A6-A6``, however they are spelt."""
+    plain = [token for token in tokens if token[0] != "space"]
+    around = [("op", "("), *plain, ("op", ")")]
+    steps = []
     for before, sign, (kind, value), after in zip(
         around, around[1:], around[2:], around[3:], strict=False
     ):
@@ -94,13 +95,20 @@ def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
             nothing = sign[1] in ("+", "-") and float(value) == 0 and before[1] not in "(,"
             same = sign[1] in ("*", "/", "^") and float(value) == 1
             if (nothing or same) and after[1] not in ("^", "*", "/", ":"):
-                return True
-            if same and after[1] in ("*", "/"):
-                return True
-    return any(
-        text[i + 1] == "-" and text[i] == text[i + 2] and tokens[i][0] in ("ref", "name")
-        for i in range(len(text) - 2)
-    )
+                steps.append("0" if nothing else "1")
+            elif same and after[1] in ("*", "/"):
+                steps.append("1")
+    steps += [
+        "-"
+        for before, sign, after in zip(plain, plain[1:], plain[2:], strict=False)
+        if sign[1] == "-" and before == after and before[0] in ("ref", "name")
+    ]
+    return steps
+
+
+def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
+    """Whether a formula has a step that does nothing."""
+    return bool(idle_steps(tokens))
 
 
 # --- the small form ------------------------------------------------------------------------------

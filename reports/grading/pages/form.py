@@ -6,14 +6,14 @@ import io
 import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
 from typing import Any
 
 from openpyxl import load_workbook
 from openpyxl.cell.cell import Cell as SheetCell
-from openpyxl.utils import column_index_from_string
+from openpyxl.utils.cell import column_index_from_string, coordinate_from_string
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.exports.numbers import neutralised
@@ -22,6 +22,7 @@ from reports.grading.issuing.names import words as words_of
 from reports.grading.issuing.rubric import Rubric
 from reports.shared.errors import InputError, Problem
 from reports.shared.file_types import read_bytes
+from reports.workbook.cell_patch import SharedFormulaError, Value, with_cells
 from reports.workbook.intake import check_data
 
 MAX_BYTES = 20_000_000
@@ -45,7 +46,7 @@ def filled_form(path: Path, rows: Sequence[Row], rubric: Rubric) -> FilledForm:
         InputError: the form cannot be read, or has no such sheet.
     """
     data = read_bytes(path, MAX_BYTES, "это не ведомость")
-    check_data(data, path.name)
+    data = check_data(data, path.name).data
     rules = rubric.form
     try:
         with warnings.catch_warnings(action="ignore"):
@@ -58,35 +59,60 @@ def filled_form(path: Path, rows: Sequence[Row], rubric: Rubric) -> FilledForm:
         hint = "сохраните её в Excel как .xlsx"
         raise InputError(Problem(path.name, "ведомость не читается", hint)) from None
     students = [row for row in rows if row["number"] is not None]
+    sheet = _FormSheet(sheet)
     places, left = _places(sheet, students, rules.student, rules.first_row)
     written = 0
     for row, at in places:
         final = row["points"] is not None and not row["manual"]
         mark = rubric.scale.mark(row["points"]) if final and rubric.scale.marks else ""
-        _put(sheet, rules.mark, at, _number(mark) if final else "")
-        _put(sheet, rules.points, at, row["points"] if final else "")
-        _put(sheet, rules.number, at, row["number"])
+        sheet.put(rules.mark, at, _number(mark) if final else "")
+        sheet.put(rules.points, at, row["points"] if final else "")
+        sheet.put(rules.number, at, row["number"])
         written += bool(final)
         if not final:
             left.append(f"{row['student']}: {row['status']}")
     for address, what in rules.cells.items():
-        sheet[address].value = _general(what, students)
-    stream = io.BytesIO()
-    book.save(stream)
-    return FilledForm(stream.getvalue(), written, tuple(left))
+        letters, at = coordinate_from_string(address)
+        sheet.put(letters, at, _general(what, students))
+    try:
+        filled = with_cells(data, sheet.sheet.title, sheet.values)
+    except SharedFormulaError as error:
+        what = "в ячейке формула, общая для нескольких ячеек"
+        where = f"{path.name}, {error}"
+        hint = "выберите в рубрике [form] другой столбец или сотрите формулу"
+        raise InputError(Problem(where, what, hint)) from None
+    except (UnicodeDecodeError, KeyError):
+        hint = "сохраните её в Excel как .xlsx"
+        raise InputError(Problem(path.name, "ведомость не читается", hint)) from None
+    return FilledForm(filled, written, tuple(left))
+
+
+@dataclass
+class _FormSheet:
+    """The sheet of a form as it is read, and what is to be written into its cells."""
+
+    sheet: Worksheet
+    values: dict[tuple[int, int], Value] = field(default_factory=dict)
+
+    def put(self, letters: str, row: int, value: Value) -> None:
+        """Write into a cell; a part of a merged one holds nothing."""
+        column = column_index_from_string(letters) if letters else 0
+        if column and isinstance(self.sheet.cell(row, column), SheetCell):
+            self.values[row, column] = value
 
 
 def _places(
-    sheet: Worksheet, students: Sequence[Row], letters: str, first: int
+    form: _FormSheet, students: Sequence[Row], letters: str, first: int
 ) -> tuple[list[tuple[Row, int]], list[str]]:
     """Row of the form for each student, and who is not in it."""
+    sheet = form.sheet
     column = column_index_from_string(letters or "B")
     last = min(sheet.max_row, first + _MOST_ROWS)
     named = {at: str(sheet.cell(at, column).value or "").strip() for at in range(first, last + 1)}
     named = {at: name for at, name in named.items() if any(map(str.isalpha, name))}
     if not named:
         for at, row in enumerate(students, first):
-            _put(sheet, letters or "B", at, neutralised(row["student"]))
+            form.put(letters or "B", at, neutralised(row["student"]))
         return [(row, at) for at, row in enumerate(students, first)], []
     fitting = {
         row["number"]: [at for at, name in named.items() if _is_same(row["student"], name)]
@@ -120,19 +146,16 @@ def _is_same(student: str, name: str) -> bool:
     return True
 
 
-def _put(sheet: Worksheet, letters: str, row: int, value: object) -> None:
-    if letters:
-        cell = sheet[f"{letters}{row}"]
-        if isinstance(cell, SheetCell):
-            cell.value = value
-
-
 def _number(mark: str) -> int | str:
     return int(mark) if mark.isdigit() else mark
 
 
-def _general(what: str, students: Sequence[Row]) -> object:
+def _general(what: str, students: Sequence[Row]) -> Value:
     """What stands once in a form: the group, the date, how many; else the text itself."""
     groups = ", ".join(sorted({row["group"] for row in students if row["group"]}))
-    known = {"группа": groups, "дата": f"{date.today():%d.%m.%Y}", "студентов": len(students)}
+    known: dict[str, Value] = {
+        "группа": groups,
+        "дата": f"{date.today():%d.%m.%Y}",
+        "студентов": len(students),
+    }
     return known.get(what.strip().casefold(), what)

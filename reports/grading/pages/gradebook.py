@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from reports.exports.numbers import neutralised
-from reports.grading.pages.summary import HELD
+from reports.grading.pages.states import State
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
@@ -36,18 +36,27 @@ def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
                 _decimal(maximum),
                 row["status"],
                 neutralised(row["file"]),
-                neutralised(row["remark"]),
+                neutralised(whole_remark(row)),
                 *(_decimal(shares.get(block)) for block in blocks),
             ]
         )
     return "\ufeff" + stream.getvalue()
 
 
+def whole_remark(row: Mapping[str, Any]) -> str:
+    """The remark on a work with what it shares with others: for the teacher."""
+    return "; ".join(filter(None, (row["remark"], row.get("similar"))))
+
+
+_FOR_TEACHER = ("State", "For the teacher")  # Moodle's import passes by what nobody maps
+
+
 def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
     """Grades as Moodle's import of grades from a CSV file takes them."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["Identifier", "Full name", "Email address", "ID number", "Grade", "Feedback"])
+    writer.writerow(["Identifier", "Full name", "Email address", "ID number", "Grade", "Feedback",
+                     *_FOR_TEACHER])  # fmt: skip
     for row in rows:
         result = row["result"]
         if row["number"] is None or result is None:
@@ -56,14 +65,16 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         # No grade where a person has to look first; whom he suspects of what students do not read.
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]
-        remark = "" if row["status"] == HELD else neutralised(row["remark"])
-        writer.writerow([*map(neutralised, texts), grade, remark])
+        remark = "" if row["status"] == State.HELD else row["remark"]
+        own = [remark, row["status"], whole_remark(row)]
+        writer.writerow([*map(neutralised, texts), grade, *map(neutralised, own)])
     return stream.getvalue()
 
 
 def gradebook_xlsx(
-    rows: Sequence[dict[str, Any]], maximum: float, groups: Sequence[Mapping[str, Any]] = ()
-) -> bytes:
+    rows: Sequence[dict[str, Any]], maximum: float, groups: Sequence[Mapping[str, Any]] = (),
+    decided: Sequence[Mapping[str, Any]] = (),
+) -> bytes:  # fmt: skip
     """The gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
     from openpyxl import Workbook
     from openpyxl.styles import Alignment, Font, PatternFill, Protection
@@ -82,11 +93,13 @@ def gradebook_xlsx(
     yellow = PatternFill("solid", fgColor="FFF9DB")
     for row in rows:
         shares, word = _shares(row), row["decision"] or {}
-        points = "+" if word and word["points"] is None else word.get("points")
+        points = word.get("word") or ("+" if word and word["points"] is None
+                                      else word.get("points"))  # fmt: skip
         sheet.append(
             [row["number"], row["student"], row["group"], row["points"], maximum, row["status"],
-             row["remark"], points, word.get("remark"), *(shares.get(block) for block in blocks),
-             row["file"], row["result"].sha256 if row["result"] else ""]
+             whole_remark(row), points, word.get("remark"),
+             *(shares.get(block) for block in blocks), row["file"],
+             row["result"].sha256 if row["result"] else ""]
         )  # fmt: skip
         for cell in sheet[sheet.max_row]:
             as_text(cell)
@@ -94,6 +107,7 @@ def gradebook_xlsx(
         for column in (8, 9):
             sheet.cell(sheet.max_row, column).fill = yellow
             sheet.cell(sheet.max_row, column).protection = Protection(locked=False)
+            sheet.cell(sheet.max_row, column).number_format = _AS_TYPED
         if row["manual"]:
             sheet.cell(sheet.max_row, 6).fill = PatternFill("solid", fgColor="F8CBAD")
     for cell in sheet[1]:
@@ -116,19 +130,22 @@ def gradebook_xlsx(
     sheet.col_breaks.append(Break(id=len(head)))
     sheet.oddFooter.center.text = "Лист &P из &N"
     sheet.page_margins.left = sheet.page_margins.right = 0.4
-    if groups:
-        _add_groups(book, groups)
+    if groups or decided:
+        _add_groups(book, groups, decided)
     add_printed(book, rows, [_shares(row) for row in rows], blocks)
     return finish(book)
 
 
-GROUPS = "Решения"
+_AS_TYPED = "@"  # a spreadsheet makes 5 of «+5» and 0.5 of «50%»
+GROUPS, DECIDED = "Решения", "решено"
 _GROUP_HEAD = ("Группа", "Работ", "Что", "Почему ждёт", "Формула", "Из", *DECISION, "Студенты")
 _GROUP_WIDTHS = (11, 8, 20, 46, 40, 7, 10, 26, 60)
 
 
-def _add_groups(book: Workbook, groups: Sequence[Mapping[str, Any]]) -> None:
-    """Add the sheet on which one decision serves all works of a group."""
+def _add_groups(
+    book: Workbook, groups: Sequence[Mapping[str, Any]], decided: Sequence[Mapping[str, Any]]
+) -> None:
+    """Add the sheet on which one decision serves all works of a group, and can be taken back."""
     from openpyxl.styles import Alignment, Font, PatternFill
 
     from reports.workbook.styles import as_text
@@ -136,15 +153,26 @@ def _add_groups(book: Workbook, groups: Sequence[Mapping[str, Any]]) -> None:
     sheet = book.create_sheet(GROUPS)
     sheet.append(_GROUP_HEAD)
     wrapped = Alignment(wrap_text=True, vertical="top")
-    for group in groups:
-        known = [group["what"], group["why"], group["formula"], group["of"]]
-        students = ", ".join(group["students"])
-        sheet.append([group["name"], len(group["numbers"]), *known, None, None, students])
+    lines = [
+        [group["name"], len(group["numbers"]), group["what"], group["why"], group["formula"],
+         group["of"], None, None, ", ".join(with_points(group))]
+        for group in groups
+    ]  # fmt: skip
+    waiting = {group["name"] for group in groups}
+    lines += [
+        [group["name"], len(group["numbers"]), group["what"], DECIDED, None, None,
+         group["points"], group["remark"], ", ".join(group["students"])]
+        for group in decided
+        if group["name"] not in waiting
+    ]  # fmt: skip
+    for line in lines:
+        sheet.append(line)
         for cell in sheet[sheet.max_row]:
             as_text(cell)
             cell.alignment = wrapped
         for column in (7, 8):
             sheet.cell(sheet.max_row, column).fill = PatternFill("solid", fgColor="FFF9DB")
+            sheet.cell(sheet.max_row, column).number_format = _AS_TYPED
     for cell, width in zip(sheet[1], _GROUP_WIDTHS, strict=True):
         cell.font, cell.alignment = Font(name="Calibri", bold=True), wrapped
         cell.fill = PatternFill("solid", fgColor="D9E2F3")
@@ -154,6 +182,12 @@ def _add_groups(book: Workbook, groups: Sequence[Mapping[str, Any]]) -> None:
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     sheet.print_title_rows = "1:1"
+
+
+def with_points(group: Mapping[str, Any]) -> list[str]:
+    """Students of a group with the points that they have: what a factor is a factor of."""
+    pairs = zip(group["students"], group["points"], strict=True)
+    return [f"{name} ({'—' if points is None else _decimal(points)})" for name, points in pairs]
 
 
 def _blocks(rows: Sequence[dict[str, Any]]) -> list[str]:

@@ -27,6 +27,7 @@ class WaitingGroup:
     of: float
     numbers: tuple[int, ...]
     students: tuple[str, ...]
+    points: tuple[float | None, ...] = ()  # of each, as the program has them
 
 
 def groups_of(
@@ -53,7 +54,7 @@ def groups_of(
             labels.setdefault(("", words), ("вся работа", why, "", maximum))
     groups = [
         WaitingGroup(_name(key), key[0], *labels[key], tuple(work.number or 0 for work in works),
-              tuple(work.student for work in works))
+              tuple(work.student for work in works), tuple(work.points for work in works))
         for key, works in members.items()
     ]  # fmt: skip
     return sorted(groups, key=lambda group: (-len(group.numbers), group.what, group.name))

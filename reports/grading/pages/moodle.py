@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from reports.exports.numbers import neutralised
-from reports.grading.pages.summary import HELD
+from reports.grading.pages.states import State
 from reports.shared.errors import InputError, Problem
 from reports.shared.file_types import read_bytes
 
@@ -204,7 +204,7 @@ def feedback_zip(rows: Sequence[dict[str, Any]], pages: Path) -> bytes:
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for row in rows:
             # What is held may be another's: its points and suspicions are no student's to read.
-            if not row["moodle_id"] or not row["page"] or row["status"] == HELD:
+            if not row["moodle_id"] or not row["page"] or row["status"] == State.HELD:
                 continue
             name = row["student"].replace("_", " ").replace("/", " ")
             folder = f"{name}_{row['moodle_id']}_assignsubmission_file_"

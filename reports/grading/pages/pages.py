@@ -14,6 +14,8 @@ from kshm.nomenclature.digits import Digits
 from reports.document.text.symbols import with_indices
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.judgement import UNKNOWN, WORDS
+from reports.grading.pages.gradebook import with_points
+from reports.grading.pages.states import State, state_of_result
 from reports.shared.resources import templates_dir
 from reports.shared.russian import capital, fixed, short, written
 
@@ -35,6 +37,7 @@ def _environment() -> Environment:
         "capitalize_first": capital,
         "indices": with_indices,
         "fixed": fixed,
+        "with_points": with_points,
     }
     return environment
 
@@ -55,12 +58,15 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     counts = dict.fromkeys(WORDS, 0)
     for line in lines:  # what a person has decided asks for nobody
         counts[line["verdict"]] += line["verdict"] != UNKNOWN or "decision" not in line
+    state = result.get("state") or state_of_result(result)
     template = _environment().get_template("student.html.j2")
     return template.render(
         result=result,
+        state=state,
+        held=state == State.HELD,
         wrong=(shown := [line for line in wrong if line not in empty]),
         figures=any(line["svg"] for line in shown),
-        waits=bool(result["manual"] or result.get("doubts")),
+        waits=bool(result["manual"] or state in (State.HELD, State.BY_HAND)),
         empty=_by_heading(empty),
         carried=_by_heading([line for line in lines if line["verdict"] == "carried"]),
         right=_by_heading([line for line in lines if line["verdict"] == "right"]),
@@ -103,7 +109,8 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def class_page(summary: dict[str, Any]) -> str:
     """The summary of a class."""
-    return _environment().get_template("summary.html.j2").render(summary=summary, words=WORDS)
+    shown = {"decided": (), **summary}
+    return _environment().get_template("summary.html.j2").render(summary=shown, words=WORDS)
 
 
 def questions_page(sheets: Sequence[dict[str, Any]], rubric: Rubric, *, answers: bool) -> str:

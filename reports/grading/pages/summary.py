@@ -15,14 +15,14 @@ from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.works import Work
 from reports.grading.pages.groups import WaitingGroup, groups_of
 from reports.grading.pages.pages import moment
+from reports.grading.pages.states import State, state_of
 from reports.shared.russian import short
 
 # What is handed in beside the book: no work by itself.
 _BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpeg", ".png", ".heic",
            ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
-HELD = "ждёт решения"  # the state of a work that may be another's
 _NOBODYS = {"number": None, "group": "", "id": "", "email": "", "moodle_id": "", "points": None,
-            "provisional": None, "manual": True, "decision": None}  # fmt: skip
+            "provisional": None, "manual": True, "doubts": (), "decision": None}  # fmt: skip
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
@@ -119,6 +119,10 @@ def table_rows(
         remarks = [*unread, *_remarks(result, times.get(book.number, []), count)]
         if other is not None:
             remarks = list(doubts)
+        state = State.ABSENT
+        if result is not None or doubts:
+            asked = [*unread, *result.manual] if result else []
+            state = state_of(result.status if result else "", asked, doubts)
         remarks = list(dict.fromkeys([*doubts, *remarks]))
         if doubts and points is not None:
             remarks.append(f"баллы до решения преподавателя: {short(points)}")
@@ -131,13 +135,15 @@ def table_rows(
                 "email": book.student.email,
                 "moodle_id": seen.moodle_id if seen and not foreign else "",
                 "file": seen.file if seen else "",
-                "status": HELD if doubts else _status(result, unread),
+                "status": state,
                 "points": None if doubts else points,
                 "provisional": points,
                 "result": result,
                 "page": result.page if result else "",
                 "manual": bool(doubts or unread or (result and result.manual)),
+                "doubts": tuple(doubts),
                 "remark": "; ".join(remarks),
+                "similar": _told(rings, result),
                 "decision": word,
             }
         )
@@ -145,19 +151,20 @@ def table_rows(
         if result.number is None and result.submitter is None:
             rows.append(
                 _NOBODYS | {"student": f"? ({result.file})", "file": result.file,
-                            "status": _status(result), "result": result, "page": result.page,
+                            "status": state_of(result.status, result.manual, ()),
+                            "result": result, "page": result.page, "similar": "",
                             "remark": "; ".join(result.manual)}
             )  # fmt: skip
     return rows
 
 
-def _status(result: Work | None, unread: Sequence[str] = ()) -> str:
-    if result is None:
-        return "не сдано"
-    words = {"graded": "проверено", "refused": "не принято", "unmatched": "не опознано"}
-    word = words[result.status]
-    by_hand = result.status == "graded" and (result.manual or unread)
-    return "нужна ручная проверка" if by_hand else word
+def _told(rings: Sequence[Ring], result: Work | None) -> str:
+    """What a work shares with others where that is no reason to hold it: for the teacher alone."""
+    return "; ".join(
+        f"сходство: {ring.text(result)}"
+        for ring in rings
+        if result is not None and not ring.held and result in ring.works
+    )
 
 
 def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]:
@@ -168,7 +175,9 @@ def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]
     labels = {line.id: line.label for line in result.items}
     for entry in result.decisions:
         what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
-        remarks.append(f"решение преподавателя{what}: {entry['remark'] or 'без примечания'}")
+        word = f" {entry['word']}" if entry.get("word") else ""
+        said = entry["remark"] or "без примечания"
+        remarks.append(f"решение преподавателя{what}{word}: {said}")
     if len(times) > 1:
         which = "последний" if count == "last" else "лучший"
         if count == "last" and times.count(result.time) > 1:
@@ -200,7 +209,7 @@ def summarise(
         "files": len(results),
         "students": len(register.books),
         "graded": len(graded),
-        "absent": [row["student"] for row in rows if row["result"] is None],
+        "absent": [row["student"] for row in rows if row["status"] == State.ABSENT],
         "maximum": register.rubric.maximum,
         "mean": mean(marks) if marks else 0.0,
         "median": median(marks) if marks else 0.0,

@@ -238,8 +238,11 @@ def find_owner(
     one = named[0] if len(named) == 1 else None
     submitter = one.number if one else None
     evidence = [f"идентификатор {text} ({where})" for text, where in known.items()]
+    left = {book.ticket: book.student.full for book in register.former}
     doubts = [
-        f"идентификатор {text} ({where}) не выдавался в этой группе"
+        f"идентификатор {text} ({where}) выдан тому, кого больше нет в списке: {left[text]}"
+        if text in left
+        else f"идентификатор {text} ({where}) не выдавался в этой группе"
         for text, where in tickets.items()
         if text not in by_ticket
     ]

@@ -49,22 +49,24 @@ const link = (path, title, more) => html`<a href=${door(`file/${path}`)} ...${mo
 const heads = (...titles) => html`<thead><tr>${titles.map(title => html`<th scope="col">${title}</th>`)}</tr></thead>`;
 
 // Points and a remark of a student or of a group, for the whole work unless `chosen` says for what.
-const judge = (who, name, hint, chosen) => html`
+const judge = (who, name, hint, chosen, isForMany) => html`
   <form onSubmit=${e => {
-    act(door("grade"), {who: String(who), what: "всё", ...given(e)}, "Решение принято.");
+    const preview = e.submitter?.name === "preview", said = {who: String(who), what: "всё", ...given(e)};
+    if (preview) return act(door("grade"), {...said, preview}, "Кому сколько баллов даст решение:");
+    act(door("grade"), said, "Решение принято.");
     e.target.reset();
   }}>
     ${chosen}
     <input name="points" aria-label=${`Баллы: ${name}`} size="12" placeholder=${hint} required />
     <input name="remark" aria-label=${`Примечание: ${name}`} placeholder="примечание" maxlength="300" />
-    <button>Решить</button></form>`;
+    <button>Решить</button>${isForMany && html` <button name="preview">Показать</button>`}</form>`;
 
 const gradebook = rows => table("Ведомость", rows.map(each => {
   const {number, student, page} = each, points = each.points ?? each.provisional;
   const shown = each.points === null && points !== null ? `(${printed(points)})` : printed(points);
   const who = number ? `${number}. ${student}` : student; // there are namesakes
   return row([[page ? link(page, who, {target: "_blank"}) : who], [each.status],
-    [shown, "n"], [each.remark], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn" : ""});
+    [shown, "n"], [[each.remark, each.similar].filter(Boolean).join("; ")], [number && page && decision(each)]], {key: who, class: each.manual ? "odd warn" : ""});
 }), heads("Студент", "Состояние", "Баллы", "Примечание", "Решение"));
 
 // What waits for a person stands open; the rest is a click away.
@@ -74,9 +76,15 @@ const decision = ({number, student, manual, unknown}) => html`
       ${options([["всё", "вся работа"], ...unknown.map(item => [item, item])])}</select>`)}</details>`;
 
 // One decision for all works that wait for the same reason.
-const many = groups => table("Решить сразу для многих", groups.map(({name, what, why, formula, students}) =>
-  row([[name], [`${what}: ${why}`], [formula], [students.join(", ")], [judge(name, name, "баллы, 50% или +")]], {key: name})),
-heads("Группа", "Что и почему", "Формула", "Студенты", "Решение"));
+const many = groups => table("Решить сразу для многих", groups.map(({name, what, why, formula, students, points}) =>
+  row([[name], [`${what}: ${why}`], [formula], [students.map((each, i) => `${each} (${printed(points[i] ?? "—")})`).join(", ")],
+    [judge(name, name, "75, ×0,75, +5 или +", "", true)]], {key: name})),
+heads("Группа", "Что и почему", "Формула", "Студенты (баллы сейчас)", "Решение"));
+
+// What was decided for many can be taken back.
+const settled = groups => table("Решено для многих", groups.map(({name, what, points, remark, students}) =>
+  row([[name], [what], [points, "n"], [remark], [students.join(", ")], [judge(name, name, "- отменить", "", true)]], {key: name})),
+heads("Группа", "Что", "Решение", "Примечание", "Студенты", "Отменить"));
 
 const rules = changes => act(door("rules"), Object.assign(state.own, changes) && {
   open: state.own.open, late: state.own.late, deadline: state.own.deadline});
@@ -95,7 +103,7 @@ const student = each => {
     {key: each.number});
 };
 
-const issued = ({open, late, deadline, students, rows, groups, files, address}) => html`
+const issued = ({open, late, deadline, students, rows, groups, decided, files, address}) => html`
   <p class="bar">
     ${link("issued.zip", "Рабочие книги .zip", {class: "button", download: "issued.zip"})}
     ${picker("Загрузить архив работ .zip", ".zip", loaded("moodle.zip"))}
@@ -107,6 +115,7 @@ const issued = ({open, late, deadline, students, rows, groups, files, address}) 
   <p id="results" class="bar">${files.map(name => link(name, name,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${groups.length > 0 && many(groups)}
+  ${decided.length > 0 && settled(decided)}
   ${rows.length > 0 && gradebook(rows)}
   <details id="links" open><summary>${students.filter(came).length} из ${students.length} сдали</summary>
     <p class="bar"><a class="button" id="list" href=${door("links.csv")} download="links.csv">Все ссылки .csv</a>

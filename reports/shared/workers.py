@@ -36,7 +36,7 @@ def processes(needs: str) -> ForkServerContext | SpawnContext:
     if sys.platform != "linux" or len(os.fsencode(tempfile.gettempdir())) > _LONGEST_FOLDER:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([needs])  # heard before the first copy
+    context.set_forkserver_preload(["reports.shared.orphaned", needs])  # before the first copy
     return context
 
 

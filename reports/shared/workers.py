@@ -19,8 +19,8 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
-from reports.shared.errors import KshmError, one_line
 from reports.shared.background import end_with_parent
+from reports.shared.errors import KshmError, one_line
 from reports.shared.interrupt import held
 
 if TYPE_CHECKING:

@@ -348,9 +348,6 @@ class _Batch:
         """Take over what an earlier run has finished of the same files under the same rules."""
         make_dir(self.folder / RESULTS)
         make_dir(self.folder / PAGES)
-        for leftovers_in in (self.folder, self.folder / RESULTS, self.folder / PAGES):
-            for leftover in leftovers_in.glob(".kshm-*"):  # of a run that was killed while writing
-                leftover.unlink(missing_ok=True)
         write_text(self.register_file, self.register.json_text())
         keys = {submission.key for submission in submissions}
         done = self._earlier(keys)

@@ -129,7 +129,7 @@ def grade(
     batch.start(submissions)
     if options.memory is not None:
         batch.keep_past()
-    workers = options.workers or processors()
+    workers = min(options.workers or processors(), processors())
     outcomes = (
         grade_far(
             batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask

@@ -210,7 +210,7 @@ def _is_numbering(
         return True
     goes_on = abs((second - here) - (third - second)) <= 0.01 * abs(third - second)  # type: ignore[operator]
     if goes_on:  # a point, unless its pressure stands alone
-        return abs(p - p_2) > 0.5 * max(abs(p), abs(p_2))  # type: ignore[operator,arg-type]
+        return bool(abs(p - p_2) > 0.5 * max(abs(p), abs(p_2)))  # type: ignore[operator,arg-type]
     return base == 1 and first > 0
 
 

@@ -79,7 +79,7 @@ def _again(number: int, main: int) -> None:
         if hasattr(signal, "pthread_kill"):
             signal.pthread_kill(main, number)
         else:  # Windows
-            _thread.interrupt_main(number)
+            _thread.interrupt_main(signal.Signals(number))
 
 
 def asked() -> bool:

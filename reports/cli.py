@@ -99,7 +99,7 @@ class _Russian(RussianGroup):
 
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
-        from reports.shared.interrupt import stoppable
+        from reports.shared.interrupt import answered, stoppable
         from reports.shared.user_home import give_libraries_a_home
 
         prepare()
@@ -113,6 +113,7 @@ class _Russian(RussianGroup):
                 code = super().main(*args, **kwargs)
                 sys.stdout.flush()
             except Exception as error:
+                answered()
                 code = _ended(error, verbose)
         sys.exit(code if isinstance(code, int) else DONE)
 

@@ -229,7 +229,7 @@ def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -
     from reports.exports.own_books import own_numbers
     from reports.inputs.solve_input import solved
     from reports.inputs.to_si.engine import smallness_of
-    from reports.shared.files import atomic_path, make_dir, refuse_own, write_bytes
+    from reports.shared.files import refuse_own, write_together
 
     style = CsvForm(**form)
     loaded = load(source)
@@ -237,22 +237,23 @@ def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -
     if target is not None and target != "-":
         refuse_own([Path(target)], own)
     solution, theirs = solved(loaded.model), own_numbers(loaded.model)
+    files: dict[Path, bytes] = {}
     if folder is not None:
-        tables = {
-            folder / f"{name}.csv": data for name, data in export_tables(solution, theirs).items()
+        files = {
+            folder / f"{name}.csv": csv_text(columns, style).encode(style.encoding)
+            for name, columns in export_tables(solution, theirs).items()
         }
-        refuse_own(tables, own)
-        make_dir(folder)
-        for path, columns in tables.items():
-            write_bytes(path, csv_text(columns, style).encode(style.encoding))
+        refuse_own(files, own)
+    if target is not None:
+        text = json_text(loaded.model, solution, notes_of(loaded), theirs)
+        if target != "-":
+            files[Path(target)] = text.encode()
+    write_together(files)
+    if folder is not None:
         click.echo(folder)
     if target == "-":
-        click.echo(json_text(loaded.model, solution, notes_of(loaded), theirs), nl=False)
+        click.echo(text, nl=False)
     elif target is not None:
-        with atomic_path(Path(target)) as temporary:
-            temporary.write_text(
-                json_text(loaded.model, solution, notes_of(loaded), theirs), encoding="utf-8"
-            )
         tell_written(Path(target))
     wordless = folder is not None or target is not None
     if not wordless:

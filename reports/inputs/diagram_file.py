@@ -1,240 +1,36 @@
 """[gas], source = "file": points of the diagram from a text table beside the input.
 
-The file is a plain table of numbers: CSV with commas or semicolons, or columns between
-blanks or tabs, such as a recorder writes or a results table saved by DIESEL-RK as text.  Its
-own project format is not documented and is not read.  The columns of crank angle and of
-absolute pressure are named in [gas]; what is not understood is refused, what was made of the
-rows is told.
+A results table saved by DIESEL-RK as text is read as well; its own project format is not
+documented and is not read.  The columns of crank angle and of absolute pressure are named in
+[gas]; what is not understood is refused, what was made of the rows is told.
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-import re
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reports.inputs.messages import meta_at
+from reports.inputs.recorded_table import Recorded, WantedColumns, recorded, text_of
 from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.units import MPA, number_text
 from reports.shared.errors import InputError, Problem, one_line
-from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
 
 if TYPE_CHECKING:
     from kshm.arrays import Array
 
 
-MAX_BYTES = 8_000_000
-LEAST_ROWS = 3
-# Separators between columns; of blanks any number makes one.
-_CALLED = {";": "«;»", "\t": "табуляцию", ",": "запятую", " ": "пробелы"}
-_NUMBER = re.compile(r"[-+]?(\d+([.,]\d+|\.)?|\.\d+)([eE][-+]?\d+)?")
-Refuse = Callable[..., InputError]
-Row = tuple[int, list[str]]
-
-
-@dataclass(frozen=True, slots=True)
-class Recorded:
-    """Angles and pressures as the file has them, with the number of each line."""
-
-    lines: tuple[int, ...]
-    angles: tuple[float, ...]
-    pressures: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class WantedColumns:
-    """Columns to read, by number from 1 or by name, and the words for refusals."""
-
-    angle: object
-    pressure: object
-    units: frozenset[str]  # what a heading says of a unit alone
-    refused: Refuse
-
-
-class _UnfitError(Exception):
-    """Separator that does not read the file; ``rows`` counts the rows it did read."""
-
-    def __init__(self, rows: int, error: InputError, *, final: bool = False) -> None:
-        super().__init__()
-        self.rows, self.error, self.final = rows, error, final
-
-
-def text_of(file: Path, refused: Refuse) -> str:
-    """The text of a recorder's or a spreadsheet's file: UTF-8, UTF-16 or Windows-1251.
-
-    Raises:
-        InputError: it is missing, too large or no text.
-    """
-    data = read_bytes(file, MAX_BYTES, "оставьте в нём только диаграмму")
-    kind = kind_of(data)
-    if kind not in (TEXT, UTF16):
-        raise refused(f"{CALLED[kind]}, а нужна текстовая таблица", "сохраните её как CSV")
-    for encoding in ("utf-16",) if kind == UTF16 else ("utf-8-sig", "cp1251"):
-        try:
-            return data.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    raise refused("кодировка не UTF-8, UTF-16 или Windows-1251", "сохраните как «CSV UTF-8»")
-
-
-def recorded(text: str, wanted: WantedColumns) -> Recorded:
-    """Columns of angle and pressure of a table.
-
-    Raises:
-        InputError: there is no table of numbers, or it can be read in two ways.
-    """
-    readings: dict[Recorded, str] = {}
-    unfit: list[_UnfitError] = []
-    for separator, called in _CALLED.items():
-        try:
-            reading = _read(_rows(text, separator), separator, wanted)
-        except _UnfitError as error:
-            unfit.append(error)
-        else:
-            readings.setdefault(reading, f"столбцы через {called}")
-    for reason in unfit:
-        if reason.final:
-            raise reason.error
-    if len(readings) > 1:
-        ways = " или ".join(readings.values())
-        raise wanted.refused(f"числа читаются двояко: {ways}", "сохраните таблицу через «;»")
-    if not readings:
-        raise max(unfit, key=lambda reason: reason.rows).error
-    return next(iter(readings))
-
-
-def _rows(text: str, separator: str) -> list[Row]:
-    """Numbers of lines and their fields; empty lines are left out."""
-    if separator == " ":
-        split: Iterator[Row] = ((n, line.split()) for n, line in enumerate(text.splitlines(), 1))
-        return [row for row in split if row[1]]
-    reader = csv.reader(io.StringIO(text), delimiter=separator, skipinitialspace=True)
-    try:
-        rows = [(reader.line_num, [field.strip() for field in fields]) for fields in reader]
-    except csv.Error:  # a field without end
-        return []
-    return [row for row in rows if any(row[1])]
-
-
-def _value(field: str) -> float | None:
-    plain = field.replace("−", "-")
-    if not _NUMBER.fullmatch(plain):
-        return None
-    value = float(plain.replace(",", "."))
-    return value if math.isfinite(value) else None
-
-
-def _read(rows: list[Row], separator: str, wanted: WantedColumns) -> Recorded:
-    """Columns of angle and pressure between separators of one kind.
-
-    Raises:
-        _UnfitError: it is not so that the file is written.
-    """
-    nothing = wanted.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
-    numeric = [i for i, (_, row) in enumerate(rows) if sum(_value(f) is not None for f in row) > 1]
-    if not numeric:
-        raise _UnfitError(0, nothing)
-    columns = tuple(
-        _column(column, rows, numeric[0], key, wanted, len(numeric))
-        for column, key in (
-            (wanted.angle, "gas.angle_column"), (wanted.pressure, "gas.pressure_column"),
-        )
-    )  # fmt: skip
-    cells = [[row[c] if c < len(row) else "" for c in columns] for _, row in rows]
-    values = [[_value(cell) for cell in pair] for pair in cells]
-    first = next((i for i, pair in enumerate(values) if None not in pair), len(rows))
-    while first and values[first - 1][0] is not None:
-        first -= 1  # a pressure that is no number is a fault, not a heading
-    fault = _fault(rows, cells, values, first, separator, wanted.refused)
-    if fault is not None:
-        raise fault
-    body = rows[first:]
-    if len(body) < LEAST_ROWS:
-        raise _UnfitError(0, nothing)
-    if separator == "," and _torn(rows[:first], body, columns, wanted.units):
-        what = "запятая стоит и между столбцами, и в дробях"
-        torn = wanted.refused(what, "сохраните таблицу через «;» или числа с точкой")
-        raise _UnfitError(len(body), torn, final=True)
-    angles, pressures = zip(*values[first:], strict=True)
-    return Recorded(tuple(line for line, _ in body), angles, pressures)
-
-
-def _fault(
-    rows: list[Row], cells: list[list[str]], values: list[list[float | None]], first: int,
-    separator: str, refused: Refuse,
-) -> _UnfitError | None:  # fmt: skip
-    """First row that breaks the table of numbers."""
-    signs = ["", ""]
-    for i in range(first, len(rows)):
-        line, fields = rows[i]
-        for column, (cell, value) in enumerate(zip(cells[i], values[i], strict=True)):
-            if value is None:
-                what = f"строка {line}: не числа" + (f" («{one_line(cell, 20)}»)" if cell else "")
-                return _UnfitError(i - first, refused(what, "оставьте одну таблицу без пропусков"))
-            sign = "".join(mark for mark in ".," if mark in cell)
-            signs[column] = signs[column] or sign
-            if sign and sign != signs[column]:
-                what = f"строка {line}: в столбце стоят и точка, и запятая"
-                return _UnfitError(i - first, refused(what, "оставьте один знак дроби"))
-        if separator in ", " and len(fields) != len(rows[first][1]):
-            what = f"строка {line}: чисел {len(fields)}, а выше {len(rows[first][1])}"
-            hint = "в таблице должно быть одно число столбцов"
-            return _UnfitError(i - first, refused(what, hint))
-    return None
-
-
-def _column(
-    column: object, rows: list[Row], first: int, key: str, wanted: WantedColumns, score: int
-) -> int:
-    """Index of a column by its number from 1 or by its name in any row of the heading."""
-    width = len(rows[first][1])
-    if isinstance(column, int) and not isinstance(column, bool):
-        if 1 <= column <= width:
-            return column - 1
-        what, hint = f"нет столбца {column}", f"в таблице столбцов {width}"
-        raise _UnfitError(score, wanted.refused(what, hint, key=key))
-    names = [fields for _, fields in rows[:first]]
-    word = str(column).strip().casefold()
-    for fields in names:
-        places = [i for i, field in enumerate(fields) if field.casefold() == word]
-        exact = [i for i in places if fields[i] == column]
-        if len(exact or places) == 1:
-            return (exact or places)[0]
-        if places:
-            what = f"столбцов «{one_line(str(column), 40)}» несколько"
-            raise _UnfitError(score, wanted.refused(what, "укажите номер", key=key))
-    heads = [one_line(name, 20) for fields in names for name in fields if name]
-    hint = f"есть: {', '.join(heads[:12])}" if heads else "у столбцов нет заголовков: укажите номер"
-    what = f"нет столбца «{one_line(str(column), 40)}»"
-    raise _UnfitError(score, wanted.refused(what, hint, key=key))
-
-
-def _torn(
-    heads: list[Row], body: list[Row], columns: tuple[int, ...], units: frozenset[str]
-) -> bool:
-    """Whether commas between the columns may be decimal ones."""
-    rows = [fields for _, fields in body]
-    if any("." in field or "," in field for fields in rows for field in fields):
-        return False
-    behind = [c + 1 for c in columns if c + 1 not in columns and c + 1 < len(rows[0])]
-    if not any(all(fields[c].isdecimal() for fields in rows) for c in behind):
-        return False
-    return not any(
-        len(names) == len(rows[0]) and not any(name.casefold() in units for name in names)
-        for _, names in heads
-    )
-
-
 MOST_POINTS = 1500
 THINNED_DEG = 0.5
-WIDEST_GAP_DEG = 45.0
 LONE_GAP = 4.0  # times the gaps on both sides
 CLOSING = 0.02  # of the greatest pressure
+ATMOSPHERE_MPA = 0.101325  # a gauge reads no less than minus that
+_LIMITS = meta_at(TableGasSection, ("points", 0, 1))
+assert _LIMITS is not None
+LIMITS = _LIMITS.minimum or 0.0, _LIMITS.maximum or math.inf  # of a pressure [MPa]
 UNITS_MPA = {
     "mpa": 1.0,
     "bar": 0.1,
@@ -289,7 +85,7 @@ def with_points(raw: dict[str, Any], folder: Path, source: str) -> DiagramFill:
         gas = owner.get("gas") if isinstance(owner, dict) else None
         if not isinstance(gas, dict) or gas.get("source") != "file":
             return owner
-        table, remarks = _table(gas, folder, source, period)
+        table, remarks = _table(gas, folder, source, period, _speed(owner, raw))
         files.append(folder / gas["file"])
         notes.extend(f"{one_line(gas['file'], 60)}: {note}" for note in remarks)
         return {**owner, "gas": table}
@@ -301,13 +97,20 @@ def with_points(raw: dict[str, Any], folder: Path, source: str) -> DiagramFill:
     return DiagramFill(result, tuple(files), tuple(notes))
 
 
+def _speed(owner: dict[str, Any], raw: dict[str, Any]) -> float | None:
+    """Speed [rpm] of a regime, or of the engine."""
+    regime = raw.get("regime")
+    speeds = (owner.get("speed_rpm"), regime.get("speed_rpm") if isinstance(regime, dict) else None)
+    return next((float(n) for n in speeds if isinstance(n, int | float) and 0 < n < math.inf), None)
+
+
 def _strokes(raw: dict[str, Any]) -> object:
     engine = raw.get("engine")
     return engine.get("strokes") if isinstance(engine, dict) else None
 
 
 def _table(
-    gas: dict[str, Any], folder: Path, source: str, period: float
+    gas: dict[str, Any], folder: Path, source: str, period: float, speed: float | None
 ) -> tuple[dict[str, Any], list[str]]:
     name = gas.get("file")
     if not isinstance(name, str) or not name:
@@ -321,17 +124,41 @@ def _table(
     path = Path(name)
     if path.is_absolute() or ".." in path.parts:
         raise refusal.refused("файл должен лежать рядом с исходными данными", "укажите только имя")
+    pressures, average = gas.get("pressure_column", 2), gas.get("average_cycles", False)
+    listed = tuple(pressures) if isinstance(pressures, list) else (pressures,)
+    if len(listed) != 1 and (average is not True or not listed):
+        what, hint = "столбцов давления несколько", "задайте average_cycles = true или один столбец"
+        raise refusal.refused(what, hint, key="gas.pressure_column")
     columns = WantedColumns(
-        gas.get("angle_column", 1), gas.get("pressure_column", 2),
-        frozenset({*UNITS_MPA, *_ALSO, *_ANGLES}), refusal.refused,
+        gas.get("angle_column", 1), listed, frozenset({*UNITS_MPA, *_ALSO, *_ANGLES}),
+        refusal.refused,
     )  # fmt: skip
     rows = recorded(text_of(folder / path, refusal.refused), columns)
-    _check_pressures(rows, unit, str(gas["pressure_unit"]), refusal)
+    if average is True and not isinstance(pressures, list):
+        rows = _with_cycles_beside(rows, refusal)
+    called = one_line(str(gas["pressure_unit"]), 20)
+    _check_highest(rows, unit, called, refusal)
     turn = (360.0 if period == 720.0 else 0.0) - float(tdc)
-    points, notes = _closed(rows, turn, period, gas.get("average_cycles", False), refusal)
+    points, notes = _closed(rows, turn, period, (average, speed), refusal)
+    _check_lowest(points, rows, unit, called, average is True, refusal)
     kept = {key: value for key, value in gas.items() if key not in KEYS}
     points_mpa = [[angle, pressure * unit] for angle, pressure in points]
     return {"interpolation": "monotone", **kept, "source": "table", "points": points_mpa}, notes
+
+
+def _with_cycles_beside(rows: Recorded, refusal: _FileRefusal) -> Recorded:
+    """Take the columns behind that of pressures, where each is a cycle."""
+    import numpy as np
+
+    from reports.inputs.recorded_angles import alike_columns
+
+    columns = [np.array(column) for column in rows.beside]
+    count = alike_columns(np.array(rows.pressures[0]), columns)
+    if 0 < count < len(columns):
+        what = f"столбцов циклов подряд {count + 1}, а за ними другие числа"
+        hint = "назовите столбцы циклов: pressure_column = [2, 3, 4]"
+        raise refusal.refused(what, hint, key="gas.pressure_column")
+    return replace(rows, pressures=(*rows.pressures, *rows.beside[:count]))
 
 
 def _unit(given: object, refusal: _FileRefusal) -> float:
@@ -347,35 +174,77 @@ def _unit(given: object, refusal: _FileRefusal) -> float:
     return unit
 
 
-def _check_pressures(rows: Recorded, unit: float, called: str, refusal: _FileRefusal) -> None:
-    """Refuse impossible absolute pressures, in one line for all."""
-    limits = meta_at(TableGasSection, ("points", 0, 1))
-    low, high = (limits.minimum or 0.0, limits.maximum or math.inf) if limits else (0.0, math.inf)
-    for bad, hint in (
-        ([i for i, p in enumerate(rows.pressures) if p * unit < low],
-         "нужно абсолютное давление: похоже, в файле избыточное, прибавьте атмосферное"),
-        ([i for i, p in enumerate(rows.pressures) if p * unit > high],
-         f"допустимо до {MPA.text(high)}: проверьте pressure_unit"),
-    ):  # fmt: skip
-        if bad:
-            value = number_text(rows.pressures[bad[0]])
-            more = f", таких строк ещё {len(bad) - 1}" if len(bad) > 1 else ""
-            what = f"строка {rows.lines[bad[0]]}: давление {value} {one_line(called, 20)}{more}"
-            raise refusal.refused(what, hint)
+def _check_highest(rows: Recorded, unit: float, called: str, refusal: _FileRefusal) -> None:
+    """Refuse pressures beyond the limit, in one line for all."""
+    high = LIMITS[1]
+    bad = [
+        i for i, group in enumerate(zip(*rows.pressures, strict=True)) if max(group) * unit > high
+    ]
+    if bad:
+        value = number_text(max(column[bad[0]] for column in rows.pressures))
+        what = f"строка {rows.lines[bad[0]]}: давление {value} {called}{_more(bad)}"
+        raise refusal.refused(what, f"допустимо до {MPA.text(high)}: проверьте pressure_unit")
+
+
+def _check_lowest(
+    points: list[tuple[float, float]], rows: Recorded, unit: float, called: str,
+    is_mean: bool, refusal: _FileRefusal,
+) -> None:  # fmt: skip
+    """Refuse absolute pressures that are none, with what they look like."""
+    import numpy as np
+
+    low = LIMITS[0]
+    if min(pressure for _, pressure in points) * unit >= low:
+        return
+    if is_mean:
+        bad = [i for i, (_, pressure) in enumerate(points) if pressure * unit < low]
+        where, value = f"при {number_text(round(points[bad[0]][0], 3))}°", points[bad[0]][1]
+        pressures = np.array([pressure for _, pressure in points]) * unit
+    else:
+        bad = [i for i, pressure in enumerate(rows.pressures[0]) if pressure * unit < low]
+        where, value = f"строка {rows.lines[bad[0]]}", rows.pressures[0][bad[0]]
+        pressures = np.array(rows.pressures[0]) * unit
+    what = f"{where}: давление {number_text(float(f'{value:.6g}'))} {called}{_more(bad)}"
+    width = max(5, len(pressures) // 72)  # ten degrees of a cycle
+    level = np.convolve(pressures, np.full(width, 1 / width), "valid").min()
+    if level >= low:
+        hint = "похоже на шум датчика: запишите несколько циклов, подряд или в столбцах, и задайте "
+        raise refusal.refused(what, hint + "average_cycles = true: давления будут усреднены")
+    if pressures.min() < -ATMOSPHERE_MPA:
+        hint = "ниже −1,013 бар не бывает ни абсолютного, ни избыточного давления: проверьте нуль "
+        raise refusal.refused(what, hint + "датчика, столбец и единицу")
+    hint = "нужно абсолютное давление: похоже, в файле избыточное, прибавьте атмосферное"
+    raise refusal.refused(what, hint)
+
+
+def _more(bad: list[int]) -> str:
+    return f", таких строк ещё {len(bad) - 1}" if len(bad) > 1 else ""
 
 
 def _closed(
-    rows: Recorded, turn: float, period: float, average: object, refusal: _FileRefusal
-) -> tuple[list[tuple[float, float]], list[str]]:
-    """Closed points over one cycle from 0 to its end, and notes on the conversion."""
+    rows: Recorded, turn: float, period: float, how: tuple[object, float | None],
+    refusal: _FileRefusal,
+) -> tuple[list[tuple[float, float]], list[str]]:  # fmt: skip
+    """Closed points over one cycle from 0 to its end, and notes on the conversion.
+
+    ``how`` is whether cycles are averaged, and the speed [rpm].
+    """
     import numpy as np
 
-    angles, pressures = np.array(rows.angles), np.array(rows.pressures)
+    from reports.inputs.recorded_angles import angles_fault
+
+    average, speed = how
+    angles, pressures = np.array(rows.angles), np.mean(rows.pressures, axis=0)
+    fault = angles_fault(angles, pressures, rows.heads, period, speed)
+    if fault is not None:
+        raise refusal.refused(*fault)
     # A new cycle may begin with the angles of the first one.
     angles = angles + period * np.cumsum(np.diff(angles, prepend=angles[0]) < -period / 2)
     cycles, step = _cycles(angles, period, average, refusal)
     at = np.round((angles + turn) % period, 6) % period
     notes = []
+    if len(rows.pressures) > 1:
+        notes.append(f"давления столбцов усреднены: {len(rows.pressures)}")
     if cycles > 1:
         at, pressures = _means(at, pressures, step, period)
         notes.append(f"давления {cycles} циклов усреднены по углу")
@@ -399,10 +268,12 @@ def _cycles(
     """Number of whole cycles and their step; refuse several unless averaging is wanted."""
     import numpy as np
 
+    from reports.inputs.recorded_angles import is_several
+
     spread = float(angles.max() - angles.min())
     gaps = np.diff(np.sort(angles))
     step = float(np.median(gaps[gaps > 1e-6])) if (gaps > 1e-6).any() else period
-    if spread <= period + 1e-6:
+    if not is_several(angles, period):
         return 1, step
     if average is not True:
         given = number_text(round(spread, 3))
@@ -452,6 +323,8 @@ def _single(at: Array, pressures: Array, refusal: _FileRefusal) -> tuple[Array, 
 def _gaps(at: Array, period: float, refusal: _FileRefusal) -> Iterator[str]:
     """Yield a note on a lone gap; refuse a gap too wide."""
     import numpy as np
+
+    from reports.inputs.recorded_angles import WIDEST_GAP_DEG
 
     gaps = np.diff(at, append=at[0] + period)
     if gaps.max() > WIDEST_GAP_DEG:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from kshm.engine.arrangement import Arrangement, fan, in_row, opposed, throw_angle
 from reports.inputs.findings import Finding
+from reports.inputs.sections.input_file import MAX_CYLINDERS
 from reports.inputs.units import number_text
 
 if TYPE_CHECKING:
@@ -79,6 +80,8 @@ def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
         return result, findings
     cylinders, strokes = engine.get("cylinders"), engine.get("strokes", 4)
     if not isinstance(cylinders, int) or isinstance(cylinders, bool) or strokes not in (2, 4):
+        return result, findings
+    if not 1 <= cylinders <= MAX_CYLINDERS:  # before anything is laid out for so many
         return result, findings
     shaft = dict(shaft)
     result["crankshaft"] = shaft
@@ -161,8 +164,6 @@ def _places(
     for value in (bank, split):
         if value is not None and not isinstance(value, int | float):
             return None
-    if not 1 <= cylinders <= 99:
-        return None
     return arrangement(layout, cylinders, bank, split, articulated="articulated" in data)
 
 

@@ -189,8 +189,8 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     own_sections = reader.own(own, texts)
     data, findings = expand(data)
     reader.take(findings)
-    if findings:  # what would have followed from the order is not also missing
-        reader.empty |= {("crankshaft", key) for key in FOLLOWING}
+    # What would have followed from what is wrong or missing is not missing as well.
+    reader.empty |= {("crankshaft", key) for key in FOLLOWING[0 if reader.order_alone else 1 :]}
     models = reader.sections(data)
     further = reader.regimes(regimes)
     reader.take(cross_checks.check(reader.values))

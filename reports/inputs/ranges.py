@@ -108,9 +108,10 @@ def _values(
         return (), "у текстового параметра нет диапазона", "перечислите значения: {values = [...]}"
     if step <= 0 or high < low:
         return (), "нужно min ≤ max и step > 0", example
-    count = math.floor((high - low) / step + 1e-9) + 1
-    if count > MAX_VALUES:
+    # Of whole numbers a quotient may be beyond the floats, of floats infinite.
+    if high - low > step * (MAX_VALUES - 1):
         return (), "слишком мелкий шаг", "увеличьте step"
+    count = math.floor((high - low) / step + 1e-9) + 1
     # Decimal steps as a person writes them: 0.1 + 0.2 must give 0.3.
     digits = max(_digits(low), _digits(step))
     return tuple(_like(round(low + i * step, digits), current) for i in range(count)), "", ""

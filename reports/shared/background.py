@@ -6,8 +6,10 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable
 from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from typing import TypeVar
 
 from reports.shared.interrupt import held
@@ -33,6 +35,18 @@ def can_split() -> bool:
     return processors() > 1
 
 
+def end_with_parent() -> None:
+    """Let this child process end when the one that has started it ends, however it does."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_after, args=(parent,), daemon=True).start()
+
+
+def _end_after(parent: BaseProcess) -> None:
+    parent.join()
+    os._exit(1)
+
+
 def aside(work: Callable[[], Result]) -> Callable[[], Result]:
     """Start work in a fork; the returned function waits for its result.
 
@@ -43,7 +57,7 @@ def aside(work: Callable[[], Result]) -> Callable[[], Result]:
         return work
     context = multiprocessing.get_context("fork")
     answer, question = context.Pipe(duplex=False)
-    process = context.Process(target=_done, args=(work, question), daemon=True)
+    process = context.Process(target=_done, args=(work, answer, question), daemon=True)
     # Ctrl-C is for the process that the person has started; SIGTERM waits until it is answered.
     with held(signal.SIGINT, signal.SIGTERM):
         process.start()
@@ -64,7 +78,9 @@ def aside(work: Callable[[], Result]) -> Callable[[], Result]:
     return result
 
 
-def _done(work: Callable[[], object], question: Connection) -> None:
+def _done(work: Callable[[], object], answer: Connection, question: Connection) -> None:
+    end_with_parent()
+    answer.close()  # of the first process alone: without it a write fails
     # When the first process ends, this one has nothing to clean up and nothing to say.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])

@@ -13,6 +13,7 @@ import signal
 import stat
 import sys
 import tempfile
+import time
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -63,6 +64,30 @@ def write_bytes(path: Path, data: bytes) -> None:
         temporary.write_bytes(data)
 
 
+def write_together(files: Mapping[Path, bytes]) -> None:
+    """Write files, all or none of them.
+
+    Raises:
+        OutputError: a place cannot be written; the old files are untouched.
+    """
+    folders = {each for path in files for each in path.absolute().parents if not each.exists()}
+    try:
+        with contextlib.ExitStack() as all_of_them:
+            for path, data in files.items():
+                temporary = all_of_them.enter_context(atomic_path(path))
+                with _reported(path):
+                    temporary.write_bytes(data)
+                    _sync(temporary)
+            # What is on the disk by now only changes its name.
+            with held(signal.SIGINT, signal.SIGTERM):
+                all_of_them.close()
+    except BaseException:
+        for folder in sorted(folders, key=lambda each: -len(each.parts)):
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
+
+
 def write_json(path: Path, data: Mapping[str, Any]) -> None:
     """Write plain data atomically; raises as `write_text`."""
     write_text(path, json.dumps(data, ensure_ascii=False))
@@ -103,20 +128,13 @@ def atomic_path(path: Path) -> Iterator[Path]:
         make_dir(folder)
         if target.is_dir():
             raise _failure(path, IsADirectoryError(errno.EISDIR, ""))
-    # The name's suffix is kept: some writers choose the format by it.
-    temporary = _fresh_name(folder, path.suffix)
-    _unfinished.add(temporary)
-    try:
-        with _reported(path):
-            _create(temporary, target)
-            yield temporary
-            check()
-            if target is None:
-                _copy(temporary, path)
-            else:
-                _replace(temporary, target)
-    finally:
-        _remove(temporary)
+    with _reported(path), _hidden(folder, path.suffix, target) as temporary:
+        yield temporary
+        check()
+        if target is None:
+            _copy(temporary, path)
+        else:
+            _replace(temporary, target)
 
 
 def is_stream(path: Path) -> bool:
@@ -147,19 +165,15 @@ def atomic_dir(path: Path) -> Iterator[Path]:
     make_dir(path.parent)
     if path.exists() and not path.is_dir():
         raise _failure(path, FileExistsError(errno.EEXIST, ""))
-    temporary = _fresh_name(path.parent, "")
-    old = temporary.with_name(temporary.name + ".old")
-    _unfinished.add(temporary)
-    try:
-        with _reported(path):
-            temporary.mkdir()
+    with _reported(path), _hidden(path.parent) as temporary:
+        old = temporary.with_name(temporary.name + _OLD)
+        try:
             yield temporary
             check()
             _swap_dir(temporary, path, old)
-    finally:
-        _remove(temporary)
-        if old.exists():
-            _remove(old)
+        finally:
+            if old.exists():
+                _remove(old)
 
 
 def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
@@ -258,12 +272,84 @@ def temporary_failure(error: Exception) -> OutputError:
     return OutputError(Problem("временные файлы", f"не удаётся записать: {text}", hint))
 
 
+_HIDDEN, _OLD = ".kshm-", ".old"
+_DAY_S = 86400.0
+_looked_at: set[Path] = set()  # folders, once for each process
+
+
+@contextmanager
+def _hidden(folder: Path, suffix: str | None = None, like: Path | None = None) -> Iterator[Path]:
+    """Make a hidden file, without a suffix a folder, locked as long as this process is at it."""
+    _remove_abandoned(folder)
+    while True:
+        # The name's suffix is kept: some writers choose the format by it.
+        temporary = _fresh_name(folder, suffix or "")
+        _unfinished.add(temporary)
+        lock = None
+        try:
+            if suffix is None:
+                temporary.mkdir()
+            else:
+                _create(temporary, like)
+            lock = _lock(temporary)
+            if temporary.exists():  # else taken for abandoned before it was locked
+                yield temporary
+                return
+        finally:
+            if lock is not None:
+                os.close(lock)
+            _remove(temporary)
+
+
+def _lock(path: Path) -> int | None:
+    """Lock what is being written, where the system can; the lock ends with this process."""
+    try:
+        import fcntl
+
+        handle = os.open(path, os.O_RDONLY)
+    except (ImportError, OSError):  # Windows
+        return None
+    with contextlib.suppress(OSError):
+        fcntl.flock(handle, fcntl.LOCK_EX)
+    return handle
+
+
+def _is_abandoned(path: Path) -> bool:
+    """Whether nobody writes what is hidden any more: without locks, what is a day old."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        return time.time() - path.stat().st_mtime > _DAY_S
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    finally:
+        os.close(handle)
+    return True
+
+
+def _remove_abandoned(folder: Path) -> None:
+    """Remove what commands that were killed have left in a folder."""
+    if folder in _looked_at:
+        return
+    _looked_at.add(folder)
+    hidden = {path.name: path for path in folder.glob(f"{_HIDDEN}*")}
+    for name, path in hidden.items():
+        # Killed while folders changed places: one of the two is all that there is.
+        is_half = name + _OLD in hidden or name.removesuffix(_OLD) in hidden.keys() - {name}
+        with contextlib.suppress(OSError):
+            if not is_half and path not in _unfinished and _is_abandoned(path):
+                _remove(path)
+
+
 # Removed at the latest when the program ends: an interruption may come between two lines.
 _unfinished: set[Path] = set()
 
 
 def _fresh_name(folder: Path, suffix: str) -> Path:
-    return folder / f".kshm-{secrets.token_hex(8)}{suffix}"
+    return folder / f"{_HIDDEN}{secrets.token_hex(8)}{suffix}"
 
 
 def _target(path: Path) -> Path:
@@ -328,9 +414,13 @@ def _remove_unfinished() -> None:
         _remove(path)
 
 
-def _replace(temporary: Path, path: Path) -> None:
-    with temporary.open("rb+") as stream:
+def _sync(path: Path) -> None:
+    with path.open("rb+") as stream:
         os.fsync(stream.fileno())
+
+
+def _replace(temporary: Path, path: Path) -> None:
+    _sync(temporary)
     temporary.replace(path)
 
 

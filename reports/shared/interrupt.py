@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import _thread
 import signal
+import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
 _SIGNALS = [signal.SIGINT, signal.SIGTERM]
-_state = {"stopped": False, "ever": False}
+_AGAIN_S = 0.03
+_state = {"stopped": False, "ever": False, "over": False}
 
 
 class Stopped(KeyboardInterrupt):
@@ -26,7 +30,7 @@ def stoppable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    _state["stopped"] = False
+    _state["stopped"] = _state["over"] = False
     before = {number: signal.getsignal(number) for number in _SIGNALS}
     try:
         for number, handler in before.items():
@@ -34,22 +38,48 @@ def stoppable() -> Iterator[None]:
                 signal.signal(number, _stop)
         yield
     finally:
+        answered()
         _state["stopped"] = False
         for number, handler in before.items():
             signal.signal(number, handler if handler is not None else signal.SIG_DFL)
 
 
-def _stop(_: int, frame: FrameType | None) -> None:
+def answered() -> None:
+    """Let no further signal stop anything: the first one has ended what was going on."""
+    _state["over"] = True
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
     _state["ever"] = True
-    # An extension that is being loaded may die of an exception: the next file stops, or the next
-    # signal.
-    if frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
-        _state["stopped"] = True
+    if _state["over"] or _is_cleaning():
         return
-    for number in _SIGNALS:
-        signal.signal(number, signal.SIG_IGN)
-    _state["stopped"] = True
-    raise Stopped
+    if not _state["stopped"]:
+        _state["stopped"] = True
+        # No lock: the signal may have come in the midst of the module ``threading``.
+        _thread.start_new_thread(_again, (number, threading.get_ident()))
+    # An extension that is being loaded may die of an exception: the next signal stops.
+    if frame is None or not frame.f_code.co_filename.startswith("<frozen importlib"):
+        raise Stopped
+
+
+def _is_cleaning() -> bool:
+    """Whether what runs now runs because of ``Stopped``."""
+    error = sys.exc_info()[1]
+    while error is not None and not isinstance(error, Stopped):
+        error = error.__context__
+    return error is not None
+
+
+def _again(number: int, main: int) -> None:
+    """Repeat a signal until it has been obeyed: callbacks and libraries swallow what is raised."""
+    while True:
+        time.sleep(_AGAIN_S)
+        if _state["over"]:
+            return
+        if hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(main, number)
+        else:  # Windows
+            _thread.interrupt_main(signal.Signals(number))
 
 
 def asked() -> bool:

@@ -6,11 +6,13 @@ byte for byte.
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
+from reports.shared.background import processors
 from reports.shared.errors import KshmError, SystemPartMissing
 from reports.shared.workers import Died, NeverStarted, Workers
 
@@ -51,6 +53,7 @@ def in_order(
 def _in_processes(
     work: Callable[[Item], Result], items: Iterable[Item], jobs: int
 ) -> Iterator[Result]:
+    jobs = min(jobs, processors())  # more would only wait for each other
     with Workers(jobs, _same, work, needs=work.__module__, memory=None, most=None) as pool:
 
         def submit(_: Callable[[Item], Result], item: Item) -> Future[Any]:
@@ -71,7 +74,7 @@ def _on_cluster(
     work: Callable[[Item], Result], items: Iterable[Item], address: str
 ) -> Iterator[Result]:
     try:
-        from distributed import Client, KilledWorker
+        from distributed import CancelledError, Client, KilledWorker
     except ImportError:
         raise SystemPartMissing(
             "пакет dask", 'pip install "kshm[dask]"', purpose="для ключа --dask"
@@ -83,6 +86,8 @@ def _on_cluster(
             f"--dask {address}: планировщик не отвечает; проверьте адрес, например tcp://host:8786"
         )
         raise KshmError(msg) from None
+    # What it has to say of a lost connection is said in one sentence here.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         workers = max(1, sum(client.nthreads().values()))
 
@@ -94,6 +99,11 @@ def _on_cluster(
         except KilledWorker:
             msg = f"--dask {address}: процессы кластера гибнут один за другим; проверьте их память"
             raise KshmError(msg) from None
+        except (CancelledError, OSError) as error:
+            if client.status == "running":
+                raise
+            msg = f"--dask {address}: планировщик пропал; запустите его и повторите команду"
+            raise KshmError(msg) from error
 
 
 def _windowed(

@@ -14,10 +14,12 @@ import tempfile
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
+from reports.shared.background import end_with_parent
 from reports.shared.errors import KshmError, one_line
 from reports.shared.interrupt import held
 
@@ -34,7 +36,7 @@ def processes(needs: str) -> ForkServerContext | SpawnContext:
     if sys.platform != "linux" or len(os.fsencode(tempfile.gettempdir())) > _LONGEST_FOLDER:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([needs])  # heard before the first copy
+    context.set_forkserver_preload(["reports.shared.orphaned", needs])  # before the first copy
     return context
 
 
@@ -135,8 +137,7 @@ class _Worker:
         context = processes(self.needs)
         self.connection, theirs = context.Pipe()
         self.process = context.Process(target=_serve, args=(theirs, *self.given), daemon=True)
-        with held(signal.SIGINT):  # Ctrl-C is for the process that the person has started
-            self.process.start()
+        _start(self.process, waits=context.get_start_method() == "forkserver")
         theirs.close()
         self.ready, self.is_grown, self.answers = False, False, 0
         if self.over:  # while it was started
@@ -156,6 +157,8 @@ class _Worker:
         for _ in range(_STARTS):
             if self._is_ready():
                 break
+            if self.over:
+                raise Died
             self.end()
             self.launch()
         else:
@@ -180,17 +183,36 @@ class _Worker:
         return self.ready and self.process.is_alive() and fresh
 
 
+def _start(process: BaseProcess, *, waits: bool) -> None:
+    """Start a process that does not hear Ctrl-C: it is for the one that the person has started.
+
+    A server of forks, which the processes inherit their signals from, may take seconds to answer
+    the first time; meanwhile this process hears them.
+    """
+    if not waits:
+        with held(signal.SIGINT):
+            process.start()
+        return
+    from multiprocessing import forkserver, resource_tracker  # Windows has none
+
+    resource_tracker.ensure_running()  # it would let the signals through
+    with held(signal.SIGINT):
+        forkserver.ensure_running()
+    process.start()
+
+
 def _serve(
     connection: Connection,
     memory: int | None,
     begin: Callable[..., Callable[..., Any]],
     *given: Any,  # noqa: ANN401
 ) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
     answer = begin(*given)
     if memory is not None:
         limit_memory(memory)
         forbid_the_world()
-    end_with_parent()
     before = _resident()
     with contextlib.suppress(EOFError, OSError):  # who asks is gone
         connection.send(True)
@@ -213,14 +235,6 @@ def _resident() -> int:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
         return pages * int(os.sysconf("SC_PAGESIZE"))
     return 0
-
-
-def end_with_parent() -> None:
-    """Let the kernel end this process when the one that has started it ends, however it does."""
-    if sys.platform == "linux":
-        import ctypes
-
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)
 
 
 def limit_memory(extra: int) -> None:

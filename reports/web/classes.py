@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import csv
+import hashlib
 import hmac
 import io
 import secrets
@@ -35,11 +36,17 @@ from reports.web.jobs import Queue
 
 _FILES = {"base.toml": "base.toml", "rubric.toml": "rubric.toml", "roster": "Список"}
 _SECRET = ("--secret", SECRET)
+_ENTERED, _MOST_ENTERED = "sessions.json", 200  # of the instructor's browsers
 
 
 def token_of(secret: bytes) -> str:
     """Instructor's token, derived from the server's secret."""
     return hmac.digest(secret, b"teacher", "sha256").hex()[:32]
+
+
+def _digest(entry: object) -> str:
+    """What is kept of a session: who reads the file cannot enter with it."""
+    return hashlib.sha256(str(entry).encode()).hexdigest()
 
 
 class Classes(Queue):
@@ -77,10 +84,21 @@ class Classes(Queue):
             if not self.tries.allows(caller(request)):
                 raise HTTPException(429, "слишком много попыток; подождите минуту")
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
-        request.session["teacher"] = True
+        request.session["teacher"] = entry = secrets.token_urlsafe(16)
+        self._keep([*self._entered(), _digest(entry)])
 
     async def _logout(self, request: Request) -> None:
-        request.session.pop("teacher", None)
+        """End the session here: a copy of its cookie opens nothing any more."""
+        entry = _digest(request.session.pop("teacher", None))
+        self._keep([each for each in self._entered() if each != entry])
+
+    def _entered(self) -> list[str]:
+        """Digests of the sessions that the instructor has begun and not ended."""
+        entered = read_json(self.folder / _ENTERED).get("sessions", [])
+        return entered if isinstance(entered, list) else []
+
+    def _keep(self, entered: list[str]) -> None:
+        write_json(self.folder / _ENTERED, {"sessions": entered[-_MOST_ENTERED:]})
 
     def _find(self, name: str) -> Path:
         if name.isalnum() and (self.folder / name / "about.json").exists():  # never a path
@@ -89,7 +107,7 @@ class Classes(Queue):
 
     def _inside(self, request: Request) -> Path:
         """The class that a request names, else the folder of all: for the instructor alone."""
-        if not request.session.get("teacher"):
+        if _digest(request.session.get("teacher")) not in self._entered():
             raise HTTPException(403, "войдите с ключом преподавателя")
         name = request.path_params.get("name")
         return self._find(name) if name else self.folder

@@ -76,6 +76,8 @@ def test_variants_are_repeatable_and_differ(tmp_path):
         ('[variants]\n"geometry.bore_mm" = {min = 2, max = 1, step = 1}\n', "min ≤ max"),
         ('[variants]\n"geometry.bore_mm" = {min = 1, max = 2}\n', "неверные ключи"),
         ('[variants]\n"geometry.bore_mm" = 5\n', "это не диапазон"),
+        ('[variants]\n"geometry.bore_mm" = {min = -1e308, max = 1e308, step = 1}\n', "мелкий шаг"),
+        ('[variants]\n"geometry.bore_mm" = {min = 0, max = 1e300, step = 1e-300}\n', "мелкий шаг"),
         ('[variants]\n"geometry.bore_mm" = {values = [88, 88]}\n', "повторы"),
     ],
 )

@@ -73,6 +73,17 @@ READ = {
         "\n".join(f"{a - 360:g};{10 * p:g}" for a, p in RIGHT[:-1]).replace("-", "−"),
         "firing_tdc_deg = 0"),
     "Windows ends of lines": (written(",").replace("\n", "\r\n"), ""),
+    "ends of lines of a Macintosh": (written().replace("\n", "\r"), ""),
+    "numbers of columns under the head": (written(head="Угол;Давление\n1;2"), ""),
+    "numbers of columns under the units": (written(head="CA;PCYL1\n°;бар\n1;2"), NAMES),
+    "numbers of three columns": (
+        "a;p;T\n1;2;3\n" + "\n".join(f"{a:g};{10 * p:g};300" for a, p in RIGHT[:-1]), ""),
+    "numbers of columns alone": (written(head="1;2"), ""),
+    "numbers of columns from nought": (written(head="0;1"), ""),
+    "LabVIEW's name below its preamble": (
+        "LabVIEW Measurement\t\nX_Columns\tOne\nSamples\t24\t24\nX0\t0,0\t0,0\n***End***\t\t\n"
+        + written("\t", True, "X_Value\tPcyl"),
+        'angle_column = "X_Value"\npressure_column = "Pcyl"'),
     "Fortran's numbers": ("\n".join(f"{a:.0f}.  {10 * p:.4E}" for a, p in RIGHT[:-1]), ""),
 }  # fmt: skip
 
@@ -118,6 +129,21 @@ REFUSED = {
     "a cycle and a half": (
         "\n".join(f"{30 * i};{BAR[i % 24]}" for i in range(36)), "average_cycles = true",
         "углы занимают 1,46 цикла; оставьте целое число циклов"),
+    "a degree sign": (
+        "\n".join(f"{a - 360:.1f}°;{10 * p:g}" for a, p in RIGHT[:-1]), "",
+        "строка 1: не числа («-360.0°»); уберите из ячеек «°»"),
+    "units in the cells": (
+        "\n".join(f"{a:g};{10 * p:g} бар" for a, p in RIGHT[:-1]), "",
+        "строка 1: не числа («1.2 бар»); уберите из ячеек «бар»"),
+    "blanks between thousands": (
+        written().replace("17.5", "1 017,5"), "", "(«1 017,5»); уберите разделители тысяч"),
+    "commas between thousands": (
+        written().replace("17.5", "1,017.5"), "", "(«1,017.5»); уберите разделители тысяч"),
+    "thousands that may be decimals": (
+        "\n".join(f"{30 * i};{100 * p:,.0f}" for i, p in enumerate(BAR)), "",
+        "«1,750» читается двояко; уберите разделители тысяч"),
+    "several columns without averaging": (
+        written(), "pressure_column = [1, 2]", "задайте average_cycles = true или один столбец"),
     "a book": (b"PK\x03\x04rest", "", "это книга Excel или архив"),
 }  # fmt: skip
 
@@ -183,6 +209,94 @@ def test_several_cycles_are_averaged_when_asked(
     expected = p.reshape(3, -1).mean(axis=0) / 10
     np.testing.assert_allclose(np.array(found.model.gas.points)[:-1, 1], expected, atol=2e-7)
     assert found.notes == ("diagram.csv: давления 3 циклов усреднены по углу",)
+
+
+A, P = trace(0.5)
+CYCLE_S = 0.12  # of the engine of these tests, 1000 rpm
+UNLIKE = {
+    "two turns": (A % 360, P, "", "углы дважды проходят 0…360°; цикл занимает 720°: прибавьте"),
+    "two turns around TDC": ((A + 180) % 360 - 180, P, "", "углы дважды проходят −180…180°"),
+    "two turns to be averaged": (A % 360, P, "average_cycles = true", "углы дважды проходят"),
+    "radians": (np.radians(A), P, "", "похоже на радианы; нужны градусы: умножьте на 57,29578"),
+    "radians around TDC": (np.radians(A - 360), P, "firing_tdc_deg = 0", "похоже на радианы"),
+    "radians of three cycles": (
+        np.radians(trace(0.5, 3)[0]), trace(0.5, 3)[1], "average_cycles = true", "радианы"),
+    "seconds": (A / 720 * CYCLE_S, P, "", "похоже на секунды; нужны градусы: угол = 6 · n · t"),
+    "seconds of a part": (A[:900] / 720 * CYCLE_S, P[:900], "", "похоже на секунды"),
+    "milliseconds": (A / 720 * CYCLE_S * 1e3, P, "", "похоже на миллисекунды"),
+    "microseconds": (A / 720 * CYCLE_S * 1e6, P, "average_cycles = true", "на микросекунды"),
+    "turns": (A / 360, P, "", "похоже на обороты; нужны градусы: умножьте на 360"),
+    "samples": (np.arange(1440), P, "", "от 0 до 1439 через 1: похоже на номера отсчётов"),
+    "samples to be averaged": (
+        np.arange(1, 1441), P, "average_cycles = true", "похоже на номера отсчётов"),
+    "samples of a recorder that begins anew": (
+        np.tile(np.arange(1440), 3), np.tile(P, 3), "average_cycles = true", "номера отсчётов"),
+    "samples of two degrees": (np.arange(360), P[::4], "", "номера отсчётов или один оборот"),
+}  # fmt: skip
+
+
+def rows_of(angles: np.ndarray, *columns: np.ndarray) -> str:
+    cells = zip(angles, *columns, strict=True)
+    return "\n".join(f"{a:.9g};" + ";".join(f"{x:.4f}" for x in p) for a, *p in cells)
+
+
+@pytest.mark.parametrize("case", UNLIKE)
+def test_angles_that_are_none_are_named(case: str, tmp_path: Path) -> None:
+    angles, p, more, message = UNLIKE[case]
+    line = refusal(tmp_path, rows_of(angles, p), more)
+    assert message in line
+    assert "average_cycles" not in line
+
+
+def test_a_unit_over_the_angles_is_believed(tmp_path: Path) -> None:
+    for head, unit in (("Time [ms]", "время"), ("t, с", "время"), ("CA, рад", "радианы")):
+        line = refusal(tmp_path, f"{head};p\n" + rows_of(A, P))
+        assert f"в столбце угла {unit} («{head}»)" in line
+
+
+def noise(deviation: float) -> np.ndarray:
+    return np.random.default_rng(1).normal(0, deviation, P.size)
+
+
+LOW = {
+    "noise": (P + noise(0.4), "похоже на шум датчика: запишите несколько циклов"),
+    "noise beyond a gauge": (P + noise(1.0), "похоже на шум датчика"),
+    "gauge": (P - 1.15, "похоже, в файле избыточное"),
+    "gauge with noise": (P - 1.1 + noise(0.1), "похоже, в файле избыточное"),
+    "zero of the sensor": (P - 5, "ниже −1,013 бар не бывает ни абсолютного, ни избыточного"),
+}
+
+
+@pytest.mark.parametrize("case", LOW)
+def test_pressures_below_nothing_are_told_with_their_cause(case: str, tmp_path: Path) -> None:
+    p, message = LOW[case]
+    assert message in refusal(tmp_path, rows_of(A, p))
+
+
+@pytest.mark.parametrize(
+    ("columns", "more"),
+    [(0, ""), (1, "pressure_column = [2, 3, 4, 5]"), (1, 'pressure_column = ["a", "b", "c", "d"]')],
+)
+def test_a_column_per_cycle_is_averaged(columns: int, more: str, tmp_path: Path) -> None:
+    cycles = [P + shift for shift in (-0.2, -0.1, 0.1, 0.2)]
+    others = [np.full(P.size, 300.0)] * columns
+    table = "CA;a;b;c;d;T\n"[: 11 + 2 * columns].rstrip(";\n") + "\n"
+    table += rows_of(A, *cycles, *others)
+    found = loaded(tmp_path, table, "average_cycles = true\n" + more)
+    np.testing.assert_allclose(np.array(found.model.gas.points)[:-1, 1], P / 10, atol=1e-5)
+    assert found.notes == ("diagram.csv: давления столбцов усреднены: 4",)
+    if columns:
+        line = refusal(tmp_path, table, "average_cycles = true")
+        assert "столбцов циклов подряд 4, а за ними другие числа; назовите столбцы" in line
+
+
+def test_a_misfire_is_a_cycle(tmp_path: Path) -> None:
+    angles, p = trace(1.0, 2)
+    p[720:] = np.minimum(
+        p[720:], 1.1 * (16.4 / volume_ratios(angles[720:], 44 / 141, 16.4)) ** 1.35
+    )
+    found = loaded(tmp_path, rows_of(angles, p), "average_cycles = true")
+    assert "давления 2 циклов усреднены" in found.notes[0]
 
 
 def test_a_lone_gap_is_told_and_steps_that_grow_are_not(tmp_path: Path) -> None:

@@ -106,6 +106,7 @@ def test_bodies_that_are_no_engine(client: TestClient, content: bytes) -> None:
 
 ODD = [
     {}, {"crankshaft": {"throw_angles_deg": [0] * 500_000}}, {"gas": {"points": [[]] * 300_000}},
+    {"engine": {"cylinders": 10**19}, "crankshaft": {"firing_order": "1-2"}},
     {"regimes": [{}] * 300_000}, {"regimes": [1, None, {"gas": 5}]}, {"gas": {"source": ["x"]}},
     {"gas": {"source": "table", "points": "x"}}, {"crankshaft": {"webs": {"0": 1}, "arms": [[]]}},
     {"engine": [], "geometry": "x", "masses": None, "torsion": 1, "cycle": [None]},

@@ -111,8 +111,30 @@ def test_wrong_keys_do_not_keep_the_right_one_out(tmp_path: Path) -> None:
         assert codes == [403] * 10 + [429]
         page.post("/api/login", {"token": token_of(kept_secret(tmp_path / SECRET))})
         assert page.get("/api/teacher")["classes"] == []
+        copy = dict(client.cookies)
         page.post("/api/logout", {})
         page.get("/api/teacher", 403)
+        client.cookies.update(copy)  # the session has ended here, not in the browser alone
+        page.get("/api/teacher", 403)
+
+
+def test_a_session_outlives_the_server_and_ends_alone(tmp_path: Path) -> None:
+    def entered(client: TestClient) -> Page:
+        page = Page(client)
+        page.post("/api/login", {"token": token_of(kept_secret(tmp_path / SECRET))})
+        return page
+
+    def address() -> TestClient:
+        return TestClient(create_app(Settings(tmp_path, workers=1)), base_url="http://localhost")
+
+    with address() as first, address() as second:
+        entered(first)
+        entered(second).post("/api/logout", {})
+        cookies = dict(first.cookies)
+        assert first.get("/api/teacher").status_code == 200
+    with address() as later:
+        later.cookies.update(cookies)
+        assert later.get("/api/teacher").status_code == 200
 
 
 @pytest.mark.parametrize(

@@ -105,7 +105,7 @@ def grade(
     batch.start(submissions)
     if options.memory is not None:
         keep_past(folder / RESULTS / _PAST, batch.past)
-    workers = options.workers or processors()
+    workers = min(options.workers or processors(), processors())
     outcomes = (
         grade_far(
             batch.waiting, batch.register_file, timeout_s=options.timeout_s, dask=options.dask
@@ -363,9 +363,6 @@ class _Batch:
         """Take over what an earlier run has finished of the same files under the same rules."""
         make_dir(self.folder / RESULTS)
         make_dir(self.folder / PAGES)
-        for leftovers_in in (self.folder, self.folder / RESULTS, self.folder / PAGES):
-            for leftover in leftovers_in.glob(".kshm-*"):  # of a run that was killed while writing
-                leftover.unlink(missing_ok=True)
         write_text(self.register_file, self.register.json_text())
         keys = {submission.key for submission in submissions}
         done = self._earlier(keys)

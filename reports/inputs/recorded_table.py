@@ -1,0 +1,306 @@
+"""The table of a recorded diagram: separator, heading, columns of angle and pressure.
+
+The file is a plain table of numbers: CSV with commas or semicolons, or columns between
+blanks or tabs, such as a recorder writes.  What can be read in two ways is refused.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import takewhile
+from pathlib import Path
+
+from reports.shared.errors import InputError, one_line
+from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
+
+MAX_BYTES = 8_000_000
+LEAST_ROWS = 3
+# Separators between columns; of blanks any number makes one.
+_CALLED = {";": "«;»", "\t": "табуляцию", ",": "запятую", " ": "пробелы"}
+_NUMBER = re.compile(r"[-+]?(\d+([.,]\d+|\.)?|\.\d+)([eE][-+]?\d+)?")
+Refuse = Callable[..., InputError]
+Row = tuple[int, list[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """Angles and pressures as the file has them, with the number of each line.
+
+    ``pressures`` has a column for each that was asked for, ``beside`` the columns of numbers
+    behind the last of them; ``heads`` are the words over the angles.
+    """
+
+    lines: tuple[int, ...]
+    angles: tuple[float, ...]
+    pressures: tuple[tuple[float, ...], ...]
+    beside: tuple[tuple[float, ...], ...] = field(default=(), compare=False)
+    heads: tuple[str, ...] = field(default=(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class WantedColumns:
+    """Columns to read, by number from 1 or by name, and the words for refusals."""
+
+    angle: object
+    pressures: tuple[object, ...]
+    units: frozenset[str]  # what a heading says of a unit alone
+    refused: Refuse
+
+
+class _UnfitError(Exception):
+    """Separator that does not read the file; ``rows`` counts the rows it did read."""
+
+    def __init__(self, rows: int, error: InputError, *, final: bool = False) -> None:
+        super().__init__()
+        self.rows, self.error, self.final = rows, error, final
+
+
+def text_of(file: Path, refused: Refuse) -> str:
+    """The text of a recorder's or a spreadsheet's file: UTF-8, UTF-16 or Windows-1251.
+
+    Raises:
+        InputError: it is missing, too large or no text.
+    """
+    data = read_bytes(file, MAX_BYTES, "оставьте в нём только диаграмму")
+    kind = kind_of(data)
+    if kind not in (TEXT, UTF16):
+        raise refused(f"{CALLED[kind]}, а нужна текстовая таблица", "сохраните её как CSV")
+    for encoding in ("utf-16",) if kind == UTF16 else ("utf-8-sig", "cp1251"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    raise refused("кодировка не UTF-8, UTF-16 или Windows-1251", "сохраните как «CSV UTF-8»")
+
+
+def recorded(text: str, wanted: WantedColumns) -> Recorded:
+    """Columns of angle and pressure of a table.
+
+    Raises:
+        InputError: there is no table of numbers, or it can be read in two ways.
+    """
+    readings: dict[Recorded, str] = {}
+    unfit: list[_UnfitError] = []
+    for separator, called in _CALLED.items():
+        try:
+            reading = _read(_rows(text, separator), separator, wanted)
+        except _UnfitError as error:
+            unfit.append(error)
+        else:
+            readings.setdefault(reading, f"столбцы через {called}")
+    for reason in unfit:
+        if reason.final:
+            raise reason.error
+    if len(readings) > 1:
+        ways = " или ".join(readings.values())
+        raise wanted.refused(f"числа читаются двояко: {ways}", "сохраните таблицу через «;»")
+    if not readings:
+        raise max(unfit, key=lambda reason: reason.rows).error
+    return next(iter(readings))
+
+
+def _rows(text: str, separator: str) -> list[Row]:
+    """Numbers of lines and their fields; empty lines are left out."""
+    text = text.replace("\r\n", "\n").replace("\r", "\n")  # Windows, and what was a Macintosh
+    if separator == " ":
+        split: Iterator[Row] = ((n, line.split()) for n, line in enumerate(text.splitlines(), 1))
+        return [row for row in split if row[1]]
+    reader = csv.reader(io.StringIO(text), delimiter=separator, skipinitialspace=True)
+    try:
+        rows = [(reader.line_num, [field.strip() for field in fields]) for fields in reader]
+    except csv.Error:  # a field without end
+        return []
+    return [row for row in rows if any(row[1])]
+
+
+def _value(cell: str) -> float | None:
+    plain = cell.replace("−", "-")
+    if not _NUMBER.fullmatch(plain):
+        return None
+    value = float(plain.replace(",", "."))
+    return value if math.isfinite(value) else None
+
+
+_THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([ \u00a0\u202f'’.,])\d{3}(\1\d{3})*([.,]\d+)?")
+_WITH_WORD = re.compile(r"([-+−]?[\d.,]+)\s*(\D+)")
+
+
+def _mend(cell: str, units: frozenset[str]) -> str:
+    """What makes a number of a cell that is nearly one; empty if nothing does."""
+    if _value(cell) is not None:
+        return ""
+    if _THOUSANDS.fullmatch(cell):
+        return "уберите разделители тысяч"
+    word = _WITH_WORD.fullmatch(cell)
+    if word and word[2].strip().casefold() in units and _value(word[1]) is not None:
+        return f"уберите из ячеек «{word[2].strip()}»"
+    return ""
+
+
+def _read(rows: list[Row], separator: str, wanted: WantedColumns) -> Recorded:
+    """Columns of angle and pressure between separators of one kind.
+
+    Raises:
+        _UnfitError: it is not so that the file is written.
+    """
+    nothing = wanted.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
+    like = [[_value(f) is not None or bool(_mend(f, wanted.units)) for f in row] for _, row in rows]
+    numeric = [sum(fields) > 1 for fields in like]
+    if not any(numeric):
+        raise _UnfitError(0, nothing)
+    start, score = _longest(numeric), sum(numeric)
+    keys = [(wanted.angle, "gas.angle_column")]
+    keys += [(column, "gas.pressure_column") for column in wanted.pressures]
+    places = [_column(column, rows, start, key, wanted, score) for column, key in keys]
+    columns, after = [place[0] for place in places], max(place[1] for place in places)
+    cells = [[row[c] if c < len(row) else "" for c in columns] for _, row in rows]
+    values = [[_value(cell) for cell in group] for group in cells]
+    first = next((i for i in range(after, len(rows)) if all(
+        c < len(like[i]) and like[i][c] for c in columns)), len(rows))  # fmt: skip
+    while first > after and values[first - 1][0] is not None:
+        first -= 1  # a pressure that is no number is a fault, not a heading
+    first += _is_numbering(rows, values, first, columns[0])
+    fault = _fault(rows, cells, values, first, separator, wanted)
+    if fault is not None:
+        raise fault
+    body = rows[first:]
+    if len(body) < LEAST_ROWS:
+        raise _UnfitError(0, nothing)
+    if separator == "," and _torn(rows[:first], body, tuple(columns), wanted.units):
+        what = "запятая стоит и между столбцами, и в дробях"
+        torn = wanted.refused(what, "сохраните таблицу через «;» или числа с точкой")
+        raise _UnfitError(len(body), torn, final=True)
+    angles, *pressures = zip(*values[first:], strict=True)
+    above = takewhile(lambda row: sum(map(bool, row[1])) > 1, reversed(rows[:first]))
+    heads = tuple(row[columns[0]] for _, row in above if columns[0] < len(row))
+    beside = tuple(_columns_beside(body, columns[-1] + 1))
+    return Recorded(tuple(line for line, _ in body), angles, tuple(pressures), beside, heads)
+
+
+def _longest(numeric: list[bool]) -> int:
+    """Where the longest run of rows of numbers begins."""
+    best, begin = (0, 0), None
+    for i, good in enumerate([*numeric, False]):
+        if good and begin is None:
+            begin = i
+        if not good and begin is not None:
+            best, begin = max(best, (i - begin, -begin)), None
+    return -best[1]
+
+
+def _is_numbering(
+    rows: list[Row], values: list[list[float | None]], first: int, angle: int
+) -> bool:
+    """Whether the first row of numbers numbers the columns, from 0 or from 1."""
+    if len(rows) - first < LEAST_ROWS:
+        return False
+    numbers = [_value(cell) for cell in rows[first][1] if cell]
+    base = numbers[0] if numbers else None
+    if len(numbers) < 2 or base not in (0, 1) or numbers != [base + i for i in range(len(numbers))]:
+        return False
+    (here, p, *_), (second, p_2, *_), (third, *_) = values[first : first + 3]
+    if None in (here, p, second, p_2, third):
+        return False
+    if second <= here:  # type: ignore[operator]
+        return True
+    goes_on = abs((second - here) - (third - second)) <= 0.01 * abs(third - second)  # type: ignore[operator]
+    if goes_on:  # a point, unless its pressure stands alone
+        return bool(abs(p - p_2) > 0.5 * max(abs(p), abs(p_2)))  # type: ignore[operator,arg-type]
+    return base == 1 and first > 0
+
+
+def _columns_beside(body: list[Row], first: int) -> Iterator[tuple[float, ...]]:
+    """Columns of numbers from one on, to the first that is none."""
+    for column in range(first, min(len(fields) for _, fields in body)):
+        numbers = [_value(fields[column]) for _, fields in body]
+        if None in numbers:
+            return
+        yield tuple(number for number in numbers if number is not None)
+
+
+def _fault(
+    rows: list[Row], cells: list[list[str]], values: list[list[float | None]], first: int,
+    separator: str, wanted: WantedColumns,
+) -> _UnfitError | None:  # fmt: skip
+    """First row that breaks the table of numbers."""
+    refused, signs = wanted.refused, [""] * len(cells[0])
+    for i in range(first, len(rows)):
+        line, fields = rows[i]
+        for column, (cell, value) in enumerate(zip(cells[i], values[i], strict=True)):
+            if value is None:
+                what = f"строка {line}: не числа" + (f" («{one_line(cell, 20)}»)" if cell else "")
+                mend = _mend(cell, wanted.units) or "оставьте одну таблицу без пропусков"
+                # A cell that is nearly a number is the reason, however few rows stand above it.
+                score = len(rows) if _mend(cell, wanted.units) else i - first
+                return _UnfitError(score, refused(what, mend))
+            sign = "".join(mark for mark in ".," if mark in cell)
+            signs[column] = signs[column] or sign
+            if sign and sign != signs[column]:
+                what = f"строка {line}: в столбце стоят и точка, и запятая"
+                return _UnfitError(i - first, refused(what, "оставьте один знак дроби"))
+        if separator in ", " and len(fields) != len(rows[first][1]):
+            what = f"строка {line}: чисел {len(fields)}, а выше {len(rows[first][1])}"
+            hint = "в таблице должно быть одно число столбцов"
+            return _UnfitError(i - first, refused(what, hint))
+    return _thousands(rows, cells, first, refused)
+
+
+def _thousands(
+    rows: list[Row], cells: list[list[str]], first: int, refused: Refuse
+) -> _UnfitError | None:
+    """The first "1,234" of a column that has whole hundreds without a sign beside such cells."""
+    for column in zip(*cells[first:], strict=True):
+        signed = [i for i, cell in enumerate(column) if "," in cell or "." in cell]
+        whole = any(cell.lstrip("-+−").isdecimal() and len(cell) > 2 for cell in column)
+        if signed and whole and all(_THOUSANDS.fullmatch(column[i]) for i in signed):
+            what = f"строка {rows[first + signed[0]][0]}: «{column[signed[0]]}» читается двояко"
+            return _UnfitError(len(rows), refused(what, "уберите разделители тысяч"), final=True)
+    return None
+
+
+def _column(
+    column: object, rows: list[Row], first: int, key: str, wanted: WantedColumns, score: int
+) -> tuple[int, int]:
+    """Index of a column by its number from 1 or its name, and the row below which it begins."""
+    width = len(rows[first][1])
+    if isinstance(column, int) and not isinstance(column, bool):
+        if 1 <= column <= width:
+            return column - 1, 0
+        what, hint = f"нет столбца {column}", f"в таблице столбцов {width}"
+        raise _UnfitError(score, wanted.refused(what, hint, key=key))
+    names = [fields for _, fields in rows[:first]]
+    word = str(column).strip().casefold()
+    for i, fields in reversed([*enumerate(names)]):  # the heading is the nearest row
+        places = [j for j, name in enumerate(fields) if name.casefold() == word]
+        exact = [j for j in places if fields[j] == column]
+        if len(exact or places) == 1:
+            return (exact or places)[0], i + 1
+        if places:
+            what = f"столбцов «{one_line(str(column), 40)}» несколько"
+            raise _UnfitError(score, wanted.refused(what, "укажите номер", key=key))
+    nearest = [fields for fields in reversed(names) if len([*filter(None, fields)]) > 1]
+    heads = [one_line(name, 20) for fields in nearest[:2] for name in fields if name]
+    hint = f"есть: {', '.join(heads[:12])}" if heads else "у столбцов нет заголовков: укажите номер"
+    what = f"нет столбца «{one_line(str(column), 40)}»"
+    raise _UnfitError(score, wanted.refused(what, hint, key=key))
+
+
+def _torn(
+    heads: list[Row], body: list[Row], columns: tuple[int, ...], units: frozenset[str]
+) -> bool:
+    """Whether commas between the columns may be decimal ones."""
+    rows = [fields for _, fields in body]
+    if any("." in field or "," in field for fields in rows for field in fields):
+        return False
+    behind = [c + 1 for c in columns if c + 1 not in columns and c + 1 < len(rows[0])]
+    if not any(all(fields[c].isdecimal() for fields in rows) for c in behind):
+        return False
+    return not any(
+        len(names) == len(rows[0]) and not any(name.casefold() in units for name in names)
+        for _, names in heads
+    )

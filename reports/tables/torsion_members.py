@@ -29,13 +29,15 @@ _MODES = 3
 class TorsionMass:
     """A mass of the train: what it is, its throw from 1 or 0, journals of the shaft behind.
 
-    ``journals`` are the diameters [mm] of those that the shaft consists of, each with its bore.
+    ``main`` is the diameter [mm] of its main journal or of the shaft given, ``throws`` those whose
+    crankpins it has.
     """
 
     label: str
     kind: Kind
     throw: int
-    journals: tuple[tuple[str, str], ...]
+    main: str
+    throws: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,15 +110,15 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
     journals = [f"main_diameter_{k}_mm" for k in ([1] if alike else scope.shape.journal_numbers)]
     mean = f"total({', '.join(journals)})/{len(journals)}"
     count = len(section.masses)
-    shafts: list[tuple[tuple[str, str], ...]] = [
-        _pinned(mean, int(mass.throw), int(behind.throw))
+    shafts = [
+        (mean, _pins(int(mass.throw), int(behind.throw)))
         if mass.diameter_mm is None
-        else ((f"torsion_mass_{k}_diameter_mm", _MAIN_BORE),)
+        else (f"torsion_mass_{k}_diameter_mm", ())
         for k, (mass, behind) in enumerate(pairwise(section.masses), 1)
     ]
     masses = (
         TorsionMass(
-            mass.name or f"масса {k}", "given", int(mass.throw), shafts[min(k, count - 1) - 1]
+            mass.name or f"масса {k}", "given", int(mass.throw), *shafts[min(k, count - 1) - 1]
         )
         for k, mass in enumerate(section.masses, 1)
     )
@@ -124,25 +126,21 @@ def _given(section: TorsionSection, scope: Scope) -> TrainMasses:
     return TrainMasses(tuple(masses), free, own=True)
 
 
-_MAIN_BORE, _PIN_BORE = "torsion_main_bore_mm", "torsion_pin_bore_mm"
-
-
-def _pinned(main: str, *throws: int) -> tuple[tuple[str, str], ...]:
-    """Journals of a shaft with a main one between the crankpins of throws; 0 stands for none."""
-    pins = ((f"pin_diameter_{throw}_mm", _PIN_BORE) for throw in throws if throw)
-    return ((main, _MAIN_BORE), *pins)
+def _pins(*throws: int) -> tuple[int, ...]:
+    """Throws whose crankpins stand at the ends of a shaft; 0 is none."""
+    return tuple(throw for throw in throws if throw)
 
 
 def _equivalent(section: TorsionSection, scope: Scope) -> TrainMasses:
     """Pulley, throws, flywheel and what is driven behind it."""
     last = scope.shape.throws
-    rear = _pinned(f"main_diameter_{last + 1}_mm")
+    rear = f"main_diameter_{last + 1}_mm"
     masses = [
-        TorsionMass("шкив", "pulley", 0, _pinned("main_diameter_1_mm", 1)),
+        TorsionMass("шкив", "pulley", 0, "main_diameter_1_mm", (1,)),
         *(
             TorsionMass(
                 f"колено {k}", "throw", k,
-                _pinned(f"main_diameter_{k + 1}_mm", k, k + 1 if k < last else 0),
+                f"main_diameter_{k + 1}_mm", _pins(k, k + 1 if k < last else 0),
             )
             for k in scope.shape.throw_numbers
         ),

@@ -348,8 +348,8 @@ def test_the_masses_outside_the_limits_are_named():
     assert "Вне пределов" not in text_of(engine(crankshaft__pin_mass_kg=0.8))
 
 
-def test_the_pressure_between_the_rows_is_told_beside_that_of_the_table():
-    assert "между строками таблицы оно достигает 7,27" in words_of("cycle-petrol")
+def test_the_pressure_after_the_jump_is_told_at_the_dead_centre():
+    assert "наибольшее давление газов 7,27 МПа в ВМТ после скачка" in words_of("cycle-petrol")
     assert "между строками таблицы" not in words_of("yamz-236")
 
 

@@ -167,8 +167,8 @@ def dynamics(chapter: Chapter) -> Markup:
 class GasPeak:
     """The greatest pressure of the gases, printed, with its place in words.
 
-    ``angle`` [deg] is its row in the table, None where it stands in none; ``between`` is the
-    greatest one that stands between the rows, empty without.
+    ``angle`` [deg] is its row in the table, None after a jump in the dead centre; ``between`` is
+    the greatest one where it stands between the rows, empty without.
     """
 
     pressure: Markup
@@ -185,11 +185,11 @@ def greatest_pressure(chapter: Chapter) -> GasPeak:
     names = [name for name in ("cyc_p_z", "gas_max_pressure_mpa") if terms.has(name)]
     most = terms.value(names[0]) if names else 0.0
     angle = float(terms.model.tables["gas"].rows[row])
-    if not isinstance(chapter.input.gas, TableGasSection | RoundedGasSection) and _jump(terms):
-        return GasPeak(with_unit(fixed(most, _DIGITS), unit), "в ВМТ после скачка", None, "")
     in_table, peak = (fixed(float(value), _DIGITS) for value in (column[row], most))
     missed = most > column[row] + 0.5 * 10.0**-_DIGITS
     between = with_unit(peak, unit) if missed else ""
+    if not isinstance(chapter.input.gas, TableGasSection | RoundedGasSection) and _jump(terms):
+        return GasPeak(with_unit(peak, unit), "в ВМТ после скачка", None, between)
     return GasPeak(with_unit(in_table, unit), f"при φ = {fixed(angle, 0)}°", angle, between)
 
 

@@ -6,6 +6,7 @@
 # ./run fuzz DOOR [SECONDS]  random files at the doors (see tests/fuzz)
 # ./run breaks [WORD]  deliberate breaks and whether the tests see them (see tests/breaks)
 # ./run audit         known holes in the pinned packages (asks the index of packages)
+# ./run renew         write anew what is generated: golden books, public names, snapshots, docs
 # ./run docs [ARGS]   renew the generated pages of docs/, check links (--site DIR: HTML)
 
 office_packages="libreoffice-calc-nogui libreoffice-writer-nogui libreoffice-math-nogui python3-uno poppler-utils gnumeric"
@@ -52,6 +53,15 @@ audit() {
     "$venv/bin/python" -c 'import pip_audit' 2>/dev/null || pip_install "pip-audit>=2.10" ||
         die "Не удалось установить pip-audit: проверьте сеть и повторите."
     exec "$venv/bin/python" -m pip_audit --requirement "$root/constraints.txt" --no-deps --disable-pip --strict "$@"
+}
+
+# What follows from the code and is stored: looked at in the difference, never edited.
+renew() {
+    "$venv/bin/python" -m tests.workbook.golden --renew
+    "$venv/bin/python" -m tests.api.public_names >"$root/names.new"
+    mv "$root/names.new" "$root/tests/api/names.txt"
+    "$venv/bin/python" -m pytest -q -p no:cacheprovider tests/inputs --snapshot-update
+    exec "$venv/bin/python" -m tools.manual "$root/docs"
 }
 
 lint() {
@@ -126,6 +136,7 @@ develop() {
     case "$command" in
         test) run_tests "$@" ;;
         audit) audit "$@" ;;
+        renew) renew ;;
         fuzz) need_atheris; exec "$venv/bin/python" -m tests.fuzz "$@" ;;
         docs) exec "$venv/bin/python" -m tools.manual "$root/docs" "$@" ;;
         *) exec "$venv/bin/python" -m "tests.$command" "$@" ;;

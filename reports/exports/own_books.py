@@ -115,8 +115,8 @@ class OwnNumbers:
 
 
 def own_numbers(model: InputFile) -> OwnNumbers:
-    """What the books of a department give for an engine; nothing without them."""
-    if not model.books:
+    """What books give for an engine whose numbers no solver knows; nothing without them."""
+    if not model.books and not contents_of().alone:
         return OwnNumbers({}, {})
     built = kept_model(model)
     run = Evaluation(built)

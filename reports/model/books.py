@@ -59,7 +59,7 @@ _VALUE = re.compile(
 _HEADS = {
     "text": (r"(?P<title>.+)", "text ЗАГОЛОВОК"),
     "chapter": (r".+ [0-9A-F]{6}(?: smooth)?", "chapter НАЗВАНИЕ ЦВЕТ"),
-    "place": (r"(?:before|chain|after) \d+", "place after 150"),
+    "place": (r"(?:before|chain|after) \d+(?: alone)?", "place after 150"),
     "sheet": (r"(?P<title>.+?)(?: in .+ \d+(?: full)?: .+)?",
               "sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"),
     "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?'

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from reports.model.book_text import BookError, Shelf, house_shelf
 
-_PLACE = re.compile(r"^place (before|chain|after) (\d+)$", re.MULTILINE)
+_PLACE = re.compile(r"^place (before|chain|after) (\d+)( alone)?$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)
 _SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+)( full)?: (.+)$", re.MULTILINE)
 MOST_TITLE = 28  # of a sheet: the number of a regime may follow
@@ -32,12 +32,14 @@ class SheetChapter:
 class Contents:
     """Books of each part of the model and chapters of the workbook, in order.
 
-    ``beyond_course`` are the sheets that only the full workbook has.
+    ``beyond_course`` are the sheets that only the full workbook has, ``alone`` the books whose
+    numbers no solver gives: those of their formulas are the results.
     """
 
     parts: dict[str, tuple[str, ...]]
     chapters: tuple[SheetChapter, ...]
     beyond_course: frozenset[str] = frozenset()
+    alone: frozenset[str] = frozenset()
 
 
 @lru_cache(maxsize=8)
@@ -45,12 +47,12 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
     """Contents of all books of a shelf, those of the house if none is given."""
     texts = dict((shelf or house_shelf()).texts())
     places = [
-        (part, int(order), name)
+        (part, int(order), name, bool(alone))
         for name, text in texts.items()
-        for part, order in _PLACE.findall(text)
+        for part, order, alone in _PLACE.findall(text)
     ]
     parts: dict[str, list[str]] = {"before": [], "chain": [], "after": []}
-    for part, _, name in sorted(places):
+    for part, _, name, _ in sorted(places):
         parts[part].append(name)
     whole = "\n".join(texts.values())
     sheets: dict[str, list[tuple[int, str, str]]] = {}
@@ -68,6 +70,7 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
             for title, colour, smooth in _CHAPTER.findall(whole)
         ),
         frozenset(beyond_course),
+        frozenset(name for _, _, name, alone in places if alone),
     )
 
 

@@ -25,6 +25,7 @@ from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
 from reports.model.book_text import BookLine, BookPlaces, shelf_of
 from reports.model.books import read_book
+from reports.model.contents import contents_of
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
 from reports.tables.cycle_members import ranges_of, section_of, sizes_are_found
@@ -215,11 +216,13 @@ def book_part(
 
 def books(scope: Scope, names: Iterable[str]) -> Part:
     """Blocks and charts of books of the house, one after another."""
-    names, theirs = tuple(names), shelf_of(scope.input.books).names
+    shelf = shelf_of(scope.input.books)
+    names, theirs = tuple(names), shelf.names
+    alone = {*theirs, *contents_of(shelf).alone}
     parts = [book_part(name, scope) for name in names]
     nodes = {name: frozenset(key for block in part.blocks for key, _ in nodes_in(block))
              for name, part in zip(names, parts, strict=True)
-             if name in theirs}  # fmt: skip
+             if name in alone}  # fmt: skip
     return Part(
         tuple(block for part in parts for block in part.blocks),
         tuple(chart for part in parts for chart in part.charts),

@@ -1,9 +1,12 @@
-"""The example of ``docs/new-table.md``: run, recalculated, issued and graded."""
+"""The example of ``docs/new-table.md``: run, recalculated, issued and graded; landed on a copy."""
 
 from __future__ import annotations
 
 import io
+import os
 import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -88,3 +91,39 @@ def test_the_table_is_graded_by_its_name_in_the_rubric(example, tmp_path):
     typed = verdict_of({"tilting.Mopr_side_Nm": [1.0] * 25})
     assert typed["tilting.Mopr_side_Nm"] == "wrong"
     assert typed["tilting.Mopr_gap_Nm"] == "carried"
+
+
+ROOMS = "tests/tables/test_two_statements.py tests/model/test_books.py tests/model/test_language.py"
+
+
+@pytest.fixture(scope="module")
+def landed(tmp_path_factory):
+    """A copy of the tree with the page's book in it, and nothing else."""
+    copy = tmp_path_factory.mktemp("tree")
+    for room in ("kshm", "reports", "templates", "samples", "tests", "tools", "docs"):
+        shutil.copytree(ROOT / room, copy / room, symlinks=True)
+    shutil.copy2(ROOT / "pyproject.toml", copy)
+    (written,) = blocks(PAGE, "book")
+    (copy / "templates" / "tables" / "tilting.book").write_text(written, encoding="utf-8")
+    return copy
+
+
+def run(copy: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    away = {"PYTHONPATH": str(copy), "PYTHONSAFEPATH": "1"}
+    return subprocess.run([sys.executable, *words], cwd=copy, env=os.environ | away,
+                          capture_output=True, text=True, check=False)  # fmt: skip
+
+
+@pytest.mark.slow
+def test_the_book_alone_lands(landed):
+    """Tests of the rooms that take the books as they are stay green."""
+    ended = run(landed, "-m", "pytest", "-q", "-n0", "-p", "no:cacheprovider", *ROOMS.split())
+    assert ended.returncode == 0, ended.stdout[-3000:]
+
+
+def test_its_numbers_are_exported(landed, tmp_path):
+    sample = str(landed / "samples" / "gots-diesel.toml")
+    ended = run(landed, "-m", "reports", "solve", sample, "--csv", str(tmp_path / "csv"))
+    assert ended.returncode == 0, ended.stderr
+    lines = (tmp_path / "csv" / "tilting.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].split(",")[:2] == ["phi_deg", "Mopr_torque_Nm"] and len(lines) == 74

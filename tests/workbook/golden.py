@@ -14,6 +14,7 @@ import difflib
 import hashlib
 import io
 import lzma
+import posixpath
 import re
 import sys
 import zipfile
@@ -46,6 +47,7 @@ BY_DIGEST = {"xl/theme/theme1.xml"}  # the writer's own, long and constant
 
 _CELL = re.compile(r"(?<![A-Za-z0-9_.])(\$?[A-Z]{1,3})(\$?)(\d+)(?![\d(A-Za-z_.])")
 _HEADING = "## "
+_TYPES = "[Content_Types].xml"
 _LIMIT, _PARTS = 40, 12  # lines of a difference and parts that are shown
 
 
@@ -56,14 +58,65 @@ def book(name: str) -> bytes:
 
 
 def describe(data: bytes) -> dict[str, list[str]]:
-    """Part with the title of its sheet → its lines."""
+    """Part, by the title of its sheet and its kind → its lines."""
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        titles = {part: f"{part} «{title}»" for title, part in sheet_parts(archive).items()}
+        names = _names(archive)
         return {
-            titles.get(part, part): lines_of(part, archive.read(part))
+            names.get(part, part): _links(archive.read(part), part, names)
+            if part.endswith((".rels", _TYPES)) else lines_of(part, archive.read(part))
             for part in sorted(archive.namelist(), key=_natural)
             if part not in IGNORED_PARTS
-        }
+        }  # fmt: skip
+
+
+def _names(archive: zipfile.ZipFile) -> dict[str, str]:
+    """Part → sheet title and kind: a sheet more does not rename those behind it."""
+    names: dict[str, str] = {}
+
+    def name(part: str, whole: str) -> None:
+        if part in names or part not in archive.NameToInfo:
+            return
+        names[part] = whole
+        rels = _rels_of(part)
+        if rels in archive.NameToInfo:
+            names[rels] = f"{whole} rels"
+            kinds: Counter[str] = Counter()
+            for target in _targets(archive.read(rels), part):
+                kind = posixpath.basename(posixpath.dirname(target))
+                kinds[kind] += 1
+                name(target, f"{whole} {kind} {kinds[kind]}")
+
+    for title, part in sheet_parts(archive).items():
+        name(part, f"«{title}»")
+    return names
+
+
+def _rels_of(part: str) -> str:
+    folder, file = posixpath.split(part)
+    return f"{folder}/_rels/{file}.rels"
+
+
+def _targets(rels: bytes, part: str) -> Iterator[str]:
+    """Parts that the relations of a part name, in their order."""
+    for relation in etree.fromstring(rels):
+        if relation.get("TargetMode") != "External":
+            yield _resolved(relation.get("Target"), posixpath.dirname(part))
+
+
+def _resolved(target: str, folder: str) -> str:
+    return posixpath.normpath(posixpath.join("/", folder, target)).removeprefix("/")
+
+
+def _links(content: bytes, part: str, names: dict[str, str]) -> list[str]:
+    """Relations or types of parts, a line each, parts by their names."""
+    folder = posixpath.dirname(posixpath.dirname(part))
+    lines = []
+    for node in etree.fromstring(content):
+        target = node.get("Target") or node.get("PartName") or node.get("Extension")
+        where = _resolved(target, folder) if node.get("TargetMode") != "External" else target
+        kind = node.get("Type") or node.get("ContentType")
+        lines.append(f"{names.get(where, where)} {posixpath.basename(kind)}")
+    return sorted(lines)
 
 
 def lines_of(part: str, content: bytes) -> list[str]:

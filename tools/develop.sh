@@ -60,8 +60,8 @@ renew() {
     "$venv/bin/python" -m tests.workbook.golden --renew
     "$venv/bin/python" -m tests.api.public_names >"$root/names.new"
     mv "$root/names.new" "$root/tests/api/names.txt"
-    "$venv/bin/python" -m pytest -q -p no:cacheprovider tests/inputs --snapshot-update
-    exec "$venv/bin/python" -m tools.manual "$root/docs"
+    "$venv/bin/python" -m tools.manual "$root/docs"
+    exec "$venv/bin/python" -m pytest -q -p no:cacheprovider tests/inputs --snapshot-update
 }
 
 lint() {

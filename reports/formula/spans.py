@@ -30,6 +30,7 @@ class Interval:
 
 Spans = tuple[Interval, ...]
 _ALL = Interval(-math.inf, True, math.inf, False)
+_KEPT_DIGITS = 6
 _MIRRORED = {ast.Lt: ast.Gt, ast.LtE: ast.GtE, ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 
 
@@ -104,6 +105,11 @@ def _solved(node: ast.expr, spans: Spans, value: str, resolve: Resolver) -> Span
         case ast.Call(func=ast.Name(id="abs"), args=[inner]):
             positive = _common(spans, (Interval(0.0, False, math.inf, False),))
             return _solved(inner, _joined([*positive, *_scaled(positive, -1.0)]), value, resolve)
+        # So many digits are kept that rounding drops the noise of arithmetic alone.
+        case ast.Call(func=ast.Name(id="round"), args=[inner, ast.Constant(value=int(digits))]) if (
+            digits >= _KEPT_DIGITS
+        ):
+            return _solved(inner, spans, value, resolve)
         case ast.BinOp(left=left, op=op, right=right):
             first = _names(left, value)
             inner, number = (left, right) if first else (right, left)

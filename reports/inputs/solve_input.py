@@ -268,7 +268,7 @@ def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
     return bool(taken - sums.min() > 1e-6 * sums.mean())
 
 
-_USED = re.compile(r"M_(mean|max|min)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
+_USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
 
 
 def grid_remark(model: InputFile) -> str:

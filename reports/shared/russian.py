@@ -135,6 +135,8 @@ def joined(items: Sequence[object], last_by: str = " и ") -> str:
 
 def joined_phrases(items: Sequence[str]) -> str:
     """Phrases as a sentence lists them, some of which have an «и» or a comma of their own."""
+    if not items:
+        return ""
     if " и " in items[-1]:
         return joined(items, ", а также ")
     # A turn of speech has a comma at its end.

@@ -152,9 +152,9 @@ def _scaled(text: str, term: Term) -> str:
     return text + power if term.times == 1 else f"{number(term.times)}*{text}{power}"
 
 
-GOOD, BAD = "все выполнены", "не все, см. «Проверки»"
-UNUSUAL = "есть необычное, см. «Проверки»"
-BEYOND, UNKNOWN = "вне пределов, см. «Проверки»", "не посчитаны, см. «Проверки»"
+GOOD, _WHERE = "все выполнены", ", см. «Проверки»"
+_BAD, _UNUSUAL, _OUTSIDE, _BLANK = "не все", "есть необычное", "вне пределов", "не посчитаны"
+BAD, UNUSUAL, BEYOND, UNKNOWN = (f"{words}{_WHERE}" for words in (_BAD, _UNUSUAL, _OUTSIDE, _BLANK))
 RESHAPED = "структура изменена: выполните build"
 STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
 ODD, _UNKNOWN = "необычно", "—"
@@ -230,10 +230,10 @@ def _gravest(row: int, first: int, last: int) -> str:
     """The gravest of the counts below a row and of the verdicts on lists."""
     letter, value = get_column_letter(UNIT_COLUMN), get_column_letter(VALUE_COLUMN)
     lists = f"{letter}{first}:{letter}{last}"
-    return (
-        f'=IF({value}{row + 2},"{UNKNOWN}",IF({value}{row + 1},"{BEYOND}",'
-        f'IF(COUNTIF({lists},"{NO}"),"{BAD}",IF(COUNTIF({lists},"{ODD}"),"{UNUSUAL}","{GOOD}"))))'
-    )
+    wrong, odd = (f'COUNTIF({lists},"{words}")' for words in (NO, ODD))
+    outside, blank = f"{value}{row + 1}", f"{value}{row + 2}"
+    worst = f'IF({blank},"{_BLANK}",IF({outside},"{_OUTSIDE}",IF({wrong},"{_BAD}","{_UNUSUAL}")))'
+    return f'=IF({blank}+{outside}+{wrong}+{odd}=0,"{GOOD}",{worst}&"{_WHERE}")'
 
 
 def _of_list(sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter) -> str:

@@ -139,7 +139,7 @@ def test_the_amplitude_of_a_resonance_follows_from_its_substitution():
 
 def test_symbols_of_the_train_and_its_stress_are_told():
     text = text_of(engine(report__detail="course", torsion__stress_allowed_mpa=30.0))
-    for symbol in ("Jk — момент инерции", "ck — жёсткость", "Wp — его полярный", "bk — сопротивл",
+    for symbol in ("Jk — момент инерции", "ck — жёсткость", "Wp — полярный", "bk — сопротивл",
                    "Mν — амплитуда момента"):  # fmt: skip
         assert symbol in text, symbol
     assert "ωГ2" not in text and re.search(r"τ1,1 = [\d,]+ МПа", text)

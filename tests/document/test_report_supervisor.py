@@ -55,7 +55,7 @@ def words_of(source, detail="course"):
          "two-stroke"),
         ("Давление под поршнем", "two-stroke", "gots-diesel"),
         ("Давление окружающей среды", "gots-diesel", "two-stroke"),
-        (", между строками таблицы оно достигает", "two-stroke", "gots-diesel"),
+        ("МПа в ВМТ после скачка", "gots-diesel", "mwm-6"),
         ("эффективная мощность", "gots-diesel", None),
     ],
 )  # fmt: skip

@@ -8,11 +8,12 @@ import pytest
 
 from kshm.nomenclature.digits import Digits
 from reports.document.chapters.chapter import after_noun
-from reports.document.chapters.closing import SOURCES, tolerance
+from reports.document.chapters.closing import SOURCES
 from reports.document.chapters.front import title_page
 from reports.document.page.style import Style, TitlePage
 from reports.document.report import Report
 from reports.document.text.texts import of_digits, of_digits_tex
+from reports.document.text.tolerances import tolerance
 from reports.formula.tex import to_tex, to_tex_numbers
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_remote
@@ -290,7 +291,7 @@ def test_wordings_of_other_engines():
     ],
 )
 def test_a_check_says_what_it_allows(condition, shown):
-    assert tolerance(condition) == shown
+    assert tolerance(condition, "value_x", {}.__getitem__, str) == shown
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "cycle-petrol", "d-240-bearings"])
@@ -369,7 +370,7 @@ def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside
     assert ("(допускается не менее 4,50)" in end) == inside
 
 
-@pytest.mark.parametrize(("allowed", "side"), [(1.1, "не меньше"), (9.0, "меньше")])
+@pytest.mark.parametrize(("allowed", "side"), [(1.0, "не меньше"), (9.0, "меньше")])
 def test_the_least_safety_stands_beside_what_is_allowed(allowed, side):
     model = engine(strength__safety_allowed=allowed, report__chapters=["strength"])
     least, said, of = re.search(

@@ -60,8 +60,8 @@ def test_an_odd_moment_of_inertia_of_the_rod_warns(raw, ratio):
     lines = [problem.line() for problem in load_mapping(raw, source="f.toml").warnings]
     assert [line for line in lines if "m_ш·l²" in line] == [
         "f.toml: masses.rod_inertia_kg_m2: I_ш/(m_ш·l²) = 0,6 необычно; "
-        "обычно от 0,02 до 0,5: проверьте кг·м²"
-    ] * (ratio > 0.5)
+        "обычно от 0,05 до 0,45: проверьте кг·м²"
+    ] * (ratio > 0.45)
 
 
 def test_four_regimes_are_read_and_five_are_not(raw):

@@ -313,6 +313,8 @@ def build(
         for line in built.failed:
             click.echo(f"Внимание: {line}", err=True)
             code = max(code, LOOK)
+        for line in built.weak:
+            click.echo(line, err=True)
         if built.missing is not None:
             for line in built.missing.lines():
                 click.echo(line, err=True)

@@ -42,11 +42,12 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Built:
-    """Written files, skipped ones with reasons, failed checks."""
+    """Written files, skipped ones with reasons, failed checks, values beyond what is allowed."""
 
     files: tuple[Path, ...]
     missing: SystemPartMissing | None = None
     failed: tuple[str, ...] = ()
+    weak: tuple[str, ...] = ()
 
 
 def load_input(path: Path) -> Loaded:
@@ -113,7 +114,7 @@ def build(
     from reports.inputs.solve_input import solution_remarks
     from reports.model.evaluation import evaluate_model
     from reports.tables.registry import build_model
-    from reports.tables.verdicts import failed_checks
+    from reports.tables.verdicts import failed_checks, weak_values
 
     needs(kinds)
     make_dir(folder)
@@ -147,7 +148,7 @@ def build(
         from reports.document.report import remarks_on
 
         failed += remarks_on(loaded.model, path.parent, style)
-    return Built(tuple(making.files), missing, failed)
+    return Built(tuple(making.files), missing, failed, weak_values(model, values))
 
 
 def needs(kinds: Sequence[Kind]) -> None:
@@ -265,6 +266,7 @@ class Delivery:
     files: list[tuple[str, bytes]]
     missing: tuple[str, str, str] | None = None
     failed: tuple[str, ...] = ()
+    weak: tuple[str, ...] = ()
 
 
 def build_each(

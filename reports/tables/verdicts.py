@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import NO, YES, Block, Held, Model, Scalar, ScalarTable, scalars_of
 from reports.model.evaluation import Values
-from reports.shared.russian import fixed
+from reports.shared.russian import fixed, uncapital
 from reports.shared.standing import Standing
 
 _PREFIX, _ALLOWED = "check_", "allowed_"
@@ -96,8 +96,22 @@ def failed_checks(model: Model, values: Values, *, department: bool = False) -> 
     return [
         Failed(each.name, each.title, check_value(each.value), reasons.get(each.name, ""))
         for each in outcomes(model, values.scalars)
-        if each.standing is not Standing.INSIDE and each.key in names
+        if each.standing is not Standing.INSIDE
+        and each.key in names
+        and (each.held is Held.CHECK or each.key in model.department)
     ]
+
+
+def weak_values(model: Model, values: Values) -> tuple[str, ...]:
+    """A line for each list whose values are not what is allowed; own books have checks of it."""
+    weak: dict[str, list[str]] = {}
+    for each in outcomes(model, values.scalars):
+        beyond = each.held is Held.ALLOWED and each.standing is not Standing.INSIDE
+        if beyond and each.key not in model.department:
+            words = f"{uncapital(each.title)} {check_value(each.value)}"
+            weak.setdefault(each.block, []).append(words)
+    titles = {block.id: block.title for block in model.blocks if isinstance(block, ScalarTable)}
+    return tuple(f"{titles[name]}: нет — {'; '.join(words)}" for name, words in weak.items())
 
 
 def accepted_checks(model: InputFile, blocks: Sequence[Block]) -> tuple[str, ...]:

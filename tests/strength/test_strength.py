@@ -20,7 +20,7 @@ from reports.model.blocks import Held, Model
 from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
 from reports.tables.strength_members import SAFETIES, UsualStress, usual_sizes, usual_stresses
-from reports.tables.verdicts import failed_checks
+from reports.tables.verdicts import failed_checks, weak_values
 from reports.workbook.layout import Layout
 from reports.workbook.sheets import BlockWriter
 from reports.workbook.verdict import judged_lists
@@ -255,6 +255,8 @@ def test_a_weak_part_or_a_large_stress_is_a_failed_check(
     assert not {each.key for each in checked(terms) if "range_" in each.key}
     bad = {check.key for check in failed_checks(model, values)}
     assert ("st_least" in bad, "st_usual" in bad) == (weak, above)
+    assert not any(key.startswith("range_") for key in bad)  # each is counted by st_usual
+    assert any("Запас прочности" in line for line in weak_values(model, values)) == weak
     least = min(terms.value(key) for key in SAFETIES)
     assert terms.value("value_st_least") == pytest.approx(
         least / model.input.strength.safety_allowed

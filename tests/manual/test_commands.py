@@ -50,7 +50,8 @@ exec "{python}" -m reports "$@"
 # where they are made.
 SAME = re.compile(r"^./run build (samples/[\w-]+\.toml) -o out$")
 # Without --all what a command makes is smaller: that it is whole is tested where it is made.
-SPARED = () if ALL else ("./run docs",)  # the same with a folder for the site is run
+# What renews the checkout itself; the pages with a folder for the site are run.
+SPARED = ("./run renew", *(() if ALL else ("./run docs",)))
 LIGHTER = {} if ALL else {"./run validate -o validation": " --only html"}
 MOST = 3  # students of a class
 EDITED = {"masses_reciprocating_kg": 1.9, "report_detail": "short"}

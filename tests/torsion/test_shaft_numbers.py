@@ -105,7 +105,7 @@ def test_the_web_of_the_strength_is_that_of_the_throw(name: str) -> None:
     assert not webs_remark(model)  # a web is without a thickness of its own
     raw["crankshaft"]["arms"][1]["left_web_mm"] = 21.0
     remark = webs_remark(load_mapping(raw, source="f").model)
-    assert remark.startswith("Внимание: strength.web_thickness_mm: 17")
+    assert remark.startswith("strength.web_thickness_mm: 17")
 
 
 @pytest.mark.parametrize("name", [*NAMES, "articulated"])

@@ -7,7 +7,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kshm import defaults
+from kshm.defaults import (
+    FILLET_BENDING,
+    FILLET_TORSION,
+    HOLE_BENDING,
+    HOLE_TORSION,
+    MEAN_BENDING,
+    MEAN_TORSION,
+    SENSITIVITY,
+    SIZE_FACTOR,
+)
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 # Width over diameter beyond which the closed forms of the film have no table behind them.
@@ -49,14 +58,14 @@ class Strength:
     tensile: float = 980e6
     bending: float = 420e6
     torsion: float = 240e6
-    mean_bending: float = defaults.MEAN_BENDING
-    mean_torsion: float = defaults.MEAN_TORSION
-    fillet_bending: float = defaults.FILLET_BENDING
-    fillet_torsion: float = defaults.FILLET_TORSION
-    hole_bending: float = defaults.HOLE_BENDING
-    hole_torsion: float = defaults.HOLE_TORSION
-    sensitivity: float = defaults.SENSITIVITY
-    size: float = defaults.SIZE_FACTOR
+    mean_bending: float = MEAN_BENDING
+    mean_torsion: float = MEAN_TORSION
+    fillet_bending: float = FILLET_BENDING
+    fillet_torsion: float = FILLET_TORSION
+    hole_bending: float = HOLE_BENDING
+    hole_torsion: float = HOLE_TORSION
+    sensitivity: float = SENSITIVITY
+    size: float = SIZE_FACTOR
     surface: float = 1.0
     fillet: float | None = None
     making: float = 1.05

@@ -7,7 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
-from kshm import defaults
+from kshm.defaults import (
+    COUNTERWEIGHT_SHARE,
+    IRREGULARITY,
+    SMALL_END_SHARE,
+    SUPPRESSION,
+    WEB_THICKNESS_SHARE,
+    WEB_WIDTH_SHARE,
+)
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
@@ -87,16 +94,16 @@ class Geometry:
 class Balancing:
     """Choices of balancing and flywheel; SI units."""
 
-    counterweight_share: float = defaults.COUNTERWEIGHT_SHARE
+    counterweight_share: float = COUNTERWEIGHT_SHARE
     first_shafts_share: float = 0.0
     second_shafts_share: float = 1.0
-    suppression: float = defaults.SUPPRESSION
+    suppression: float = SUPPRESSION
     shaft_radius: float = 0.02
-    irregularity: float = defaults.IRREGULARITY
-    rod_small_end_share: float = defaults.SMALL_END_SHARE
+    irregularity: float = IRREGULARITY
+    rod_small_end_share: float = SMALL_END_SHARE
     rod_mass_factor: float = 1.0
-    web_width_share: float = defaults.WEB_WIDTH_SHARE
-    web_thickness_share: float = defaults.WEB_THICKNESS_SHARE
+    web_width_share: float = WEB_WIDTH_SHARE
+    web_thickness_share: float = WEB_THICKNESS_SHARE
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm import defaults
+from kshm.defaults import PART_SHARES
 from kshm.engine.strength import PartStrength
 from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
@@ -43,7 +43,7 @@ BOLTS = {"each": "на каждый болт", "all": "на все болты в
 
 def _size(key: str, symbol: str) -> float | None:
     """A size of a part; left out it is its usual share."""
-    assert key in defaults.PART_SHARES
+    assert key in PART_SHARES
     title = title_of(f"st_{key}_mm")
     return number(title, symbol, MM, 0.05, 3000, None)  # type: ignore[no-any-return]
 

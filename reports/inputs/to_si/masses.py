@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm import defaults
+from kshm.defaults import SMALL_END_SHARE
 from kshm.engine.engine import Geometry
 from kshm.engine.masses import DirectMasses, Estimate, Masses, RodMasses, Swinging, Weighing
 from kshm.mechanics.masses import (
@@ -74,7 +74,7 @@ def rod_length_mm(geometry: GeometrySection) -> float:
 
 
 PIN_SHARE = Estimate(fuel="diesel").pin_share
-ROD_SHARE = defaults.SMALL_END_SHARE  # as in section 2.9
+ROD_SHARE = SMALL_END_SHARE  # as in section 2.9
 
 
 def to_masses(given: MassesSection, geometry: Geometry) -> Masses:

@@ -16,6 +16,9 @@ from kshm.mechanics import forces, gas, journals, kinematics, wear
 from kshm.mechanics.articulated import Hung, hang
 from kshm.mechanics.journals import pin_directions
 
+_CHUNK_VALUES = 2**17  # cylinders × angles of the engines in a chunk
+KEPT_BYTES = 24 * 2**20  # above 32 MB the C library does not learn
+
 
 @dataclass(frozen=True, slots=True)
 class ChainArrays:
@@ -134,10 +137,6 @@ def throw_forces(batch: Batch, K: Array, T: Array, unit: Array) -> ThrowForces:
     up = (along + throws.web_mass.sum(axis=-1))[..., None] * centrifugal - K
     side = T + ahead[..., None] * centrifugal
     return ThrowForces(K, T, np.sqrt(up**2 + side**2))
-
-
-_CHUNK_VALUES = 2**17  # cylinders × angles of the engines in a chunk
-KEPT_BYTES = 24 * 2**20  # above 32 MB the C library does not learn
 
 
 def solve_batch(engines: Sequence[Engine]) -> ChainArrays:

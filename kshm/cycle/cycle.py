@@ -43,6 +43,9 @@ from kshm.cycle.speed_characteristic import Leiderman, SpeedPoint, speed_points
 HOT = 2800.0  # °C, end of the heat capacity formulas
 TOO_HOT = 3500.0  # K
 RESIDUAL_TOLERANCE = 0.05
+Rounding = Literal["nearest", "up"]
+# S enters p_e only through c_m^1·S^(−1/3): the passes contract by b c_m/(3 p_e)
+STROKE_PASSES = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,12 +143,6 @@ def _turbo(turbo: Turbo | None) -> tuple[Remark, ...]:
         "balance": turbo.c2_balance,
     }
     return (Remark("turbine_too_weak", "exhaust_factor", numbers),)
-
-
-Rounding = Literal["nearest", "up"]
-
-# S enters p_e only through c_m^1·S^(−1/3): the passes contract by b c_m/(3 p_e)
-STROKE_PASSES = 400
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,16 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+OXYGEN_SHARE = 0.208
+AIR_MOLAR_MASS = 28.96  # kg/kmol
+# Heat left in CO and H2 per kmol of missing air [J/kmol]
+INCOMPLETE_HEAT = 119.95e6
+R_GAS = 8.315  # kJ/(kmol·K), the constant of the method
+ZERO_C = 273.0  # K, the method's 0 °C: 8.315·273 = 2270
+UPPER_START = 1500.0  # °C
+BLEND = 100.0  # K
+TEMPERATURE_PASSES = 6
+
 
 @dataclass(frozen=True, slots=True)
 class Remark:
@@ -40,12 +50,6 @@ class CycleError(ValueError):
         shown = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
         super().__init__(f"{field}: {key}" + (f" ({shown})" if shown else ""))
         self.remark = Remark(key, field, numbers)
-
-
-OXYGEN_SHARE = 0.208
-AIR_MOLAR_MASS = 28.96  # kg/kmol
-# Heat left in CO and H2 per kmol of missing air [J/kmol]
-INCOMPLETE_HEAT = 119.95e6
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,13 +188,6 @@ def burn(fuel: Fuel, alpha: float, *, external: bool, h2_co: float = 0.5) -> Mix
         n2=(1 - OXYGEN_SHARE) * air,
         heat_loss=INCOMPLETE_HEAT * max(1 - alpha, 0.0) * air_0,
     )
-
-
-R_GAS = 8.315  # kJ/(kmol·K), the constant of the method
-ZERO_C = 273.0  # K, the method's 0 °C: 8.315·273 = 2270
-UPPER_START = 1500.0  # °C
-BLEND = 100.0  # K
-TEMPERATURE_PASSES = 6
 
 
 @dataclass(frozen=True, slots=True)

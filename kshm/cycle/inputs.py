@@ -17,6 +17,65 @@ from typing import Literal
 from kshm.cycle.fuel import CycleError, Fuel, check_fuel
 
 Kind = Literal["diesel", "petrol"]
+_RPM = math.pi / 30
+# Lowest and highest value of an input in SI units; the file's door takes its limits from here.
+LIMITS: dict[str, tuple[float, float]] = {
+    "omega": (50 * _RPM, 20000 * _RPM),
+    "cylinders": (1, 24),
+    "charge_heating": (-60, 120),
+    "t_residual": (450, 1500),
+    "intake_factor": (0.5, 1.1),
+    "exhaust_factor": (0.5, 2.0),
+    "xi_z": (0.0, 1.0),
+    "xi_b": (0.3, 1.0),
+    "fullness": (0.8, 1.0),
+    "p_ambient": (0.03e6, 0.2e6),
+    "t_ambient": (220, 340),
+    "recharge": (0.8, 1.3),
+    "scavenging": (0.0, 1.0),
+    "h2_co": (0.3, 0.6),
+    "lam": (0.1, 0.6),
+    "bore": (0.02, 1.2),
+    "stroke": (0.02, 3.5),
+    "p_max": (1e6, 40e6),
+    "boost.pressure_ratio": (1.0, 6.0),
+    "boost.compressor_efficiency": (0.3, 0.95),
+    "boost.turbine_efficiency": (0.3, 0.95),
+    "boost.cooler_pressure_loss": (0.0, 0.1e6),
+    "boost.cooler_temperature_drop": (0.0, 250),
+    "boost.outlet_pressure_ratio": (1.0, 1.5),
+    "boost.exhaust_cp": (1.0e3, 1.4e3),
+    "mechanical": (0.3, 1.0),
+    "mechanical.a": (0.0, 0.4e6),
+    "mechanical.b": (0.0, 0.04e6),
+    "power": (0.5e3, 50e6),
+    "stroke_bore": (0.5, 2.5),
+    "step": (1e-4, 0.02),
+}
+_KIND_LIMITS: dict[Kind, dict[str, tuple[float, float]]] = {
+    "diesel": {"compression_ratio": (10, 26), "excess_air": (1.0, 8.0)},
+    "petrol": {"compression_ratio": (4, 16), "excess_air": (0.6, 1.6)},
+}
+_GAS = 45.0  # molar mass of propane and lighter [kg/kmol]: gases burn where vapours do not
+_LEAN_GAS = {"excess_air": (0.6, 2.5)}
+# Why an input may not leave its range, where it is more than a number out of hand
+_REASONS = {
+    ("excess_air", "diesel", True): "diesel_smokes",
+    ("compression_ratio", "petrol", False): "petrol_knocks",
+}
+Source = Literal["memory", "web"]
+Group = Literal["petrol", "diesel_na", "diesel_turbo"]
+# Boosted petrol has no column of its own: what boost changes is left out for it
+_BOOST_CHANGES = {
+    "charge.gamma",
+    "charge.t_a",
+    "charge.eta_v",
+    "compression.p_c",
+    "compression.t_c",
+    "combustion.p_z",
+    "expansion.p_b",
+    "indicated.p_i",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,54 +147,6 @@ class CycleInputs:
         return self.omega * 30 / math.pi
 
 
-_RPM = math.pi / 30
-# Lowest and highest value of an input in SI units; the file's door takes its limits from here.
-LIMITS: dict[str, tuple[float, float]] = {
-    "omega": (50 * _RPM, 20000 * _RPM),
-    "cylinders": (1, 24),
-    "charge_heating": (-60, 120),
-    "t_residual": (450, 1500),
-    "intake_factor": (0.5, 1.1),
-    "exhaust_factor": (0.5, 2.0),
-    "xi_z": (0.0, 1.0),
-    "xi_b": (0.3, 1.0),
-    "fullness": (0.8, 1.0),
-    "p_ambient": (0.03e6, 0.2e6),
-    "t_ambient": (220, 340),
-    "recharge": (0.8, 1.3),
-    "scavenging": (0.0, 1.0),
-    "h2_co": (0.3, 0.6),
-    "lam": (0.1, 0.6),
-    "bore": (0.02, 1.2),
-    "stroke": (0.02, 3.5),
-    "p_max": (1e6, 40e6),
-    "boost.pressure_ratio": (1.0, 6.0),
-    "boost.compressor_efficiency": (0.3, 0.95),
-    "boost.turbine_efficiency": (0.3, 0.95),
-    "boost.cooler_pressure_loss": (0.0, 0.1e6),
-    "boost.cooler_temperature_drop": (0.0, 250),
-    "boost.outlet_pressure_ratio": (1.0, 1.5),
-    "boost.exhaust_cp": (1.0e3, 1.4e3),
-    "mechanical": (0.3, 1.0),
-    "mechanical.a": (0.0, 0.4e6),
-    "mechanical.b": (0.0, 0.04e6),
-    "power": (0.5e3, 50e6),
-    "stroke_bore": (0.5, 2.5),
-    "step": (1e-4, 0.02),
-}
-_KIND_LIMITS: dict[Kind, dict[str, tuple[float, float]]] = {
-    "diesel": {"compression_ratio": (10, 26), "excess_air": (1.0, 8.0)},
-    "petrol": {"compression_ratio": (4, 16), "excess_air": (0.6, 1.6)},
-}
-_GAS = 45.0  # molar mass of propane and lighter [kg/kmol]: gases burn where vapours do not
-_LEAN_GAS = {"excess_air": (0.6, 2.5)}
-# Why an input may not leave its range, where it is more than a number out of hand
-_REASONS = {
-    ("excess_air", "diesel", True): "diesel_smokes",
-    ("compression_ratio", "petrol", False): "petrol_knocks",
-}
-
-
 def check_range(
     field: str, value: float, limits: tuple[float, float] | None = None, kind: str = ""
 ) -> None:
@@ -190,10 +201,6 @@ def _check_parts(owner: str, part: FrictionLaw | Boost) -> None:
         check_range(field, getattr(part, field.partition(".")[2]))
 
 
-Source = Literal["memory", "web"]
-Group = Literal["petrol", "diesel_na", "diesel_turbo"]
-
-
 @dataclass(frozen=True, slots=True)
 class UsualRange:
     """Usual range of a result in the unit of its `ListedNumber`; ends included."""
@@ -245,19 +252,6 @@ RANGES: dict[str, dict[Group, UsualRange]] = {
     "inputs.fullness": _table((0.94, 0.97), (0.92, 0.95), (0.91, 0.96)),
     "effective.eta_m": _table((0.75, 0.92), (0.70, 0.82), (0.75, 0.90)),
     "indicated.p_i": _table((0.6, 1.4), (0.7, 1.1), (0.0, 2.2)),
-}
-
-
-# Boosted petrol has no column of its own: what boost changes is left out for it
-_BOOST_CHANGES = {
-    "charge.gamma",
-    "charge.t_a",
-    "charge.eta_v",
-    "compression.p_c",
-    "compression.t_c",
-    "combustion.p_z",
-    "expansion.p_b",
-    "indicated.p_i",
 }
 
 

@@ -9,6 +9,8 @@ from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, Mixture, Remark
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
 from kshm.cycle.processes import Charge, Combustion, Compression, Expansion
 
+AIR_CP = 1005.0  # J/(kg·K)
+
 
 @dataclass(frozen=True, slots=True)
 class Indicated:
@@ -178,9 +180,6 @@ def effective(
         fuel_flow=fuel_flow,
         air_flow=inputs.excess_air * ratio * fuel_flow,
     )
-
-
-AIR_CP = 1005.0  # J/(kg·K)
 
 
 def exhaust_exponent(combustion: Combustion, expansion: Expansion) -> float:

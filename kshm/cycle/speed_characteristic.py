@@ -13,6 +13,11 @@ import numpy as np
 from kshm.arrays import Array
 from kshm.cycle.fuel import CycleError
 
+_DIESEL_FUEL = (1.55, -1.55, 1.0)
+_PETROL_FUEL = (1.2, -1.2, 1.0)
+# Idle speed as a share of the rated one, used only when it is not given
+IDLE_SHARE = {"petrol": 0.16, "diesel": 0.20}
+
 
 @dataclass(frozen=True, slots=True)
 class Leiderman:
@@ -39,8 +44,6 @@ class Leiderman:
         return self.a + self.b * x - self.c * x * x
 
 
-_DIESEL_FUEL = (1.55, -1.55, 1.0)
-_PETROL_FUEL = (1.2, -1.2, 1.0)
 LEIDERMAN: dict[str, Leiderman] = {
     "petrol": Leiderman(1.0, 1.0, 1.0, _PETROL_FUEL, "memory"),
     "diesel": Leiderman(0.87, 1.13, 1.0, _DIESEL_FUEL, "memory"),
@@ -123,10 +126,6 @@ def curve(
     for array in (omegas, powers, torque, g_e, flow):
         array.setflags(write=False)
     return SpeedCharacteristic(omegas, powers, torque, g_e, flow, law.adaptability, law.x_torque)
-
-
-# Idle speed as a share of the rated one, used only when it is not given
-IDLE_SHARE = {"petrol": 0.16, "diesel": 0.20}
 
 
 def speed_points(

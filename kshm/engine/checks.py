@@ -17,6 +17,8 @@ _SHOWN = 40  # characters of a value that is told
 
 Arguments = ParamSpec("Arguments")
 Made = TypeVar("Made")
+# Annotations of a class or function are texts until they are asked for; always the same.
+_hints = cache(get_type_hints)
 
 
 def refuse(*problems: tuple[bool, str]) -> None:
@@ -86,10 +88,6 @@ def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
         shown = " ".join(repr(value).split())
         shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 1] + "…"
         raise ValueError(f"{name} must be {_words(kind)}, not {shown}")
-
-
-# Annotations of a class or function are texts until they are asked for; always the same.
-_hints = cache(get_type_hints)
 
 
 def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401

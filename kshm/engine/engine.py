@@ -27,6 +27,11 @@ from kshm.nomenclature.quantity import UNITS
 
 Method = Literal["textbook", "exact"]
 _MOST_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
+STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
+MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
+PEAK_PRESSURE = (1.2, 25.0)  # [MPa]
+USUAL_SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
+_RECIPROCATING = (30.0, 2000.0)  # over the piston's area [kg/m²], from models to ships
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,13 +294,6 @@ class Engine:
 
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.10g}°"
-
-
-STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
-MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
-PEAK_PRESSURE = (1.2, 25.0)  # [MPa]
-USUAL_SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
-_RECIPROCATING = (30.0, 2000.0)  # over the piston's area [kg/m²], from models to ships
 
 
 def implausible(engine: Engine) -> Iterator[str]:

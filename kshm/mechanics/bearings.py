@@ -18,6 +18,9 @@ from kshm.arrays import Array
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
 from kshm.nomenclature.quantity import UNITS
 
+HOTTEST = 400.0  # °C, where the search for the balance ends
+_MPA = UNITS["MPa"].si
+
 
 def check_widths(width: Array) -> None:
     """Refuse widths over the diameter b [-] outside Butenschön's tables, any shape.
@@ -167,9 +170,6 @@ def gap(eccentricity: Array, clearance: Array) -> Array:
     return least
 
 
-HOTTEST = 400.0  # °C, where the search for the balance ends
-
-
 @dataclass(frozen=True, slots=True)
 class BearingArrays:
     """Bearings with one clearance each, all of shape (bearings,); SI units.
@@ -280,9 +280,6 @@ def balance(
         warmer = cold + at(middle).heated / 2 > middle
         low, high = np.where(warmer, middle, low), np.where(warmer, high, middle)
     return at(low)
-
-
-_MPA = UNITS["MPa"].si
 
 
 @dataclass(frozen=True, slots=True)

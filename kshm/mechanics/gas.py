@@ -23,6 +23,10 @@ from kshm.mechanics.kinematics import Stroke, engine_stroke
 SLACK = 1e-9
 
 EVERYWHERE: Mask = np.array(True)
+Ratio = Callable[[Array], Array]  # V/V_c at an angle [rad]
+DEGREE = np.pi / 180
+FIRING = 2 * np.pi
+BDC = 3 * np.pi
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,13 +168,6 @@ def _two_stroke(t: _DiagramAngles) -> Array:
         t.compression(t.ratio, begin),
     ]
     return np.select(conditions, values, default=t.rise(angle, begin))
-
-
-Ratio = Callable[[Array], Array]  # V/V_c at an angle [rad]
-
-DEGREE = np.pi / 180
-FIRING = 2 * np.pi
-BDC = 3 * np.pi
 
 
 @dataclass(frozen=True, slots=True)

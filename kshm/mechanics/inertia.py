@@ -26,6 +26,7 @@ from kshm.mechanics import dimensionless
 from kshm.mechanics.webs import web_thickness, web_width
 
 _WEB_ALLOWANCE = 0.01  # m, in the height of the web under (34)
+_TURN = np.linspace(0.0, 2 * np.pi, 720, endpoint=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,9 +135,6 @@ def exact(phi: Array, parts: Parts) -> tuple[Array, Array]:
     rod = parts.rod_mass * centre**2 + parts.rod_inertia * turning**2
     piston = parts.piston_mass * (parts.radius * piston_speed(phi, lam, k)) ** 2
     return rod, piston
-
-
-_TURN = np.linspace(0.0, 2 * np.pi, 720, endpoint=False)
 
 
 def moving_mean(engine: Engine) -> float:

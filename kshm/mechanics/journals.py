@@ -25,6 +25,8 @@ from kshm.engine.crankshaft import Places
 from kshm.engine.engine import Engine
 from kshm.mechanics.kinematics import Position
 
+PLANES = 18  # planes through the pin's axis, every 10°
+
 
 @dataclass(frozen=True, slots=True)
 class ThrowArrays:
@@ -230,9 +232,6 @@ def side_forces_left_of_pin(throws: ThrowArrays, unit: Array) -> Array:
     web = throws.web_mass[..., 0] * np.sin(throws.web_angle[..., 0])
     weight = throws.counterweight_mass[..., 0] * np.sin(throws.counterweight_angle[..., 0])
     return unit * (web + weight) + end_loads(throws, unit)[0].left
-
-
-PLANES = 18  # planes through the pin's axis, every 10°
 
 
 def rod_bearing(inward: Array, ahead: Array, at: Position) -> tuple[Array, Array]:

@@ -20,6 +20,26 @@ from kshm.engine.crankshaft import Throw
 from kshm.engine.engine import Engine
 from kshm.engine.masses import DirectMasses, Estimate, Masses, Swinging, Weighing
 
+GRAVITY = 9.81  # m/s², as the textbook takes it
+Range = tuple[float, float]
+# Table 4 [kg/m²].  The row of the rod has lost its numbers in the text at hand: 100…200 and
+# 250…400 are those of Kolchin and Demidov, whose table the other rows repeat.
+PISTON: dict[tuple[str, str], Range] = {
+    ("aluminium", "petrol"): (80.0, 100.0),
+    ("aluminium", "diesel"): (150.0, 300.0),
+    ("iron", "petrol"): (150.0, 200.0),
+    ("iron", "diesel"): (250.0, 400.0),
+}
+ROD: dict[str, Range] = {"petrol": (100.0, 200.0), "diesel": (250.0, 400.0)}
+THROW: dict[tuple[str, str], Range] = {
+    ("steel", "petrol"): (150.0, 200.0),
+    ("steel", "diesel"): (200.0, 400.0),
+    ("iron", "petrol"): (100.0, 200.0),
+    ("iron", "diesel"): (150.0, 300.0),
+}
+BORES: dict[str, Range] = {"petrol": (0.06, 0.1), "diesel": (0.08, 0.12)}
+STROKE_BORE: Range = (1.0, 1.2)  # «the smaller values for S/D ≤ 1»
+
 
 def two_mass_rod(rod: float, centre: float, length: float) -> tuple[float, float]:
     """Masses m_1 (piston pin) and m_2 (crankpin) replacing the rod [kg], Gots (20).
@@ -58,29 +78,6 @@ def rotating_mass(engine: Engine) -> float:
     places = engine.arrangement
     rods = sum(places[i].master is None for i in throws_of(places)[0])
     return throw_mass(engine.crankshaft.throws[0]) + rods * big_end
-
-
-GRAVITY = 9.81  # m/s², as the textbook takes it
-
-Range = tuple[float, float]
-
-# Table 4 [kg/m²].  The row of the rod has lost its numbers in the text at hand: 100…200 and
-# 250…400 are those of Kolchin and Demidov, whose table the other rows repeat.
-PISTON: dict[tuple[str, str], Range] = {
-    ("aluminium", "petrol"): (80.0, 100.0),
-    ("aluminium", "diesel"): (150.0, 300.0),
-    ("iron", "petrol"): (150.0, 200.0),
-    ("iron", "diesel"): (250.0, 400.0),
-}
-ROD: dict[str, Range] = {"petrol": (100.0, 200.0), "diesel": (250.0, 400.0)}
-THROW: dict[tuple[str, str], Range] = {
-    ("steel", "petrol"): (150.0, 200.0),
-    ("steel", "diesel"): (200.0, 400.0),
-    ("iron", "petrol"): (100.0, 200.0),
-    ("iron", "diesel"): (150.0, 300.0),
-}
-BORES: dict[str, Range] = {"petrol": (0.06, 0.1), "diesel": (0.08, 0.12)}
-STROKE_BORE: Range = (1.0, 1.2)  # «the smaller values for S/D ≤ 1»
 
 
 @dataclass(frozen=True, slots=True)

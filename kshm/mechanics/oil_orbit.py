@@ -39,6 +39,14 @@ _NOTHING = 1e-300
 _CUBIC = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
 
 _AROUND_CORNER = np.arange(4)[:, None] * (_COLUMNS + 2) + np.arange(4)
+CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
+MOST_CYCLES = 20
+_TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
+_TOLERANCE = 2e-4  # of the gap in a step
+_LEAST_STEP = 1e-9
+_MOST_STEP = 0.2
+_MIDDLE = 1e-9
+_D, _E = 1 / (2 + np.sqrt(2)), 6 + np.sqrt(2)
 
 
 def squeeze_force(eccentricity: Array, direction: Array, width: float) -> Complex:
@@ -219,16 +227,6 @@ def _even(seen: Array, values: Array, mirror: int) -> Array:
     width, chord = np.diff(at), np.diff(y) / np.diff(at)
     slope = middle_slope(chord[:-1], chord[1:], width[:-1], width[1:])
     return Nodes(seen, values, slope).at(np.linspace(0, np.pi, _COLUMNS))
-
-
-CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
-MOST_CYCLES = 20
-_TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
-_TOLERANCE = 2e-4  # of the gap in a step
-_LEAST_STEP = 1e-9
-_MOST_STEP = 0.2
-_MIDDLE = 1e-9
-_D, _E = 1 / (2 + np.sqrt(2)), 6 + np.sqrt(2)
 
 
 class FilmError(ValueError):

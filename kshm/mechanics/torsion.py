@@ -31,6 +31,9 @@ from kshm.mechanics.masses import point_masses
 from kshm.mechanics.webs import web_thickness, web_width
 
 FORMULAS: tuple[StiffnessFormula, ...] = ("wilson", "carter", "zimanenko")
+Complex = NDArray[np.complex128]
+_STILL = 1e-9  # of the greatest angle
+_SAMPLES = 16  # of the highest order over its period, for the sum in time
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,10 +272,6 @@ def modulus(diameter: Array, bore: float) -> Array:
     return np.pi * (diameter**4 - bore**4) / (16 * diameter)
 
 
-Complex = NDArray[np.complex128]
-_STILL = 1e-9  # of the greatest angle
-
-
 @dataclass(frozen=True, slots=True)
 class Modes:
     """Angular frequencies [rad/s], shape (modes,), and forms with θ_1 = 1, (modes, masses).
@@ -374,9 +373,6 @@ def best_tuning(share: float) -> tuple[float, float]:
 def best_viscous(share: float) -> float:
     """Optimum ζ = 1/√(2(1 + μ)(2 + μ)) of a viscous damper over 2 J_d ω_1 [-], from memory."""
     return float(1 / np.sqrt(2 * (1 + share) * (2 + share)))
-
-
-_SAMPLES = 16  # of the highest order over its period, for the sum in time
 
 
 @dataclass(frozen=True, slots=True)

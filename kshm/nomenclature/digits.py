@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 _MOST = 5  # significant digits of a printed value: no drawing and no gauge has more
+UnitRow = tuple[str, str, float]  # key, label, size in SI
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,6 @@ TEXT = Digits(0, "text")
 UNLESS_UNUSED = Digits(0, hides="unused")
 
 Row = tuple[str, str, str, str, int | Digits]  # key, tex, unit, title, digits
-UnitRow = tuple[str, str, float]  # key, label, size in SI
 
 
 def scientific(decimals: int) -> Digits:

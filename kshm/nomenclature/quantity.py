@@ -29,6 +29,13 @@ from kshm.nomenclature.symbols import WORDS, plain_symbol
 
 _SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
             bearings, strength)  # fmt: skip
+_ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
+          "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
+# How what is printed grows with the length of alike engines: of equal stresses and piston speeds.
+_POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2, "m2": 2,
+           "cubic_mm": 3, "quartic_mm": 4, "kg": 3, "kgm": 4, "kgm2": 5, "kg_h": 2, "Nms_rad": 4}  # fmt: skip
+_USUAL_BORES_M = (0.06, 0.2)
+_FIFTHS = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,10 +109,6 @@ def nomenclature() -> tuple[Quantity, ...]:
     return tuple(_ALL.values())
 
 
-_ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
-          "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
-
-
 def roman(number: int) -> str:
     """Roman numeral of a ray, 1 to 18."""
     return _ROMAN[number - 1]
@@ -114,13 +117,6 @@ def roman(number: int) -> str:
 def ray_key(number: int) -> str:
     """Column key of a ray, counted from 1."""
     return f"ray_{roman(number)}_MPa"
-
-
-# How what is printed grows with the length of alike engines: of equal stresses and piston speeds.
-_POWERS = {"dm3": 3, "cm3": 3, "Nm": 3, "J": 3, "kN": 2, "N": 2, "kW": 2, "W": 2, "m2": 2,
-           "cubic_mm": 3, "quartic_mm": 4, "kg": 3, "kgm": 4, "kgm2": 5, "kg_h": 2, "Nms_rad": 4}  # fmt: skip
-_USUAL_BORES_M = (0.06, 0.2)
-_FIFTHS = 5
 
 
 def smallness(bore_m: float) -> int:

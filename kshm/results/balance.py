@@ -18,6 +18,13 @@ from kshm.results.case import Case, has_single_rods
 ORDERS = tuple(range(1, 9))
 # Letter of forces and moments with the unit that ends their keys.
 _KINDS = (("F", "kN"), ("L", "Nm"))
+LAST_ORDER = 8.0
+SECOND = np.array([2.0])
+_NOTHING = 1e-6  # of a vector sum of unit vectors
+# Results for an engine whose torque has a second order.
+_OF_SHAFTS = frozenset(
+    ("n_zone1", "n_zone2", "zone", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts")
+)
 
 
 def balance_results(case: Case) -> Results:
@@ -175,15 +182,6 @@ def _first_order(case: Case) -> Scalars:
             scalars[f"{letter}1_{name}_min"] = shape.smallest
             scalars[f"{letter}1_{name}_deg"] = shape.direction
     return scalars
-
-
-LAST_ORDER = 8.0
-SECOND = np.array([2.0])
-_NOTHING = 1e-6  # of a vector sum of unit vectors
-# Results for an engine whose torque has a second order.
-_OF_SHAFTS = frozenset(
-    ("n_zone1", "n_zone2", "zone", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts")
-)
 
 
 def torque_order_results(case: Case) -> Results:

@@ -43,6 +43,9 @@ _WEAKEST = {
     "safe_n_pin": "safe_pin_n{}",
 }  # fmt: skip
 _LEAST = {"safe_class_Q": "safe_Q_fillet{}", "safe_class_Q_hole": "safe_Q_hole{}"}
+Number = TypeVar("Number", np.float64, np.complex128)
+CLEARANCES = 2  # the least and the largest
+_PLACES = 72  # angles of the oil hole that are tried
 
 
 def safety_results(case: Case, inputs: Bearings) -> Results:
@@ -191,11 +194,6 @@ def _class_rule(
         f"safe_equal_{where}{{}}_MPa": equal,
         f"safe_Q_{where}{{}}": strength / equal,
     }
-
-
-Number = TypeVar("Number", np.float64, np.complex128)
-CLEARANCES = 2  # the least and the largest
-_PLACES = 72  # angles of the oil hole that are tried
 
 
 def bearing_results(case: Case) -> Results:

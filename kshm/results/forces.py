@@ -31,6 +31,7 @@ from kshm.results.case import (
 )
 
 Index = int | slice
+_MPA = UNITS["MPa"].si  # extremes are told apart as the tables show them
 
 
 def force_tables(raw: ChainArrays, at: Index = slice(None)) -> Tables:
@@ -201,9 +202,6 @@ def wear_sums(case: Case) -> Tables:
     sums |= {f"table_14_main_{k + 1}": row for k, row in enumerate(raw.journal_wear[index])}
     angles = ray_angles(raw.batch.rays)
     return {f"{name}_sums": {"ray_deg": angles, "ray_sum": row} for name, row in sums.items()}
-
-
-_MPA = UNITS["MPa"].si  # extremes are told apart as the tables show them
 
 
 def rod_bearing(case: Case) -> Results:

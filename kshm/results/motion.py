@@ -10,6 +10,8 @@ from kshm.nomenclature.quantity import quantity
 from kshm.results.case import Case, first_extreme, grid
 
 UNITS = ("mm", "m_s", "m_s2")  # how the keys of s, v and j end
+SERIES_ORDERS = (1, 2, 4, 6, 8)  # orders summed beside the exact curves
+SHOWN_ORDERS = (1, 2, 4, 6)
 
 
 def motion_tables(case: Case) -> Tables:
@@ -234,10 +236,6 @@ def _extremes(lam: Array) -> Scalars:
         "j_exact_min": value,
         "alpha_j_exact_min_deg": angle,
     }
-
-
-SERIES_ORDERS = (1, 2, 4, 6, 8)  # orders summed beside the exact curves
-SHOWN_ORDERS = (1, 2, 4, 6)
 
 
 def neiman_results(case: Case) -> Results:

@@ -28,6 +28,9 @@ from reports.shared.errors import KshmError
 if TYPE_CHECKING:
     from reports.grading.issuing.issue import Result
 
+_LEFT = "Не выдано"
+_LEAST_CHANGE = 0.005  # points that are printed
+
 
 @click.command(cls=RussianCommand, context_settings=HELP)
 @file_argument("БАЗА")
@@ -72,9 +75,6 @@ def issue(
     for line in _issued_lines(folder, done):
         click.echo(line, err=line.startswith(_LEFT))
     return DONE
-
-
-_LEFT = "Не выдано"
 
 
 def _issued_lines(folder: Path, done: Result) -> list[str]:
@@ -135,9 +135,6 @@ def _tell_effects(effects: Sequence[tuple[str, float | None, float | None]]) -> 
         sign = "+" if change >= 0 else "−"
         click.echo(f"{who}: {first} → {last} ({sign}{short(abs(change), 4)})", err=True)
     click.echo(f"Без изменений: {alike}", err=True)
-
-
-_LEAST_CHANGE = 0.005  # points that are printed
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)

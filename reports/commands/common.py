@@ -19,22 +19,44 @@ DONE, LOOK, BAD, MISSING = 0, 1, 2, 3
 HELP = {"help_option_names": ["-h", "--help"]}
 
 Command = Callable[..., int]
+# `reports.cli` reads it before the commands do.
+verbose_option = click.option(
+    "-v", "--verbose", is_flag=True, expose_value=False, help="Показать подробности ошибки."
+)
+dask_option = click.option(
+    "--dask", metavar="АДРЕС", help="Считать на кластере Dask, tcp://host:8786."
+)
+_USAGE = "Использование: "
+_WORDS = {
+    "[OPTIONS]": "[КЛЮЧИ]",
+    "[COMMAND] [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
+    "Show this message and exit.": "Показать эту справку.",
+    "[required]": "[обязательно]",
+    "[default: ": "[по умолчанию: ",
+}
+_HEADINGS = {
+    "Options": "Ключи",
+    "Commands": "Команды",
+    "Positional arguments": "Аргументы",
+    "Arguments": "Аргументы",
+}
+_ERRORS = (
+    (r"No such command '(.*?)'", "нет команды {}"),
+    (r"Missing command", "не указана команда"),
+    (r"Got unexpected extra arguments? \((.*)\)", "лишний аргумент {}"),
+    (r"Option '(.*?)' requires an argument", "ключу {} нужно значение"),
+    (r"Option '(.*?)' requires (\d+) arguments", "ключу {} нужно значений: {}"),
+    (r"Option '(.*?)' does not take a value", "ключ {} пишется без значения"),
+    (r"Argument '(.*?)' takes (\d+) values", "аргументу {} нужно значений: {}"),
+    (r"'(.*)' is not a valid (?:integer|float|boolean)", "нужно число, а задано «{}»"),
+    (r"(.*) is not in the range (.*)<=x<=(.*)\.", "{} вне пределов от {} до {}"),
+    (r"'(.*?)' is not one of (.*?)\.?$", "«{}»; допустимо: {}"),
+)
 
 
 def file_argument(text: str = "ФАЙЛ") -> Callable[[Command], Command]:
     """The file that a command reads."""
     return click.argument("source", metavar=text, type=click.Path(path_type=Path))
-
-
-# `reports.cli` reads it before the commands do.
-verbose_option = click.option(
-    "-v", "--verbose", is_flag=True, expose_value=False, help="Показать подробности ошибки."
-)
-
-
-dask_option = click.option(
-    "--dask", metavar="АДРЕС", help="Считать на кластере Dask, tcp://host:8786."
-)
 
 
 def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # noqa: ANN401
@@ -126,34 +148,6 @@ def notes_of(loaded: Loaded) -> tuple[str, ...]:
     from reports.tables.left_out import left_out_note
 
     return (left_out_note(loaded.model),)
-
-
-_USAGE = "Использование: "
-_WORDS = {
-    "[OPTIONS]": "[КЛЮЧИ]",
-    "[COMMAND] [ARGS]...": "КОМАНДА [АРГУМЕНТЫ]...",
-    "Show this message and exit.": "Показать эту справку.",
-    "[required]": "[обязательно]",
-    "[default: ": "[по умолчанию: ",
-}
-_HEADINGS = {
-    "Options": "Ключи",
-    "Commands": "Команды",
-    "Positional arguments": "Аргументы",
-    "Arguments": "Аргументы",
-}
-_ERRORS = (
-    (r"No such command '(.*?)'", "нет команды {}"),
-    (r"Missing command", "не указана команда"),
-    (r"Got unexpected extra arguments? \((.*)\)", "лишний аргумент {}"),
-    (r"Option '(.*?)' requires an argument", "ключу {} нужно значение"),
-    (r"Option '(.*?)' requires (\d+) arguments", "ключу {} нужно значений: {}"),
-    (r"Option '(.*?)' does not take a value", "ключ {} пишется без значения"),
-    (r"Argument '(.*?)' takes (\d+) values", "аргументу {} нужно значений: {}"),
-    (r"'(.*)' is not a valid (?:integer|float|boolean)", "нужно число, а задано «{}»"),
-    (r"(.*) is not in the range (.*)<=x<=(.*)\.", "{} вне пределов от {} до {}"),
-    (r"'(.*?)' is not one of (.*?)\.?$", "«{}»; допустимо: {}"),
-)
 
 
 class _Formatter(click.HelpFormatter):

@@ -17,6 +17,7 @@ DASHED: Dash = (5.0, 2.0)
 CENTRE: Dash = (12.0, 2.0, 1.0, 2.0)
 DOTTED: Dash = (1.5, 1.5)
 _NEAR = 1e-6  # mm; what is farther from a text's box surely does not cut it
+SIZE = "size"
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +130,6 @@ class Dimension:
         return min(xs), min(ys), max(xs), max(ys)
 
 
-SIZE = "size"
 Item = Line | Circle | Words | Dimension
 
 

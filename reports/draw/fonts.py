@@ -69,6 +69,8 @@ _FLAT = 12.0  # deg of an arc that one straight stroke stands for
 _SPACE, _ANYWHERE = re.compile("(?<= )"), re.compile(r"(?<= )|(?<=\w\w-)(?=\w\w)")  # ends of lines
 _INDEX = re.compile(r"_([^\W_][\w.]*)")
 _LACKING = 0.75  # em: a letter of a drawing that no face has
+_STROKE_FILES = ("gost-b.lff", "kazakh.lff")
+Strokes = tuple[tuple[tuple[float, float], ...], ...]
 
 
 @functools.cache
@@ -162,10 +164,6 @@ def text_box(text: str) -> tuple[float, float, float]:
     width, height = font.get_width_height()
     unit = 64 * _SCALE
     return width / unit, height / unit, font.get_descent() / unit
-
-
-_STROKE_FILES = ("gost-b.lff", "kazakh.lff")
-Strokes = tuple[tuple[tuple[float, float], ...], ...]
 
 
 @functools.cache

@@ -22,6 +22,9 @@ from reports.draw.canvas import (
 from reports.draw.fonts import width_of
 from reports.shared.russian import fixed
 
+_MOST_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
+_ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
+
 
 def number(value: float) -> str:
     """A size with the digits it was given with, to a hundredth."""
@@ -115,10 +118,6 @@ def chain(
         canvas.dimension((start, y), (end, y), words)
     for x in sorted(set(stations)):
         canvas.line((x, y - 0.5 * letters), (x, y + 3 * letters), layer=SIZES)
-
-
-_MOST_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
-_ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,6 +37,16 @@ from reports.draw.fonts import (
 
 _SVG_GREY = "#9a9a9a"
 PT_PER_MM = 72 / 25.4
+# LibreCAD takes the face that is called as the style, other programs the file of the style.
+STYLE = "lc_opengost-br"
+DIMSTYLE = "GOST_2_307"
+_FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
+_BLACK, _DXF_GREY = 7, 8
+_PLINEGEN = 128  # a pattern runs on over the corners: the pieces of a curve are shorter than it
+# Names that drawing programs know, by the kind of the pattern.
+_KNOWN = {2: "DASHED2", 4: "CENTER2"}
+_SHORT = 3.0  # mm: shorter dashes are dots
+_DIVIDE = 8.0  # mm: the first dash of the fifth pattern
 
 
 def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) -> str:
@@ -163,13 +173,6 @@ def _svg_strokes(item: Words, left: float, high: float) -> str:
     )
 
 
-# LibreCAD takes the face that is called as the style, other programs the file of the style.
-STYLE = "lc_opengost-br"
-DIMSTYLE = "GOST_2_307"
-_FONT = "isocpeur.ttf"  # of AutoCAD and its kin, with Cyrillic
-_BLACK, _DXF_GREY = 7, 8
-
-
 def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
     """The drawing as a DXF file; the same items give the same bytes.
 
@@ -233,9 +236,6 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
-_PLINEGEN = 128  # a pattern runs on over the corners: the pieces of a curve are shorter than it
-
-
 def _dashes(document: object, item: Line) -> dict[str, object]:
     """Attributes of a dashed polyline."""
     if not (item.dash or item.layer.dash):
@@ -277,17 +277,9 @@ def _dxf_text(space: object, item: Words, align: object, looks: dict[str, object
     text.set_placement(item.place, align=align)
 
 
-# Names that drawing programs know, by the kind of the pattern.
-_KNOWN = {2: "DASHED2", 4: "CENTER2"}
-_SHORT = 3.0  # mm: shorter dashes are dots
-
-
 def _type_name(dash: Dash) -> str:
     name = "DOT2" if len(dash) == 2 and dash[0] < _SHORT else _KNOWN[len(dash)]
     return name if max(dash[::2]) != _DIVIDE else "DIVIDE2"
-
-
-_DIVIDE = 8.0  # mm: the first dash of the fifth pattern
 
 
 def _linetype(document: object, dash: Dash) -> str:

@@ -28,6 +28,9 @@ from reports.workbook.course import short_model
 from reports.workbook.write import workbook_bytes
 
 _CHAPTERS = ("own", "checks")  # what a book adds to a report
+# Engines of every kind that a book alone is tried on.
+TRIED = ("gots-diesel", "yamz-236", "two-stroke", "vw-1600", "cycle-petrol", "cycle-turbo-diesel",
+         "mwm-6", "gots-regimes")  # fmt: skip
 
 
 def refuse_unbuilt(model: InputFile, *, whole: bool) -> None:
@@ -113,11 +116,6 @@ def _alone(model: Model) -> Model:
     """The model of a report of little else than own chapters."""
     report = model.input.report.model_copy(update={"chapters": _CHAPTERS})
     return replace(model, input=model.input.model_copy(update={"report": report}))
-
-
-# Engines of every kind that a book alone is tried on.
-TRIED = ("gots-diesel", "yamz-236", "two-stroke", "vw-1600", "cycle-petrol", "cycle-turbo-diesel",
-         "mwm-6", "gots-regimes")  # fmt: skip
 
 
 def check_alone(path: Path) -> Iterator[str]:

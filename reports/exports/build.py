@@ -38,6 +38,8 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
     "docx": (".docx",),
     "sheet": ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf"),
 }
+Input = tuple[Path, Loaded]
+Chapters = Callable[[Path, Loaded], Further]
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,10 +240,6 @@ def remarks_of(loaded: Loaded) -> tuple[str, ...]:
         *(f"Принято: {accepted.line()}" for accepted in loaded.accepted),
         *(f"К сведению: {note}" for note in loaded.notes),
     )
-
-
-Input = tuple[Path, Loaded]
-Chapters = Callable[[Path, Loaded], Further]
 
 
 def _no_chapters(_path: Path, _loaded: Loaded) -> Further:

@@ -10,6 +10,20 @@ from typing import Protocol
 
 from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
 
+_FUNCTIONS = {
+    "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
+    "exp": "EXP", "ln": "LN", "abs": "ABS", "floor": "INT", "mod": "MOD", "min": "MIN",
+    "max": "MAX", "total": "SUM", "rad": "RADIANS", "deg": "DEGREES",
+}  # fmt: skip
+_PRECEDENCE: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Lt: ("<", 1), ast.LtE: ("<=", 1), ast.Gt: (">", 1), ast.GtE: (">=", 1),
+    ast.Eq: ("=", 1), ast.NotEq: ("<>", 1),
+    ast.Add: ("+", 2), ast.Sub: ("-", 2), ast.Mult: ("*", 3), ast.Div: ("/", 3), ast.Pow: ("^", 5),
+}  # fmt: skip
+_ATOM = 9
+_ROWS = re.compile(r"\$(\d+):\$[A-Z]+\$(\d+)$")  # first and last of a range
+_ONE_CELL = re.compile(r"(\$[A-Z]+\$\d+):\1$")
+
 
 class References(Protocol):
     """What the compiler asks of the layout: references as text."""
@@ -43,22 +57,6 @@ class References(Protocol):
 
     def run_wave(self, turn: str, angles: str, order: float | str) -> str:
         """The same for the angles of a run, all of them."""
-
-
-_FUNCTIONS = {
-    "sin": "SIN", "cos": "COS", "tan": "TAN", "asin": "ASIN", "acos": "ACOS", "sqrt": "SQRT",
-    "exp": "EXP", "ln": "LN", "abs": "ABS", "floor": "INT", "mod": "MOD", "min": "MIN",
-    "max": "MAX", "total": "SUM", "rad": "RADIANS", "deg": "DEGREES",
-}  # fmt: skip
-
-_PRECEDENCE: dict[type[ast.AST], tuple[str, int]] = {
-    ast.Lt: ("<", 1), ast.LtE: ("<=", 1), ast.Gt: (">", 1), ast.GtE: (">=", 1),
-    ast.Eq: ("=", 1), ast.NotEq: ("<>", 1),
-    ast.Add: ("+", 2), ast.Sub: ("-", 2), ast.Mult: ("*", 3), ast.Div: ("/", 3), ast.Pow: ("^", 5),
-}  # fmt: skip
-_ATOM = 9
-_ROWS = re.compile(r"\$(\d+):\$[A-Z]+\$(\d+)$")  # first and last of a range
-_ONE_CELL = re.compile(r"(\$[A-Z]+\$\d+):\1$")
 
 
 def number(value: float | str) -> str:

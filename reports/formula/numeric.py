@@ -22,6 +22,18 @@ _FUNCTIONS: dict[str, Callable[..., Value]] = {
     "atan2": np.arctan2, "sqrt": np.sqrt, "exp": np.exp, "ln": np.log, "abs": np.abs,
     "floor": np.floor, "mod": np.mod, "rad": np.radians, "deg": np.degrees,
 }  # fmt: skip
+_JOINS: dict[str, Callable[[Value, Value], Value]] = {
+    "min": np.minimum, "max": np.maximum, "total": np.add,
+}  # fmt: skip
+_OPERATORS: dict[type[ast.AST], Callable[[Value, Value], Value]] = {
+    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
+    ast.Pow: np.power, ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater,
+    ast.GtE: np.greater_equal, ast.Eq: np.equal, ast.NotEq: np.not_equal,
+}  # fmt: skip
+# A part of an expression as a function of what its names are looked up in.
+Compiled = Callable[[Any], Value]
+# How a name is looked up.
+Reading = Callable[[str], Compiled]
 
 
 def _fourier(turn: Callable[[Value], Value]) -> Callable[[Value, Value, Value], Value]:
@@ -82,21 +94,6 @@ _FUNCTIONS |= {"run_sum": lambda run: float(np.sum(run))}
 _FUNCTIONS |= {"following": _following, "previous": _previous, "running_sum": np.cumsum}
 _FUNCTIONS |= {"fourier_cos": _fourier(np.cos), "fourier_sin": _fourier(np.sin)}
 _FUNCTIONS |= {"wave_cos": _wave(np.cos), "wave_sin": _wave(np.sin)}
-
-_JOINS: dict[str, Callable[[Value, Value], Value]] = {
-    "min": np.minimum, "max": np.maximum, "total": np.add,
-}  # fmt: skip
-
-_OPERATORS: dict[type[ast.AST], Callable[[Value, Value], Value]] = {
-    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
-    ast.Pow: np.power, ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater,
-    ast.GtE: np.greater_equal, ast.Eq: np.equal, ast.NotEq: np.not_equal,
-}  # fmt: skip
-
-# A part of an expression as a function of what its names are looked up in.
-Compiled = Callable[[Any], Value]
-# How a name is looked up.
-Reading = Callable[[str], Compiled]
 
 
 def evaluate(text: str, resolve: Resolver) -> Value:

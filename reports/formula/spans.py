@@ -12,6 +12,9 @@ import numpy as np
 from reports.formula.numeric import Resolver, evaluate_tree
 from reports.formula.parse import parse
 
+_KEPT_DIGITS = 6
+_MIRRORED = {ast.Lt: ast.Gt, ast.LtE: ast.GtE, ast.Gt: ast.Lt, ast.GtE: ast.LtE}
+
 
 @dataclass(frozen=True, order=True, slots=True)
 class Interval:
@@ -30,8 +33,6 @@ class Interval:
 
 Spans = tuple[Interval, ...]
 _ALL = Interval(-math.inf, True, math.inf, False)
-_KEPT_DIGITS = 6
-_MIRRORED = {ast.Lt: ast.Gt, ast.LtE: ast.GtE, ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 
 
 def spans_of(condition: str, value: str, resolve: Resolver) -> Spans | None:

@@ -27,6 +27,7 @@ _SUM, _PRODUCT, _POWER, _ATOM = 1, 2, 3, 4
 # Constants below this are tolerances of comparisons; a printed formula leaves them out.
 _TOLERANCE = 1e-5
 _WIDEST = 40  # signs of a numerator that still fits a line
+_INVERSE = {"asin", "acos", "atan", "atan2"}
 
 
 class Raw(str):
@@ -142,9 +143,6 @@ def _is_angle(node: ast.expr) -> bool:
     """Whether an inverse function gives the value, which is an angle of itself."""
     calls = (each.func for each in ast.walk(node) if isinstance(each, ast.Call))
     return any(isinstance(f, ast.Name) and f.id in _INVERSE for f in calls)
-
-
-_INVERSE = {"asin", "acos", "atan", "atan2"}
 
 
 def _is_long(node: ast.expr, text: str) -> bool:

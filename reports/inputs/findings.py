@@ -16,6 +16,12 @@ from reports.inputs.sections.report import CHECKS, AcceptedEntry
 from reports.shared.errors import Problem
 from reports.shared.font_coverage import REPLACEMENT, unprintable
 
+Keys = frozenset[str]
+Entry = TypeVar("Entry", bound=tuple[Any, ...])  # begins with a path
+_REGIME = re.compile(r"(?P<check>\w+?)_R[0-9]+")
+_MOST = 5  # signs that are listed one by one
+MOST_REGIMES = 4
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:
@@ -65,11 +71,6 @@ def radius_and_rod(values: ValidValues) -> tuple[float, float] | None:
     if rod is None and radius is not None and lam is not None:
         rod = radius / lam
     return None if radius is None or rod is None else (radius, rod)
-
-
-Keys = frozenset[str]
-Entry = TypeVar("Entry", bound=tuple[Any, ...])  # begins with a path
-_REGIME = re.compile(r"(?P<check>\w+?)_R[0-9]+")
 
 
 def accepted_keys(entries: Iterable[AcceptedEntry]) -> Keys:
@@ -153,9 +154,6 @@ def _keys() -> set[str]:
     return keys
 
 
-_MOST = 5  # signs that are listed one by one
-
-
 def check_signs(model: InputFile) -> Iterator[Finding]:
     """Yield a warning for every text with characters that the report's font lacks."""
     for text in iter_fields(model):
@@ -166,9 +164,6 @@ def check_signs(model: InputFile) -> Iterator[Finding]:
             what = f"в шрифте отчёта нет: {listed}{more}"
             hint = f"уберите или замените, иначе напечатается {REPLACEMENT}"
             yield Finding(text.path, what, hint, warning=True)
-
-
-MOST_REGIMES = 4
 
 
 def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:

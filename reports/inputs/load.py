@@ -57,6 +57,10 @@ from reports.inputs.to_si.masses import sizes_of
 from reports.inputs.toml_errors import decimal_commas, toml_error
 from reports.shared.errors import InputError, Problem, one_line
 
+MAX_PROBLEMS = 200
+Locate = Callable[[Path], str]
+_OFFSETS = re.compile(r"firing_offsets_deg(\[\d+\])?")
+
 
 def inside(index: int, path: Path) -> Path:
     """Path in the file of a path within a regime."""
@@ -78,10 +82,6 @@ def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:
     if not isinstance(regime, RegimeValues) or isinstance(gas, CycleGasSection):
         return None
     return RegimeSection.model_construct(**{**dict(regime), "gas": gas})
-
-
-MAX_PROBLEMS = 200
-Locate = Callable[[Path], str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -449,9 +449,6 @@ class _SectionReader:
             what, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
             if (name, *loc) not in self.empty:
                 self.problems.append(self.problem((name, *loc), what, hint))
-
-
-_OFFSETS = re.compile(r"firing_offsets_deg(\[\d+\])?")
 
 
 def _has_order_alone(data: Mapping[str, Any]) -> bool:

@@ -15,6 +15,8 @@ from reports.inputs.normalise import is_ambiguous
 from reports.inputs.registry import homes
 from reports.shared.errors import one_line
 
+_LOOK_ALIKE = str.maketrans("аеорсухкмтіАВЕКМНОРСТХУ", "aeopcyxkmtiABEKMHOPCTXY")
+
 
 def shown(value: object) -> str:
     """Return a value as a message may show it: one line, short."""
@@ -119,9 +121,6 @@ def likely_word(word: str, words: Iterable[str]) -> str | None:
     """Return the word of `words` nearest to `word`, if one is near."""
     close = difflib.get_close_matches(word.lower(), list(words), n=1, cutoff=0.6)
     return close[0] if close else None
-
-
-_LOOK_ALIKE = str.maketrans("аеорсухкмтіАВЕКМНОРСТХУ", "aeopcyxkmtiABEKMHOPCTXY")
 
 
 def latin(word: str) -> str:

@@ -24,6 +24,27 @@ MAX_LINES = 20_000
 MAX_DOTS = 40
 MAX_ENTRIES = 10_000  # of a list: longer ones only hold a process up
 _DECIMAL = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?![\w.])")
+_SOURCE = Meta("", choices={**SOURCES, "file": "из файла"})
+_NUMBER = re.compile(r"[-+−]?(\d+|\d{1,3}([ \u00a0\u202f]\d{3})+)([.,]\d+)?([eE][-+]?\d+)?")
+# "1,234" is one and a bit to one reader and more than a thousand to another.
+_AMBIGUOUS = re.compile(r"[-+−]?[1-9]\d{0,2}[.,]\d{3}")
+_ONE_WORD = {  # besides the labels of the choices
+    "да": "yes",
+    "нет": "no",
+    "дизельный": "diesel",
+    "бензин": "petrol",
+    "бензиновый": "petrol",
+    "искровой": "petrol",
+    "солярка": "diesel",
+    "четырехтактный": "4",
+    "двухтактный": "2",
+    "v": "v",
+    "v-образный": "v",
+    "в-образный": "v",
+    "точное": "exact",
+    "точный": "exact",
+    "по учебнику": "textbook",
+}
 
 
 def read_text(file: Path) -> str:
@@ -80,29 +101,6 @@ def refuse_endless(source: str, raw: Mapping[str, Any]) -> None:
 def refused(source: str, what: str, hint: str) -> InputError:
     """Return the error of an unreadable file."""
     return InputError(Problem(one_line(source, 120), what, hint))
-
-
-_SOURCE = Meta("", choices={**SOURCES, "file": "из файла"})
-_NUMBER = re.compile(r"[-+−]?(\d+|\d{1,3}([ \u00a0\u202f]\d{3})+)([.,]\d+)?([eE][-+]?\d+)?")
-# "1,234" is one and a bit to one reader and more than a thousand to another.
-_AMBIGUOUS = re.compile(r"[-+−]?[1-9]\d{0,2}[.,]\d{3}")
-_ONE_WORD = {  # besides the labels of the choices
-    "да": "yes",
-    "нет": "no",
-    "дизельный": "diesel",
-    "бензин": "petrol",
-    "бензиновый": "petrol",
-    "искровой": "petrol",
-    "солярка": "diesel",
-    "четырехтактный": "4",
-    "двухтактный": "2",
-    "v": "v",
-    "v-образный": "v",
-    "в-образный": "v",
-    "точное": "exact",
-    "точный": "exact",
-    "по учебнику": "textbook",
-}
 
 
 def normalise(data: Mapping[str, Any], source: str = "") -> dict[str, Any]:

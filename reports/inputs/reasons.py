@@ -21,6 +21,23 @@ Span = tuple[float, float]
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
 FILM_REQUIRED = "bearings_reserve_allowed*oil_hcr_um"  # least film that carries [µm]
 RODS = "rods_on_pin"  # a number beside the model's nodes
+_LEAST_BORE_MM = 1000 * BORES["petrol"][0]  # of table 4
+_SIMILAR = (
+    f"таблица 4 пособия составлена для диаметров от {short(_LEAST_BORE_MM)} мм, у подобных "
+    "двигателей удельная масса пропорциональна диаметру"
+)
+_HEAVY = "растут силы инерции и нагрузки на подшипники"
+_LIGHT = "сечения тоньше обычных, их прочность следует проверить отдельно"
+_SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
+# Keys of the file whose comments tell the span of a reason.
+_COMMENTED = {
+    "geometry.stroke_mm": "stroke_bore", "geometry.rod_length_mm": "lam",
+    "geometry.lambda": "lam", "geometry.compression_ratio": "compression",
+    "regime.speed_rpm": "piston_speed", "regime.mechanical_efficiency": "efficiency",
+    "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
+    "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
+}  # fmt: skip
+PROTOTYPE_KEY = "prototype.file"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,16 +92,6 @@ class Reason:
         """The span as a comment has it."""
         low, high = self.span(kind)
         return f"пределы {short(low)}…{short(high)}{f' {self.unit}' if self.unit else ''}"
-
-
-_LEAST_BORE_MM = 1000 * BORES["petrol"][0]  # of table 4
-_SIMILAR = (
-    f"таблица 4 пособия составлена для диаметров от {short(_LEAST_BORE_MM)} мм, у подобных "
-    "двигателей удельная масса пропорциональна диаметру"
-)
-_HEAVY = "растут силы инерции и нагрузки на подшипники"
-_LIGHT = "сечения тоньше обычных, их прочность следует проверить отдельно"
-_SHAFT = "растут трение в подшипниках и масса вала", "снижаются жёсткость и прочность вала"
 
 
 def _of_cycle(key: str) -> tuple[Span, Span]:
@@ -162,16 +169,6 @@ def reason_of(key: str) -> Reason:
     return _BY_KEY[key]
 
 
-# Keys of the file whose comments tell the span of a reason.
-_COMMENTED = {
-    "geometry.stroke_mm": "stroke_bore", "geometry.rod_length_mm": "lam",
-    "geometry.lambda": "lam", "geometry.compression_ratio": "compression",
-    "regime.speed_rpm": "piston_speed", "regime.mechanical_efficiency": "efficiency",
-    "gas.max_pressure_mpa": "peak", "masses.rod_small_end_share": "rod_share",
-    "crankshaft.pin_diameter_mm": "pin", "crankshaft.main_diameter_mm": "main",
-}  # fmt: skip
-
-
 def usual_span(key: str, kind: str) -> Span:
     """Usual span of a reason for a kind of engine."""
     return _BY_KEY[key].span(kind)
@@ -185,9 +182,6 @@ def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:
         else words
         for key, words in notes.items()
     }
-
-
-PROTOTYPE_KEY = "prototype.file"
 
 
 def prototype_file(model: InputFile, beside: Path) -> Path | None:

@@ -25,6 +25,8 @@ _CALLED = {";": "«;»", "\t": "табуляцию", ",": "запятую", " ":
 _NUMBER = re.compile(r"[-+]?(\d+([.,]\d+|\.)?|\.\d+)([eE][-+]?\d+)?")
 Refuse = Callable[..., InputError]
 Row = tuple[int, list[str]]
+_THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([ \u00a0\u202f'’.,])\d{3}(\1\d{3})*([.,]\d+)?")
+_WITH_WORD = re.compile(r"([-+−]?[\d.,]+)\s*(\D+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,10 +126,6 @@ def _value(cell: str) -> float | None:
         return None
     value = float(plain.replace(",", "."))
     return value if math.isfinite(value) else None
-
-
-_THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([ \u00a0\u202f'’.,])\d{3}(\1\d{3})*([.,]\d+)?")
-_WITH_WORD = re.compile(r"([-+−]?[\d.,]+)\s*(\D+)")
 
 
 def _mend(cell: str, units: frozenset[str]) -> str:

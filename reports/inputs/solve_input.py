@@ -28,6 +28,29 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.russian import NBSP, fixed, written
 from reports.shared.standing import Notice, Severity
 
+# Sections that change no number.
+_PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSection()}
+_MEND_FILM = "проверьте зазоры, вязкость и температуру масла, ширину"
+_MEND_KW = "задайте размеры вместе с мощностью (kshm new --power --bore …) или исправьте давления"
+MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
+_PIN = re.compile(r"шейк\w*")  # in a title, before its number
+MOST_GRID_ERROR = 2.0  # difference that is told [%]
+_FINEST = 9  # decimals beyond which nothing is told apart
+_TOLD = 4  # differences in the one line; the report has them all
+# Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
+_KINDS = tuple(
+    re.compile(kind)
+    for kind in (
+        "M_(mean|max|min)", "delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
+        "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
+        "hole_pin[0-9]*_deg", "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean",
+        "Rpin[_0-9]*_min|Rmain[0-9]+_min", "Malpha_(max|min|swing|mean)",
+    )
+)  # fmt: skip
+_USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
+INERTIAS = "torsion_forms", "tor_J_kgm2"  # of the train's masses: pulley, throws, flywheel
+_MOST_INERTIA = 1000.0  # times all throws; of one cylinder some hundreds, from memory
+
 
 def solved(model: InputFile, source: str = "") -> Solution:
     """Solution of an input; `source` names its file in messages.
@@ -42,10 +65,6 @@ def solved(model: InputFile, source: str = "") -> Solution:
         raise InputError(Problem(where, film_lost(error), _MEND_FILM)) from None
 
 
-# Sections that change no number.
-_PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSection()}
-
-
 @lru_cache(maxsize=16)  # the doors, the sheets and the report ask for the same and for finer steps
 def _solution(model: InputFile) -> Solution:
     solution = solve(*engine_and_cycle(model))
@@ -54,17 +73,10 @@ def _solution(model: InputFile) -> Solution:
     return solution
 
 
-_MEND_FILM = "проверьте зазоры, вязкость и температуру масла, ширину"
-
-
 def film_lost(error: FilmError) -> str:
     """Message about the bearing whose oil film collapses."""
     name = f"коренного подшипника {error.bearing}" if error.bearing else "шатунного подшипника"
     return f"масляная плёнка {name} не несёт нагрузки: зазор за цикл исчезает"
-
-
-_MEND_KW = "задайте размеры вместе с мощностью (kshm new --power --bore …) или исправьте давления"
-MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
 
 
 def power_problems(model: InputFile) -> tuple[Problem, ...]:
@@ -115,22 +127,6 @@ def _told(stated: float, percent: float, efficiency: float) -> str:
 
 def _kw(value: float) -> str:
     return f"{number_text(float(f'{value:.4g}'))}{NBSP}кВт"
-
-
-_PIN = re.compile(r"шейк\w*")  # in a title, before its number
-MOST_GRID_ERROR = 2.0  # difference that is told [%]
-_FINEST = 9  # decimals beyond which nothing is told apart
-_TOLD = 4  # differences in the one line; the report has them all
-# Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
-_KINDS = tuple(
-    re.compile(kind)
-    for kind in (
-        "M_(mean|max|min)", "delta_speed|W_range", "N_i_calc|p_i_area|W_cycle",
-        "Rpin[_0-9]*_max(_kN)?|Rmain[0-9]+_max(_kN)?|B_max", "dM_(main|pin)[0-9]+",
-        "hole_pin[0-9]*_deg", "Rpin[_0-9]*_mean|Rmain[0-9]+_mean|B_mean",
-        "Rpin[_0-9]*_min|Rmain[0-9]+_min", "Malpha_(max|min|swing|mean)",
-    )
-)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,9 +264,6 @@ def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
     return bool(taken - sums.min() > 1e-6 * sums.mean())
 
 
-_USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
-
-
 def grid_remark(model: InputFile) -> str:
     """Errors of the table step in results that people use, in one line; empty without any."""
     errors = grid_errors(model)
@@ -311,10 +304,6 @@ def _written(error: GridError) -> tuple[str, str, str]:
 def _said(error: GridError) -> str:
     coarse, fine, unit = _written(error)
     return f"{error.title}: {coarse} вместо {fine}{unit}"
-
-
-INERTIAS = "torsion_forms", "tor_J_kgm2"  # of the train's masses: pulley, throws, flywheel
-_MOST_INERTIA = 1000.0  # times all throws; of one cylinder some hundreds, from memory
 
 
 def lighter_than(inertias: Array, throws: int) -> int:

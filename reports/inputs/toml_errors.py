@@ -33,6 +33,8 @@ _COMMENT = re.compile(r"""^((?:[^"'#]|"(?:[^"\\]|\\.)*"|'[^']*')*)#.*$""")
 _SPACES = {"\u00a0": "неразрывный пробел", "\u202f": "узкий неразрывный пробел"}
 _QUOTES = "«»“”„‟‘’‚‹›"
 _DECIMAL_COMMA = re.compile(r"(?<![\d.,])([-+]?\d+),(\d+)(?![\d.,]*\d)")
+_ITEMS = re.compile(r"[-+]?\d+([.,]\d+)?((\s*;\s*|,\s+)[-+]?\d+([.,]\d+)?)+")
+_Rule = Callable[[str], Iterator[Words]]
 
 
 def toml_error(error: Exception, text: str) -> Words:
@@ -145,9 +147,6 @@ def _backslash(line: str) -> Iterator[Words]:
         yield "обратная черта «\\» в кавычках", f'пишите прямую: "{mended[:60]}"'
 
 
-_ITEMS = re.compile(r"[-+]?\d+([.,]\d+)?((\s*;\s*|,\s+)[-+]?\d+([.,]\d+)?)+")
-
-
 def _list(line: str) -> Iterator[Words]:
     """A list without its brackets or with the separators of a Russian Excel."""
     given = _value(bare(line))
@@ -216,7 +215,6 @@ def _equals(line: str) -> Iterator[Words]:
         yield "после ключа нет знака «=»", f"напишите {other[1]} = {given[:40]}"
 
 
-_Rule = Callable[[str], Iterator[Words]]
 # The first that knows the line speaks.
 _RULES: tuple[_Rule, ...] = (
     _space, _letter, _equals, _quotes, _backslash, _list, _number, _text,

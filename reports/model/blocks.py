@@ -23,6 +23,8 @@ _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 TURN = "360"
 YES, NO = "да", "НЕТ"
 ALLOWED = "allowed_"  # begins the keys of verdicts on what is held to an allowed value
+# Equal extremes may differ in the last bit between spreadsheet programs.
+TIE = "0.000001"
 
 
 @dataclass(frozen=True, slots=True)
@@ -348,10 +350,6 @@ def allowed(
                              "сравнение с допускаемым")
     ]  # fmt: skip
     return ScalarTable(id_, title, sheet, tuple(scalars), verdicts=(YES, NO))
-
-
-# Equal extremes may differ in the last bit between spreadsheet programs.
-TIE = "0.000001"
 
 
 def extreme_columns(column: str, name: str) -> tuple[Column, ...]:

@@ -27,6 +27,12 @@ _MARK = "\x1f"
 _MARKS = re.compile(f"{_MARK}([^{_MARK}]*):(\\d+){_MARK}")
 _NAME = re.compile(r"[\w-]+\.book")  # never a path
 _STATEMENT = re.compile(r"\s*(%|#|\{%.*%\}$|$)")
+_CAUSES: dict[type[Exception], str] = {
+    ZeroDivisionError: "деление на ноль",
+    OverflowError: "число слишком большое",
+    KeyError: "нет такого имени",
+}
+_MIXED = re.compile("[а-яё]", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,13 +230,6 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
         ) from error  # fmt: skip
 
 
-_CAUSES: dict[type[Exception], str] = {
-    ZeroDivisionError: "деление на ноль",
-    OverflowError: "число слишком большое",
-    KeyError: "нет такого имени",
-}
-
-
 def cause_of(error: Exception, letters: int = 80) -> str:
     """What went wrong in a book: in Russian as it was said, or by the kind of the error."""
     text = str(error)
@@ -314,9 +313,6 @@ def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> I
                 yield at_fragment(line, shelf, f"имя «{name}» неизвестно",
                                   _likely(name, known), name)  # fmt: skip
     yield from _circles(model, places, shelf)
-
-
-_MIXED = re.compile("[а-яё]", re.IGNORECASE)
 
 
 def _likely(name: str, known: Set[str]) -> str:

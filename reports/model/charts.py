@@ -9,6 +9,11 @@ from typing import Any, ClassVar, Literal
 from reports.shared.russian import NBSP
 
 PHI = "φ, ° ПКВ"
+_HEAD = re.compile(
+    r"(?P<id>\w+)(?P<report> report)?(?: over (?P<over>\w+)| in (?P<box>[\w.]+))?: (?P<title>.+)"
+)
+_FLAGS = ("stems", "extremes", "x_reversed", "y_reversed")
+_TEXTS = ("figure", "caption", "x_tex", "y_tex", "group", "panel", "hole")
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +106,6 @@ class ChartSpec:
     def drawn_by(self, medium: Literal["workbook", "report"]) -> tuple[Series, ...]:
         """Curves that the workbook or the report draws."""
         return tuple(s for s in self.series if s.only in ("", medium))
-
-
-_HEAD = re.compile(
-    r"(?P<id>\w+)(?P<report> report)?(?: over (?P<over>\w+)| in (?P<box>[\w.]+))?: (?P<title>.+)"
-)
-_FLAGS = ("stems", "extremes", "x_reversed", "y_reversed")
-_TEXTS = ("figure", "caption", "x_tex", "y_tex", "group", "panel", "hole")
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,11 @@ from reports.model.blocks import TIE
 from reports.model.shape import Scope
 from reports.shared.russian import short
 
+# What a chapter's text says of a key: value with unit, number, symbol, symbol = value, places.
+TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig")
+MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
+_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
+
 
 @dataclass(frozen=True, slots=True)
 class InputView:
@@ -79,17 +84,9 @@ def diagram_kind(gas: BaseModel) -> str:
     return "smooth" if gas.interpolation == "monotone" else "straight"
 
 
-# What a chapter's text says of a key: value with unit, number, symbol, symbol = value, places.
-TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig")
-MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
-
-
 def _mark(word: str, key: str) -> str:
     """What the report puts in place of a key, once its values are known."""
     return f"⟦{word} {key}⟧"
-
-
-_SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
 
 
 def each(text: str, members: Iterable[object], between: str = ", ") -> str:

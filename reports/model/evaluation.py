@@ -17,6 +17,9 @@ from reports.model.blocks import Block, Column, Model, TableSpec, nodes_in
 
 Array = NDArray[np.float64]
 _PREVIOUS = re.compile(r"\bprevious\((\w+)\)")
+_ABOVE = "above_"  # before the name of a column: its value in the row above
+_KEPT = 8
+_graphs: dict[tuple[tuple[str, str | None], ...], Graph] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,9 +132,6 @@ class Evaluation:
         return self.done[name] if name in self.done else self._calculated(name)
 
 
-_ABOVE = "above_"  # before the name of a column: its value in the row above
-
-
 @lru_cache(maxsize=256)
 def _row_acts(
     columns: tuple[Column, ...],
@@ -179,10 +179,6 @@ def evaluate_model(model: Model) -> Values:
         for table in model.tables.values()
     }
     return Values({k: v if isinstance(v, str) else float(v) for k, v in scalars.items()}, columns)
-
-
-_KEPT = 8
-_graphs: dict[tuple[tuple[str, str | None], ...], Graph] = {}
 
 
 def graph_of(model: Model) -> Graph:

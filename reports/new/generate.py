@@ -41,6 +41,8 @@ from reports.new.sizing import (
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
 Notes = dict[str, str]
+FIRST = ("engine", "geometry", "regime", "gas")
+LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,10 +327,6 @@ def timing_notes(timing: Phases) -> Notes:
         "crankshaft.arms.l1_mm": "половина коренной шейки",
         "crankshaft.arms.l2_mm": "половина шейки под шатуном",
     }
-
-
-FIRST = ("engine", "geometry", "regime", "gas")
-LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 
 
 def file_text(engine: NewEngine) -> str:

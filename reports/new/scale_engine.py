@@ -44,6 +44,14 @@ _ALONG = ("width", "groove")  # what lies along a journal
 _ANY_SHAFT = ("formula", "shear_modulus_mpa", "loss_factor", "stress_allowed_mpa", "peaks")
 _SPEEDS = ("speed_min_rpm", "speed_max_rpm")
 TRAIN_LEFT = "Крутильная схема прежнего вала не перенесена: новая следует из размеров нового."
+DIGITS = 6  # of a millimetre
+_DIESEL_RATIO = 14.0
+_OFFSETS = ("crank_offset_mm", "pin_offset_mm")
+_SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
+_LEAST_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
+_APART = ("crankshaft.main_lengths_mm", "crankshaft.arms.left_web_mm")  # what sets them apart
+_PIN_LENGTH = "pin_length_mm"
+_SINGLE = ("pin_diameter_mm", _PIN_LENGTH, "main_diameter_mm")
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,16 +105,6 @@ def _scaled(section: type[Strictly], key: str, size: float, factor: float) -> fl
     (limits,) = hints(section)[key].metas
     low, high = limits.minimum, limits.maximum
     return min(max(round(size * factor, _DIGITS), low or 0.0), math.inf if high is None else high)
-
-
-DIGITS = 6  # of a millimetre
-_DIESEL_RATIO = 14.0
-_OFFSETS = ("crank_offset_mm", "pin_offset_mm")
-_SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
-_LEAST_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
-_APART = ("crankshaft.main_lengths_mm", "crankshaft.arms.left_web_mm")  # what sets them apart
-_PIN_LENGTH = "pin_length_mm"
-_SINGLE = ("pin_diameter_mm", _PIN_LENGTH, "main_diameter_mm")
 
 
 def alternative(

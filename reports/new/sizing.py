@@ -19,6 +19,23 @@ from reports.shared.errors import InputError, Problem
 
 BORES_MM = (10.0, 1000.0)
 _STROKE_BORE = (0.8, 1.35)  # S/D that is chosen for a power where one of the two is given
+_GAS = (
+    "ambient_pressure_mpa", "intake_pressure_mpa", "residual_pressure_mpa", "max_pressure_mpa",
+    "compression_exponent", "expansion_exponent", "preexpansion_ratio", "injection_advance_deg",
+    "ignition_delay_deg", "exhaust_start_before_bdc_deg", "exhaust_end_after_bdc_deg",
+    "scavenge_start_before_bdc_deg",
+)  # fmt: skip
+_NOISE = 1e-6  # of a tenth of a millimetre
+Gas = dict[str, float]
+_POWER = "regime.indicated_power_kw"
+_ADVICE = "проверьте мощность и частоту, задайте другие размеры или число цилиндров"
+_PEAK = (0.75, 1.3)  # p_z/p_c that p_z alone may take, over the usual one
+_LEAST_PEAK = 1.1  # p_z/p_c of the weakest diagram
+_THROTTLED = 0.6  # intake pressure of a spark engine at part load, over the usual one
+_BOOSTED_MPA = {"diesel": 0.32, "petrol": 0.3}
+_BOOSTED_RHO = {"diesel": 1.7, "petrol": 1.2}
+_CLOSE = 1e-5  # of the power
+_STEPS = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,14 +86,6 @@ class Usual:
     effective_mpa: float
     piston_speed: float
     bore_mm: float
-
-
-_GAS = (
-    "ambient_pressure_mpa", "intake_pressure_mpa", "residual_pressure_mpa", "max_pressure_mpa",
-    "compression_exponent", "expansion_exponent", "preexpansion_ratio", "injection_advance_deg",
-    "ignition_delay_deg", "exhaust_start_before_bdc_deg", "exhaust_end_after_bdc_deg",
-    "scavenge_start_before_bdc_deg",
-)  # fmt: skip
 
 
 def _gas(*values: float) -> dict[str, float]:
@@ -245,19 +254,6 @@ def _up(value: float) -> float:
 
 def _down(value: float) -> float:
     return math.floor(10 * value + _NOISE) / 10
-
-
-_NOISE = 1e-6  # of a tenth of a millimetre
-Gas = dict[str, float]
-_POWER = "regime.indicated_power_kw"
-_ADVICE = "проверьте мощность и частоту, задайте другие размеры или число цилиндров"
-_PEAK = (0.75, 1.3)  # p_z/p_c that p_z alone may take, over the usual one
-_LEAST_PEAK = 1.1  # p_z/p_c of the weakest diagram
-_THROTTLED = 0.6  # intake pressure of a spark engine at part load, over the usual one
-_BOOSTED_MPA = {"diesel": 0.32, "petrol": 0.3}
-_BOOSTED_RHO = {"diesel": 1.7, "petrol": 1.2}
-_CLOSE = 1e-5  # of the power
-_STEPS = 40
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from formualizer import Workbook
 
+# Unit → kind and size: what CONVERT is known to turn into each other.
+UNITS = {
+    "mm": ("length", 1e-3), "cm": ("length", 1e-2), "m": ("length", 1.0), "km": ("length", 1e3),
+    "g": ("mass", 1e-3), "kg": ("mass", 1.0),
+    "rad": ("angle", 1.0), "deg": ("angle", math.pi / 180),
+}  # fmt: skip
+_COUNTS: dict[int, Callable[[list[float]], float]] = {
+    1: statistics.fmean, 2: len, 4: max, 5: min, 6: math.prod, 7: statistics.stdev,
+    8: statistics.pstdev, 9: math.fsum, 10: statistics.variance, 11: statistics.pvariance,
+    12: statistics.median,
+}  # fmt: skip
+
 
 def _decimal(value: float, digits: float = 0.0, *, rounding: str) -> float:
     # A spreadsheet rounds the decimal number that it shows, halves away from zero.
@@ -55,26 +67,12 @@ _FUNCTIONS: dict[str, tuple[Callable[..., Any], int, int]] = {
 }  # fmt: skip
 NOT_LIFTED = frozenset(_FUNCTIONS)
 
-# Unit → kind and size: what CONVERT is known to turn into each other.
-UNITS = {
-    "mm": ("length", 1e-3), "cm": ("length", 1e-2), "m": ("length", 1.0), "km": ("length", 1e3),
-    "g": ("mass", 1e-3), "kg": ("mass", 1.0),
-    "rad": ("angle", 1.0), "deg": ("angle", math.pi / 180),
-}  # fmt: skip
-
 
 def _convert(value: Any, unit: Any, other: Any) -> Any:  # noqa: ANN401
     (kind, size), (wanted, into) = (UNITS.get(name, (name, 0.0)) for name in (unit, other))
     if kind != wanted or not into:
         return {"type": "Error", "kind": "Na"}
     return _one(lambda number: number * size / into, [value])
-
-
-_COUNTS: dict[int, Callable[[list[float]], float]] = {
-    1: statistics.fmean, 2: len, 4: max, 5: min, 6: math.prod, 7: statistics.stdev,
-    8: statistics.pstdev, 9: math.fsum, 10: statistics.variance, 11: statistics.pvariance,
-    12: statistics.median,
-}  # fmt: skip
 
 
 def _aggregate(code: float, option: float, block: Any) -> Any:  # noqa: ANN401

@@ -11,14 +11,7 @@ from reports.recalculation.array_functions import UNITS
 
 MAX_LENGTH = 8192
 MAX_ROW, MAX_COLUMN = 1_048_576, 16_384
-
-
-class UnknownFormula(ValueError):  # noqa: N818 - it is no mistake of the writer's
-    """A formula that the referee cannot calculate for certain: a person must look."""
-
-
 Token = tuple[str, str]
-
 _TOKEN = re.compile(
     r"""(?P<space>\s+)
     |(?P<text>"(?:[^"]|"")*")
@@ -33,6 +26,58 @@ _TOKEN = re.compile(
     re.VERBOSE,
 )
 _CELL = re.compile(r"(\$?)([A-Za-z]{1,3})(\$?)([0-9]+)")
+_SPLIT = re.compile(
+    r"""("(?:[^"]|"")*"|'(?:[^']|'')+'!)|(\$?[A-Za-z]{1,3})([1-9][0-9]{0,6})(?![\w.(!])"""
+)
+# A template holds the row number as \0; a formula with other rows in it holds distances.
+HERE = "\0"
+_REF = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
+# Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
+_ALLOWED = """
+ABS ACOS ACOSH ACOT AGGREGATE AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF
+AVERAGEIFS CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN COMPLEX CONCATENATE CONVERT COS COSH
+COT COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH
+FORECAST FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS IMABS IMAGINARY IMREAL
+INDEX INT INTERCEPT ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT
+LARGE LCM LEFT LEN LET LN LOG LOG10 LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD
+MROUND N NA NOT ODD OR PI POWER PRODUCT QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP
+ROW ROWS SEC SERIESSUM SIGN SIN SINH SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBSTITUTE
+SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE
+TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XMATCH XOR
+"""
+ALLOWED = frozenset(_ALLOWED.split())
+# Where a rectangle may stand as a whole: every argument of these, some of the others.
+_OF_RECTANGLES = """
+AND OR XOR AVEDEV AVERAGE AVERAGEA COUNT COUNTA COUNTBLANK GCD GEOMEAN HARMEAN LCM MAX MEDIAN MIN
+PRODUCT ROWS COLUMNS SLOPE INTERCEPT STDEV STDEV.P STDEV.S STDEVP SUM SUMSQ VAR VAR.P VAR.S VARP
+SUMIFS AVERAGEIFS COUNTIFS MINIFS MAXIFS
+DEVSQ MAXA MINA FORECAST FORECAST.LINEAR SERIESSUM SUBTOTAL
+"""
+_TAKES_RANGES: dict[str, Collection[int]] = {
+    **dict.fromkeys(_OF_RECTANGLES.split(), range(256)),
+    "INDEX": (0,), "MATCH": (1,), "VLOOKUP": (1,), "HLOOKUP": (1,), "LOOKUP": (1, 2),
+    "XLOOKUP": (1, 2), "XMATCH": (1,), "SUMIF": (0, 2), "AVERAGEIF": (0, 2), "COUNTIF": (0,),
+    "AGGREGATE": (2,), "RANK": (1,), "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
+}  # fmt: skip
+# Inside of these a rectangle is taken value by value.
+_TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
+_TOTALS = frozenset(map(str, range(1, 12)))
+_PLAIN_TOTALS = _TOTALS - {"3"} | {"12"}
+_PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
+# Where it stands is all that these tell: in a rectangle that is not one place.
+PLACES = frozenset(("ROW", "COLUMN"))
+TEXT_NUMBER = "число записано текстом"
+# What Google Sheets leaves of its own functions when a book is saved as .xlsx.
+_GOOGLE = "__XLUDF.DUMMYFUNCTION"
+GOOGLE_ARRAY = "формула Google Таблиц, которой нет в .xlsx: протяните обычную формулу"
+# A text that one country's spreadsheet takes for a number and another's for something else.
+_DOUBTFUL = re.compile(r"\s*[-+]?(?:\d[\d\s]*[.,][\d.,]*|[.,]\d+)(?:[eE][-+]?\d+)?\s*%?\s*")
+_NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
+_ENDS = (("op", ","), ("op", ")"))
+
+
+class UnknownFormula(ValueError):  # noqa: N818 - it is no mistake of the writer's
+    """A formula that the referee cannot calculate for certain: a person must look."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,12 +160,6 @@ def _distance(cell: str, row: int, column: int) -> str:
 
 # --- filled down ----------------------------------------------------------------------------
 
-_SPLIT = re.compile(
-    r"""("(?:[^"]|"")*"|'(?:[^']|'')+'!)|(\$?[A-Za-z]{1,3})([1-9][0-9]{0,6})(?![\w.(!])"""
-)
-# A template holds the row number as \0; a formula with other rows in it holds distances.
-HERE = "\0"
-
 
 def row_template(text: str, row: int) -> str | list[str | int]:
     """A formula whose rows move when it is filled down, for ``filled``."""
@@ -146,8 +185,6 @@ def filled(template: str | list[str | int], row: int) -> str:
 
 
 # --- from distances back --------------------------------------------------------------------
-
-_REF = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
 
 
 def ref_of(text: str) -> Ref:
@@ -184,49 +221,6 @@ def quoted(sheet: str) -> str:
 def unquoted(token: str) -> str:
     """The sheet that such a token names."""
     return token[1:-2].replace("''", "'") if token.startswith("'") else token[:-1]
-
-
-# Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
-_ALLOWED = """
-ABS ACOS ACOSH ACOT AGGREGATE AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF
-AVERAGEIFS CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN COMPLEX CONCATENATE CONVERT COS COSH
-COT COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH
-FORECAST FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS IMABS IMAGINARY IMREAL
-INDEX INT INTERCEPT ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT
-LARGE LCM LEFT LEN LET LN LOG LOG10 LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD
-MROUND N NA NOT ODD OR PI POWER PRODUCT QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP
-ROW ROWS SEC SERIESSUM SIGN SIN SINH SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBSTITUTE
-SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE
-TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XMATCH XOR
-"""
-ALLOWED = frozenset(_ALLOWED.split())
-# Where a rectangle may stand as a whole: every argument of these, some of the others.
-_OF_RECTANGLES = """
-AND OR XOR AVEDEV AVERAGE AVERAGEA COUNT COUNTA COUNTBLANK GCD GEOMEAN HARMEAN LCM MAX MEDIAN MIN
-PRODUCT ROWS COLUMNS SLOPE INTERCEPT STDEV STDEV.P STDEV.S STDEVP SUM SUMSQ VAR VAR.P VAR.S VARP
-SUMIFS AVERAGEIFS COUNTIFS MINIFS MAXIFS
-DEVSQ MAXA MINA FORECAST FORECAST.LINEAR SERIESSUM SUBTOTAL
-"""
-_TAKES_RANGES: dict[str, Collection[int]] = {
-    **dict.fromkeys(_OF_RECTANGLES.split(), range(256)),
-    "INDEX": (0,), "MATCH": (1,), "VLOOKUP": (1,), "HLOOKUP": (1,), "LOOKUP": (1, 2),
-    "XLOOKUP": (1, 2), "XMATCH": (1,), "SUMIF": (0, 2), "AVERAGEIF": (0, 2), "COUNTIF": (0,),
-    "AGGREGATE": (2,), "RANK": (1,), "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
-}  # fmt: skip
-# Inside of these a rectangle is taken value by value.
-_TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
-_TOTALS = frozenset(map(str, range(1, 12)))
-_PLAIN_TOTALS = _TOTALS - {"3"} | {"12"}
-_PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
-# Where it stands is all that these tell: in a rectangle that is not one place.
-PLACES = frozenset(("ROW", "COLUMN"))
-TEXT_NUMBER = "число записано текстом"
-# What Google Sheets leaves of its own functions when a book is saved as .xlsx.
-_GOOGLE = "__XLUDF.DUMMYFUNCTION"
-GOOGLE_ARRAY = "формула Google Таблиц, которой нет в .xlsx: протяните обычную формулу"
-# A text that one country's spreadsheet takes for a number and another's for something else.
-_DOUBTFUL = re.compile(r"\s*[-+]?(?:\d[\d\s]*[.,][\d.,]*|[.,]\d+)(?:[eE][-+]?\d+)?\s*%?\s*")
-_NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -346,9 +340,6 @@ class _TokenPlace:
     def whole(self) -> bool:
         """Whether the function takes a rectangle here."""
         return self.argument in _TAKES_RANGES.get(self.function, ())
-
-
-_ENDS = (("op", ","), ("op", ")"))
 
 
 def _places(pattern: tuple[Token, ...]) -> list[_TokenPlace]:

@@ -15,6 +15,7 @@ from reports.recalculation.formulas import Formula, Reference
 MAX_ROW, MAX_COLUMN, MAX_CELLS, MAX_SHEETS = 20_000, 1_000, 400_000, 200
 
 Constant = float | str | bool
+_FEW = 8  # runs of a column that are looked through faster than they are put in order
 
 
 class BadBook(ValueError):  # noqa: N818 - an expected find
@@ -57,9 +58,6 @@ class Run:
         """The same formula in other rows of the column."""
         problem = self.problem or ("часть формулы массива" if self.array else "")
         return Run(self.sheet, self.column, first, count, self.formula, self.text, problem)
-
-
-_FEW = 8  # runs of a column that are looked through faster than they are put in order
 
 
 @dataclass(frozen=True, slots=True)

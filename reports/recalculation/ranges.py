@@ -19,6 +19,17 @@ from reports.recalculation.formulas import (
 )
 from reports.recalculation.grid import CellGrid, Run
 
+# Functions that take single values alone; in others a range may mean all of its cells.
+_OF_SINGLE_VALUES = """
+ABS ACOS ACOSH ASIN ASINH ATAN ATAN2 ATANH COS COSH DEGREES EXP INT LN LOG LOG10 MOD POWER QUOTIENT
+RADIANS ROUND ROUNDDOWN ROUNDUP SIGN SIN SINH SQRT TAN TANH TRUNC
+"""
+_SINGLE_VALUES = frozenset(_OF_SINGLE_VALUES.split())
+_SINGLE = ("_XLFN.SINGLE", "SINGLE")
+_AREAS = ("ref", "columns", "rows", "name")
+_OPEN, _COMMA, _CLOSE, _TO = (("op", sign) for sign in "(,):")
+_WHOLE = re.compile(r"[1-9][0-9]{0,6}")
+
 
 class RangeCorners(NamedTuple):
     """The corners of a range and the sheet, which a name tells."""
@@ -45,16 +56,6 @@ def area_of(tokens: Sequence[Token], grid: CellGrid) -> RangeCorners | None:
         return None
     corners = Ref(area.first_row, area.first_column), Ref(area.last_row, area.last_column)
     return RangeCorners(*corners, (("sheet", quoted(area.sheet)),))
-
-
-# Functions that take single values alone; in others a range may mean all of its cells.
-_OF_SINGLE_VALUES = """
-ABS ACOS ACOSH ASIN ASINH ATAN ATAN2 ATANH COS COSH DEGREES EXP INT LN LOG LOG10 MOD POWER QUOTIENT
-RADIANS ROUND ROUNDDOWN ROUNDUP SIGN SIN SINH SQRT TAN TANH TRUNC
-"""
-_SINGLE_VALUES = frozenset(_OF_SINGLE_VALUES.split())
-_SINGLE = ("_XLFN.SINGLE", "SINGLE")
-_AREAS = ("ref", "columns", "rows", "name")
 
 
 def cross(grid: CellGrid) -> None:
@@ -141,10 +142,6 @@ def _meant(first: Ref, last: Ref, run: Run) -> str:
     if all(a == b for a, b in rows) and left <= run.column <= right:
         return (f"R{first.row}" if first.row_fixed else f"R[{first.row}]") + "C[0]"
     return ""
-
-
-_OPEN, _COMMA, _CLOSE, _TO = (("op", sign) for sign in "(,):")
-_WHOLE = re.compile(r"[1-9][0-9]{0,6}")
 
 
 def pick(grid: CellGrid) -> None:

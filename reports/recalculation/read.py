@@ -28,6 +28,12 @@ _MOST = 60  # tokens of a name: nobody calls more than that by one word
 
 Meanings = Mapping[str, tuple[Token, ...]]
 Local = Mapping[str, Meanings]  # of a sheet by its title
+_STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
+_REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
+_ADDRESS = re.compile(  # without a $ a name means another cell in every cell
+    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$([A-Z]{1,3})\$([0-9]{1,7})"
+    r"(?::\$([A-Z]{1,3})\$([0-9]{1,7}))?"
+)
 
 
 def meanings(grid: CellGrid, root: etree._Element) -> Meanings:
@@ -155,14 +161,6 @@ def _replaced(tokens: tuple[Token, ...], known: Meanings) -> tuple[Token, ...]:
         else:
             pattern += [("op", "("), *inner, ("op", ")")]
     return tuple(pattern)
-
-
-_STRICT = "{http://purl.oclc.org/ooxml/spreadsheetml/main}"
-_REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
-_ADDRESS = re.compile(  # without a $ a name means another cell in every cell
-    r"('(?:[^']|'')+'|[^\W\d][\w.]*)!\$([A-Z]{1,3})\$([0-9]{1,7})"
-    r"(?::\$([A-Z]{1,3})\$([0-9]{1,7}))?"
-)
 
 
 def read_grid(book: bytes | Package, forms: Forms | None = None) -> CellGrid:

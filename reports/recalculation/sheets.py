@@ -38,6 +38,10 @@ _KEPT = 400  # a class of thirty has some twenty
 
 Slot = tuple[int, int, str, bool, str]  # row, column, kind and text of a value, of a formula or not
 Parser = Callable[[CellGrid, str, bytes, list[str]], list[Slot]]
+MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+_ROW, _CELL, _FORMULA, _VALUE, _INLINE = (f"{MAIN}{tag}" for tag in ("row", "c", "f", "v", "is"))
+_ADDRESS = re.compile(r"([A-Za-z]{1,3})([0-9]{1,7})")
+About = tuple[str, str, str, str]  # of a formula: kind, text, key among the shared ones, extent
 
 
 def value_of(kind: str, text: str | None, strings: list[str]) -> Constant | None:
@@ -165,13 +169,6 @@ def _text(data: bytes) -> str:
     if b"&" in data:  # an entity is the parser's
         raise ValueError
     return data.decode()
-
-
-MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
-_ROW, _CELL, _FORMULA, _VALUE, _INLINE = (f"{MAIN}{tag}" for tag in ("row", "c", "f", "v", "is"))
-_ADDRESS = re.compile(r"([A-Za-z]{1,3})([0-9]{1,7})")
-
-About = tuple[str, str, str, str]  # of a formula: kind, text, key among the shared ones, extent
 
 
 def parse_xml(data: bytes) -> etree._Element:

@@ -18,6 +18,14 @@ from reports.recalculation.formulas import Formula, UnknownFormula, quoted
 from reports.recalculation.grid import Area, CellColumn, CellGrid, Constant, Run
 
 _SCRATCH = "\N{GREEK SMALL LETTER PHI}"
+_COMPARISONS = frozenset(("op", sign) for sign in ("=", "<>", "<", ">", "<=", ">="))
+_FINE = 9  # decimals from which nothing that is printed is lost
+_ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
+# What people type in for π, for degrees in radians, for revolutions in radians, and in
+# M = 9550·N/n, kW and rev/min.
+_OF_PI = tuple(np.pi * share for share in (1, 2, 1 / 2, 1 / 4, 1 / 30, 1 / 60, 1 / 180, 1 / 360))
+_FULL = (*_OF_PI, 30 / np.pi, 60 / np.pi, 180 / np.pi, 3e4 / np.pi)
+_NEAR = 2e-4  # 57,3 and 0,01745 are digits enough, 3,14 is a mistake
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,16 +233,6 @@ def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:
     """Whether what stands from ``at`` to ``end`` is compared: its rounding only picks a case."""
     beside = (*tokens[max(at - 1, 0) : at], *tokens[end + 1 : end + 2])
     return any(token in _COMPARISONS for token in beside)
-
-
-_COMPARISONS = frozenset(("op", sign) for sign in ("=", "<>", "<", ">", "<=", ">="))
-_FINE = 9  # decimals from which nothing that is printed is lost
-_ROUNDINGS = frozenset(("ROUND", "ROUNDUP", "ROUNDDOWN"))
-# What people type in for π, for degrees in radians, for revolutions in radians, and in
-# M = 9550·N/n, kW and rev/min.
-_OF_PI = tuple(np.pi * share for share in (1, 2, 1 / 2, 1 / 4, 1 / 30, 1 / 60, 1 / 180, 1 / 360))
-_FULL = (*_OF_PI, 30 / np.pi, 60 / np.pi, 180 / np.pi, 3e4 / np.pi)
-_NEAR = 2e-4  # 57,3 and 0,01745 are digits enough, 3,14 is a mistake
 
 
 def full(number: float) -> float:

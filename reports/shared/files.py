@@ -43,6 +43,11 @@ _REASONS = {
 }
 _LINKS = 40  # as many as Linux follows
 _ADVICE = "укажите другое место"
+_HIDDEN, _OLD = ".kshm-", ".old"
+_DAY_S = 86400.0
+_looked_at: set[Path] = set()  # folders, once for each process
+# Removed at the latest when the program ends: an interruption may come between two lines.
+_unfinished: set[Path] = set()
 
 
 def write_text(path: Path, text: str) -> None:
@@ -272,11 +277,6 @@ def temporary_failure(error: Exception) -> OutputError:
     return OutputError(Problem("временные файлы", f"не удаётся записать: {text}", hint))
 
 
-_HIDDEN, _OLD = ".kshm-", ".old"
-_DAY_S = 86400.0
-_looked_at: set[Path] = set()  # folders, once for each process
-
-
 @contextmanager
 def _hidden(folder: Path, suffix: str | None = None, like: Path | None = None) -> Iterator[Path]:
     """Make a hidden file, without a suffix a folder, locked as long as this process is at it."""
@@ -342,10 +342,6 @@ def _remove_abandoned(folder: Path) -> None:
         with contextlib.suppress(OSError):
             if not is_half and path not in _unfinished and _is_abandoned(path):
                 _remove(path)
-
-
-# Removed at the latest when the program ends: an interruption may come between two lines.
-_unfinished: set[Path] = set()
 
 
 def _fresh_name(folder: Path, suffix: str) -> Path:

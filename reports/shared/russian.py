@@ -22,6 +22,12 @@ _ROUNDING = Context(prec=400, rounding=ROUND_HALF_UP)
 _ALONE = 4  # letters of a word that looks lost in a line of its own
 _ZEROS = 6  # of a round number that nobody counts any more
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_WITH = ("одним", "двумя", "тремя", "четырьмя", "пятью", "шестью", "семью", "восемью", "девятью",
+         "десятью", "одиннадцатью", "двенадцатью")  # fmt: skip
+_OF = ("одно", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти",
+       "одиннадцати", "двенадцати")  # fmt: skip
+_INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")
+_PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
 
 
 def comma(text: str) -> str:
@@ -165,10 +171,6 @@ def _follows(before: str, after: str) -> bool:
     return stem == other and digits != "" != next_digits and int(next_digits) == int(digits) + 1
 
 
-_WITH = ("одним", "двумя", "тремя", "четырьмя", "пятью", "шестью", "семью", "восемью", "девятью",
-         "десятью", "одиннадцатью", "двенадцатью")  # fmt: skip
-
-
 def instrumental(count: int, one: str, many: str) -> str:
     """A count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
     return (
@@ -176,17 +178,9 @@ def instrumental(count: int, one: str, many: str) -> str:
     )
 
 
-_OF = ("одно", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти",
-       "одиннадцати", "двенадцати")  # fmt: skip
-
-
 def cylindered(count: int) -> str:
     """«двухцилиндровый»; digits beyond twelve."""
     return f"{_OF[count - 1] if count <= len(_OF) else f'{count}-'}цилиндровый"
-
-
-_INITIALS = re.compile(r"(?:[А-ЯЁA-Z]\.-?)+")
-_PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
 
 
 def surname(name: str) -> str:

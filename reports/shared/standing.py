@@ -8,6 +8,8 @@ from enum import Enum
 
 from reports.shared.russian import as_printed
 
+_SPAN_DIGITS = 3  # significant digits of the printed ends of a span
+
 
 class Standing(Enum):
     """Where a number lies: in its usual span, outside of it, or where it must not be."""
@@ -45,7 +47,6 @@ WORDS: Mapping[Standing, str] = {
     Standing.ABOVE: "выше",
     Standing.FAILED: "недостаточно",
 }
-_SPAN_DIGITS = 3  # significant digits of the printed ends of a span
 
 
 def standing(value: float, span: tuple[float, float], digits: int) -> Standing:

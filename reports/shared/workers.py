@@ -28,18 +28,6 @@ if TYPE_CHECKING:
 
 
 _LONGEST_FOLDER = 107 - 33
-
-
-def processes(needs: str) -> ForkServerContext | SpawnContext:
-    """Context whose processes have a module imported: forkserver on Linux, else spawn."""
-    # The name of forkserver's socket has at most 107 bytes, of them 33 behind the folder's.
-    if sys.platform != "linux" or len(os.fsencode(tempfile.gettempdir())) > _LONGEST_FOLDER:
-        return multiprocessing.get_context("spawn")
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["reports.shared.orphaned", needs])  # before the first copy
-    return context
-
-
 GROWN = 2**28  # bytes that a process may keep beyond what it had when it was ready
 MEMORY = 2 * 2**30  # bytes of address space beyond what the ready process has
 _START_S = 120.0  # a cold start on a loaded machine
@@ -50,6 +38,16 @@ _FORBIDDEN = (
     "os.system", "os.exec", "os.posix_spawn", "os.spawn", "os.fork", "os.forkpty",
     "os.startfile", "webbrowser.open", "ftplib.connect", "smtplib.connect", "urllib.Request",
 )  # fmt: skip
+
+
+def processes(needs: str) -> ForkServerContext | SpawnContext:
+    """Context whose processes have a module imported: forkserver on Linux, else spawn."""
+    # The name of forkserver's socket has at most 107 bytes, of them 33 behind the folder's.
+    if sys.platform != "linux" or len(os.fsencode(tempfile.gettempdir())) > _LONGEST_FOLDER:
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["reports.shared.orphaned", needs])  # before the first copy
+    return context
 
 
 class Died(Exception):  # noqa: N818 - what happened to the process

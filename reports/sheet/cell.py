@@ -38,6 +38,16 @@ from reports.shared.russian import capital, fixed
 
 TITLE, TEXT = 5.0, 3.5  # height of letters
 _SAMPLE = 12.0  # of a dash beside the name of a curve
+ROW = 6.0  # mm
+_PADDING = 1.0  # on each side of the words in a cell [mm]
+_STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
+_RESULTS = ("M_mean", "M_max", "M_min", "M_e", "p_i_calc", "N_i_calc")
+_BEARING = 5.0  # half a bearing on the scheme
+_BEYOND = 3.0  # of an axis beyond the throws, before their numbers
+_SECOND = ("F_order_kN", "M_order_Nm")
+_LETTERS = (3.5, 2.5, 1.8)  # heights to try
+# ГОСТ 2.302.
+_SCALES = (10.0, 5.0, 4.0, 2.5, 2.0, 1.0, 1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 20, 1 / 50)
 
 
 class CellArea(NamedTuple):
@@ -109,12 +119,6 @@ def legend(canvas: Canvas, room: CellArea, names: list[Name]) -> CellArea:
     return CellArea(room.left, room.low, room.width, y - 2 - room.low)
 
 
-ROW = 6.0  # mm
-_PADDING = 1.0  # on each side of the words in a cell [mm]
-_STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
-_RESULTS = ("M_mean", "M_max", "M_min", "M_e", "p_i_calc", "N_i_calc")
-
-
 def grid(canvas: Canvas, room: CellArea, rows: Sequence[Sequence[str]]) -> None:
     """Table at the top of an area with a thick line under its heading.
 
@@ -174,11 +178,6 @@ def results(canvas: Canvas, room: CellArea, terms: Terms) -> None:
         if terms.has(key)
     ]
     grid(canvas, room, rows)
-
-
-_BEARING = 5.0  # half a bearing on the scheme
-_BEYOND = 3.0  # of an axis beyond the throws, before their numbers
-_SECOND = ("F_order_kN", "M_order_Nm")
 
 
 def shaft(canvas: Canvas, room: CellArea, terms: Terms) -> None:
@@ -282,11 +281,6 @@ def balance(canvas: Canvas, room: CellArea, terms: Terms) -> None:
     said = f"K_r = {terms.num('K_r')} кН; приведённая масса противовеса щеки {mass} кг"
     height = fitted(said, room.width, TEXT)
     canvas.words((room.middle[0], room.low + 1), said, height, align=0.5)
-
-
-_LETTERS = (3.5, 2.5, 1.8)  # heights to try
-# ГОСТ 2.302.
-_SCALES = (10.0, 5.0, 4.0, 2.5, 2.0, 1.0, 1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 20, 1 / 50)
 
 
 def throw(canvas: Canvas, room: CellArea, terms: Terms) -> None:

@@ -43,6 +43,12 @@ from reports.sheet.cell import TEXT, CellArea, Name, headed, legend
 _ROUND = (1.0, 2.0, 2.5, 4.0, 5.0)  # digits of the scales of ГОСТ 2.302
 _ANGLE_STEPS = (0.5, 1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0)
 STEP = 10.0  # mm between the lines of the grid
+_DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
+_ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)
+_POLE, _FAR = 1.2, 9.0  # radius of a pole; how far its name stands without a line to it
+_SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
+Values = NDArray[np.float64]
+_GROUP = re.compile(r"_\(([^)]*)\)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,16 +109,6 @@ def decimals(step: float) -> int:
 def unit_text(unit: float) -> str:
     """A scale as it is written."""
     return fixed(unit, decimals(unit))
-
-
-_DASHES: tuple[Dash, ...] = ((), DASHED, CENTRE, DOTTED, (8.0, 2.0, 3.0, 2.0))
-_ANGLES = (15.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0)
-_POLE, _FAR = 1.2, 9.0  # radius of a pole; how far its name stands without a line to it
-_SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
-Values = NDArray[np.float64]
-
-
-_GROUP = re.compile(r"_\(([^)]*)\)")
 
 
 def symbol(terms: Terms, name: str) -> str:

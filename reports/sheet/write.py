@@ -37,6 +37,21 @@ _COLUMNS = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)
 _HEADS = ("Изм.", "Лист", "№ докум.", "Подп.", "Дата")
 _NAME = (65.0, 135.0)
 _READABLE = 2.0  # of a name; one that would be smaller leaves the surname alone
+_NOTE = re.compile(r"\s*ПЗ$")
+_BOX_26 = (70.0, 14.0)  # [mm]
+SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
+_GAP = 6.0
+_LEAST = (120.0, 92.0)  # of a cell [mm]
+Draw = Callable[[Canvas, CellArea, Terms], None]
+_LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
+_PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
+_PAGE = """<!DOCTYPE html><html lang="ru"><head><meta charset="utf-8"><title>{title}</title>
+<meta name="dcterms.created" content="{year}-01-01">
+<meta name="dcterms.modified" content="{year}-01-01"><style>{fonts}
+@page {{ size: {width}mm {height}mm; margin: 0 }} body {{ margin: 0 }}
+img {{ display: block; width: {width}mm; height: {height}mm }}
+html {{ font-family: {stack} }}</style></head>
+<body><img alt="{title}" src="data:image/svg+xml;base64,{svg}"></body></html>"""
 
 
 def frame(canvas: Canvas, width: float, height: float) -> None:
@@ -108,9 +123,6 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     cell(", ".join(filter(None, places)), (135, 0, STAMP_WIDTH, 15), 3.5)
 
 
-_NOTE = re.compile(r"\s*ПЗ$")
-
-
 def designation(report: ReportSection) -> str:
     """The sheet's own designation: that of the note with the code of diagrams, ГОСТ 2.102."""
     return _NOTE.sub(" Д", report.designation)
@@ -127,13 +139,6 @@ def corner(canvas: Canvas, report: ReportSection, width: float, height: float) -
         middle, turn = (left + _BOX_26[0] / 2, top - _BOX_26[1] / 2 + 2.5), 180.0
     text = designation(report)
     canvas.words(middle, text, fitted(text, _BOX_26[0] - 2, 5.0), align=0.5, angle=turn)
-
-
-_BOX_26 = (70.0, 14.0)  # [mm]
-SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
-_GAP = 6.0
-_LEAST = (120.0, 92.0)  # of a cell [mm]
-Draw = Callable[[Canvas, CellArea, Terms], None]
 
 
 def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
@@ -258,17 +263,6 @@ def _grids(width: float, height: float) -> Iterator[list[CellArea]]:
             for r in range(rows) for c in range(columns)
             if not (c >= columns - taken[0] and r >= rows - taken[1])
         ]  # fmt: skip
-
-
-_LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
-_PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
-_PAGE = """<!DOCTYPE html><html lang="ru"><head><meta charset="utf-8"><title>{title}</title>
-<meta name="dcterms.created" content="{year}-01-01">
-<meta name="dcterms.modified" content="{year}-01-01"><style>{fonts}
-@page {{ size: {width}mm {height}mm; margin: 0 }} body {{ margin: 0 }}
-img {{ display: block; width: {width}mm; height: {height}mm }}
-html {{ font-family: {stack} }}</style></head>
-<body><img alt="{title}" src="data:image/svg+xml;base64,{svg}"></body></html>"""
 
 
 def sheet_files(model: Model, values: Values) -> dict[str, bytes]:

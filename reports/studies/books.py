@@ -36,6 +36,14 @@ from reports.workbook.styles import excel_format
 
 INPUTS, RESULTS, FIGURES, CURVES = "Данные", "Сравнение", "Диаграммы", "Кривые"
 _HEAD = 3  # rows of titles above the values
+MOST_ROWS = 100_000
+MOST_CURVES = 12
+MOST_CHARTS = 24
+DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
+_FIRST = 3  # rows of keys and titles stand above
+_NOWHERE = "не меняется"  # the place of an extreme of what stays the same
+# Shown where nothing is asked for.
+_USUAL = ("M_mean", "M_max", "M_e", "N_i_calc", "Rpin_max", "q_pin_max", "worst_main_load")
 
 
 class _Book:
@@ -169,16 +177,6 @@ def _charts(book: _Book, charts_of_all: Sequence[Chart]) -> None:
     book.head(sheet, texts)
     sheet.row_dimensions[_HEAD].height = 45
     sheet.freeze_panes = Cell(CURVES, _HEAD + 1, 2).coordinate
-
-
-MOST_ROWS = 100_000
-MOST_CURVES = 12
-MOST_CHARTS = 24
-DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
-_FIRST = 3  # rows of keys and titles stand above
-_NOWHERE = "не меняется"  # the place of an extreme of what stays the same
-# Shown where nothing is asked for.
-_USUAL = ("M_mean", "M_max", "M_e", "N_i_calc", "Rpin_max", "q_pin_max", "worst_main_load")
 
 
 @dataclass

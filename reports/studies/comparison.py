@@ -28,6 +28,60 @@ _ROUNDING = 1e-9  # kN, N·m: forces that cancel
 _NOUGHT = 1e-6  # of the greatest: no base for a difference in per cent
 LEAST_PERCENT = -99.95  # below it −100,0 would be printed of what is not nought
 _NOT_COMPARED = ("report", "workbook", "prototype", "reference", "checks")
+# Groups of results: keys of scalars, or a pattern of them and the title of its greatest.
+_MAIN, _PIN = "по коренным шейкам", "по шатунным шейкам"
+RESULTS: tuple[tuple[str, tuple[str | tuple[str, str], ...]], ...] = (
+    ("Размеры и массы", (
+        "S_stroke", "L_rod", "lam", "F_piston", "V_engine", "c_m", "m_j", "m_2", "m_r",
+    )),
+    ("Крутящий момент и мощность", (
+        "M_mean", "M_max", "M_min", "M_e", "N_i_calc", "p_i_calc",
+    )),
+    ("Нагрузки", (
+        "Rpin_max_kN", "Rpin_max", "Rpin_mean", "q_pin_max", "q_pin_mean",
+        (r"Rmain\d+_max_kN", f"Наибольшая нагрузка {_MAIN}"),
+        (r"q_main\d+_max", f"Наибольшее удельное давление {_MAIN}"),
+    )),
+    ("Набегающие моменты", (
+        (r"dM_main\d+", f"Наибольший размах набегающего момента {_MAIN}"),
+        (r"dM_pin\d+", f"Наибольший размах набегающего момента {_PIN}"),
+    )),
+    ("Уравновешенность и маховик", (
+        "F1_before_max", "F1_after_max", "Frot", "L1_before_max", "L1_after_max", "Lrot",
+        "I_engine_mean", "I_flywheel", "delta_speed",
+    )),
+    ("Прочность деталей", (
+        "st_crown_MPa", "st_land_MPa", "st_pin_bend_MPa", "st_oval_mm", "st_cap_MPa",
+        "st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n",
+    )),
+)  # fmt: skip
+X_TITLE = PHI
+CHARTS = (
+    ("gas.p_MPa", "Давление газов в цилиндре", "p, МПа"),
+    ("P4_2.Msum_Nm", "Крутящий момент двигателя", "ΣM, Н·м"),
+    ("crankpin.Rpin_MPa", "Нагрузка на шатунную шейку", "R_шш, МПа"),
+    ("P4_4.", "Набегающий момент шейки с наибольшим размахом", "M, Н·м"),
+    ("balance.Fup_kN", "Свободная сила инерции по оси первого цилиндра", "F, кН"),
+)
+SAME = 0.01  # share within which values count as equal
+STILL = 1e-3  # of the engine's own load or torque: what is smaller is nought
+_THOUSANDS = 1000.0
+_TIMES = 2.0  # from here on "so many times" is said
+# Key of the result, what is said of the greatest of it.
+_GREATEST = (
+    ("M_e", "Наибольший эффективный момент"),
+    ("N_i_calc", "Наибольшая индикаторная мощность"),
+    ("c_m", "Наибольшая средняя скорость поршня"),
+    ("Rpin_max_kN", "Наибольшая нагрузка на шатунную шейку"),
+    (r"Rmain\d+_max_kN", "Наибольшая нагрузка на коренную шейку"),
+    (r"dM_main\d+", "Наибольший размах набегающего момента коренных шеек"),
+    ("I_flywheel", "Самый тяжёлый маховик"),
+)
+# And what an engine's own size is measured by.
+_BALANCE = (
+    ("F1_before_max", "силы инерции 1-го порядка", "Rpin_max_kN"),
+    ("L1_before_max", "моменты сил инерции 1-го порядка", "M_max"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,43 +155,6 @@ class Chart:
     title: str
     y_title: str
     curves: tuple[tuple[int, list[float], list[float]], ...]  # engine, φ, values
-
-
-# Groups of results: keys of scalars, or a pattern of them and the title of its greatest.
-_MAIN, _PIN = "по коренным шейкам", "по шатунным шейкам"
-RESULTS: tuple[tuple[str, tuple[str | tuple[str, str], ...]], ...] = (
-    ("Размеры и массы", (
-        "S_stroke", "L_rod", "lam", "F_piston", "V_engine", "c_m", "m_j", "m_2", "m_r",
-    )),
-    ("Крутящий момент и мощность", (
-        "M_mean", "M_max", "M_min", "M_e", "N_i_calc", "p_i_calc",
-    )),
-    ("Нагрузки", (
-        "Rpin_max_kN", "Rpin_max", "Rpin_mean", "q_pin_max", "q_pin_mean",
-        (r"Rmain\d+_max_kN", f"Наибольшая нагрузка {_MAIN}"),
-        (r"q_main\d+_max", f"Наибольшее удельное давление {_MAIN}"),
-    )),
-    ("Набегающие моменты", (
-        (r"dM_main\d+", f"Наибольший размах набегающего момента {_MAIN}"),
-        (r"dM_pin\d+", f"Наибольший размах набегающего момента {_PIN}"),
-    )),
-    ("Уравновешенность и маховик", (
-        "F1_before_max", "F1_after_max", "Frot", "L1_before_max", "L1_after_max", "Lrot",
-        "I_engine_mean", "I_flywheel", "delta_speed",
-    )),
-    ("Прочность деталей", (
-        "st_crown_MPa", "st_land_MPa", "st_pin_bend_MPa", "st_oval_mm", "st_cap_MPa",
-        "st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n",
-    )),
-)  # fmt: skip
-X_TITLE = PHI
-CHARTS = (
-    ("gas.p_MPa", "Давление газов в цилиндре", "p, МПа"),
-    ("P4_2.Msum_Nm", "Крутящий момент двигателя", "ΣM, Н·м"),
-    ("crankpin.Rpin_MPa", "Нагрузка на шатунную шейку", "R_шш, МПа"),
-    ("P4_4.", "Набегающий момент шейки с наибольшим размахом", "M, Н·м"),
-    ("balance.Fup_kN", "Свободная сила инерции по оси первого цилиндра", "F, кН"),
-)
 
 
 def read_engines(sources: Sequence[Path], models: Sequence[InputFile]) -> tuple[Compared, ...]:
@@ -325,28 +342,6 @@ def _widest(columns: object) -> str:
         if name.startswith("Mmain")
     }
     return max(widths, key=lambda name: widths[name], default="")
-
-
-SAME = 0.01  # share within which values count as equal
-STILL = 1e-3  # of the engine's own load or torque: what is smaller is nought
-_THOUSANDS = 1000.0
-_TIMES = 2.0  # from here on "so many times" is said
-
-# Key of the result, what is said of the greatest of it.
-_GREATEST = (
-    ("M_e", "Наибольший эффективный момент"),
-    ("N_i_calc", "Наибольшая индикаторная мощность"),
-    ("c_m", "Наибольшая средняя скорость поршня"),
-    ("Rpin_max_kN", "Наибольшая нагрузка на шатунную шейку"),
-    (r"Rmain\d+_max_kN", "Наибольшая нагрузка на коренную шейку"),
-    (r"dM_main\d+", "Наибольший размах набегающего момента коренных шеек"),
-    ("I_flywheel", "Самый тяжёлый маховик"),
-)
-# And what an engine's own size is measured by.
-_BALANCE = (
-    ("F1_before_max", "силы инерции 1-го порядка", "Rpin_max_kN"),
-    ("L1_before_max", "моменты сил инерции 1-го порядка", "M_max"),
-)
 
 
 def conclusions(names: Sequence[str], rows: Sequence[Row]) -> tuple[str, ...]:

@@ -48,6 +48,9 @@ _TITLE = "Сравнение двигателей"
 _MOST_PERCENT = 900
 _NONE_LEFT = -99.99  # and here hardly anything is left that a table could show
 _FEW = 4  # engines that fit beside the words at the usual size
+KEY = "report.compare"
+_FEW_ENGINES = 3  # engines whose columns fit at the usual size of dense tables
+SUFFIXES = (".xlsx", ".pdf", ".html", ".csv", ".json")
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,10 +179,6 @@ def _with_symbol(chart: Chart) -> str:
     return f"${tex}$, {unit}"
 
 
-KEY = "report.compare"
-_FEW_ENGINES = 3  # engines whose columns fit at the usual size of dense tables
-
-
 def with_others(path: Path, loaded: Loaded) -> Loaded:
     """The input with the files it is compared with among those that were read.
 
@@ -271,9 +270,6 @@ class ComparisonChapter:
             figures=figures,
             sentences=conclusions(labels, self.rows),
         )
-
-
-SUFFIXES = (".xlsx", ".pdf", ".html", ".csv", ".json")
 
 
 def check_suffix(target: Path) -> None:

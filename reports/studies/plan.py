@@ -25,6 +25,8 @@ from reports.tables.registry import kept_model
 
 MOST_POINTS = 10_000_000
 _EXAMPLE = "пример: --vary geometry.bore_mm=84:92:9"
+Array = NDArray[np.float64]
+NOT_FINITE = "расчёт не дал конечного числа"
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +147,6 @@ def span_text(axis: Axis) -> str:
 
 def _wrong(text: str, what: str, hint: str) -> InputError:
     return InputError(Problem(f"--vary {one_line(text, 80)}", what, hint))
-
-
-Array = NDArray[np.float64]
-NOT_FINITE = "расчёт не дал конечного числа"
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,8 @@ from reports.studies.quantities import ChosenQuantities, choose, described
 ERROR = "error"
 SUFFIXES = (".parquet", ".csv", ".xlsx")
 ROW_GROUP = 16_384
+# Starting processes takes longer than that many combinations.
+_FEW = 4000
 
 
 class Sink(Protocol):
@@ -136,10 +138,6 @@ class _Parquet:
         table = self._pa.Table.from_arrays(arrays, schema=self._schema)
         self._writer.write_table(table, row_group_size=self._rows)
         self._chunks, self._rows = [], 0
-
-
-# Starting processes takes longer than that many combinations.
-_FEW = 4000
 
 
 @dataclass(frozen=True, slots=True)

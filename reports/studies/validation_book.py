@@ -30,6 +30,23 @@ WORDS: dict[Verdict, str] = {
     Verdict.NEW: "новое отклонение",
 }
 _CLOSE = 0.5 + 1e-9
+_ROW_HEADS = {"phi_deg": "φ, °", "alpha_deg": "α, °", "1/lambda": "1/λ"}
+_HEADS = {
+    "sign": "знак",
+    "sign_mirror": "знак при 360° − φ",
+    "piston_mm": "перемещение, мм",
+    "volume_dm3": "объём, дм³",
+    "pressure_MPa": "давление, МПа",
+    "temperature_K": "температура, К",
+    "alpha1": "α₁",
+    "ratio": "vmax/vср",
+    "k": "k",
+    "R_MPa": "R′ш.ш, МПа",
+    "value": "значение",
+}
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_MULTIPLE = re.compile(r"(\d*)p(\d)")
+_OUR_EXTRA = 1  # digits more than the book
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,25 +159,6 @@ def _apart(checks: Iterable[Check]) -> tuple[int, int]:
 def validate() -> Book:
     """Recompute every printed table and number."""
     return Book(tuple(Checked(table, check_table(table)) for table in TABLES))
-
-
-_ROW_HEADS = {"phi_deg": "φ, °", "alpha_deg": "α, °", "1/lambda": "1/λ"}
-_HEADS = {
-    "sign": "знак",
-    "sign_mirror": "знак при 360° − φ",
-    "piston_mm": "перемещение, мм",
-    "volume_dm3": "объём, дм³",
-    "pressure_MPa": "давление, МПа",
-    "temperature_K": "температура, К",
-    "alpha1": "α₁",
-    "ratio": "vmax/vср",
-    "k": "k",
-    "R_MPa": "R′ш.ш, МПа",
-    "value": "значение",
-}
-_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
-_MULTIPLE = re.compile(r"(\d*)p(\d)")
-_OUR_EXTRA = 1  # digits more than the book
 
 
 def printed(check: Check) -> str:

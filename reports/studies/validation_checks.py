@@ -16,6 +16,10 @@ _MINUTES = re.compile(r"(\d+) (\d\d)")
 _FRACTION = re.compile(r"(\d+)/(\d+)")
 _NUMBER = re.compile(r"-?\d+(\.\d*)?")
 _UP_TO = "≤"
+Ours = float | str
+Lookup = Callable[[str, str], Ours]
+UNKNOWN = "—"  # ours where the source does not say enough to compute it
+_HAIR = 1e-9  # rounding of the comparison itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,13 +116,6 @@ def force_cells(table: str) -> Iterator[PrintedCell]:
         label, *texts = row.values()
         if label.isdigit():
             yield PrintedCell(label, "R_MPa", next(text for text in texts if text))
-
-
-Ours = float | str
-Lookup = Callable[[str, str], Ours]
-
-UNKNOWN = "—"  # ours where the source does not say enough to compute it
-_HAIR = 1e-9  # rounding of the comparison itself
 
 
 class Verdict(StrEnum):

@@ -30,6 +30,13 @@ from reports.shared.resources import samples_dir
 from reports.studies.validation_checks import Lookup, Ours, rows_of
 
 DINN_STEP = 3  # degrees of the program's grid
+# The print has the two columns of ε the other way round than its own headers (1), (2).
+SWAPPED = {
+    "eps_rod_exact_1_s2": "eps_rod_approx_1_s2",
+    "eps_rod_approx_1_s2": "eps_rod_exact_1_s2",
+}
+_RAYS = 12
+_MULTIPLE = re.compile(r"(\d*)p(\d)")
 
 
 @lru_cache(maxsize=8)
@@ -87,14 +94,6 @@ def listing() -> Cycle:
 def minutes(radians: float) -> float:
     """An angle in minutes, as numbers with minutes are compared."""
     return 60 * float(np.degrees(radians))
-
-
-# The print has the two columns of ε the other way round than its own headers (1), (2).
-SWAPPED = {
-    "eps_rod_exact_1_s2": "eps_rod_approx_1_s2",
-    "eps_rod_approx_1_s2": "eps_rod_exact_1_s2",
-}
-_RAYS = 12
 
 
 def reference(table: str) -> Lookup:
@@ -180,9 +179,6 @@ def cycle_diagram() -> Lookup:
             "temperature_K": diagram.temperature,
         }
     )
-
-
-_MULTIPLE = re.compile(r"(\d*)p(\d)")
 
 
 def segal_angles() -> Lookup:

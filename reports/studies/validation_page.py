@@ -33,6 +33,40 @@ _LOWERED = re.compile("([₀-₉ⱼ]+)")
 _PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉ⱼ", "0123456789j")
 _MANY = 8  # columns from which a grid is set smaller
 _KINDS = (Verdict.MISPRINT, Verdict.OTHER_RUN, Verdict.NOT_REPRODUCED)
+COUNT_HEADS = ("чисел", "совпадает", "до знака", "опечаток", "другой расчёт", "не воспр.")
+_HEAD = """# Сверка с печатными источниками
+
+> In English: every printed table and number of the sources that the software covers,
+> recomputed; what deviates is a misprint, belongs to another run or cannot be reproduced, each with
+> its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.
+
+Файл составлен командой `./run docs`; тест следит, чтобы он не устарел. Все числа по одному, с
+отклонением и допуском, даёт `kshm validate -o DIR` (`validation.html`, `validation.pdf`,
+`validation.csv`). Печатные числа и записанные причины лежат в `reports/studies/data/`, что чем
+считается — в `reports/studies/validation_registry.py`.
+
+«Совпадает» — в пределах допуска таблицы, он назван у каждой; «до знака» — расчёт, округлённый до
+напечатанных знаков, отличается не больше чем на половину последнего."""
+_FITS = """
+## Прочность деталей: формулы и статика
+
+Печатного примера расчёта прочности деталей нет, формулы записаны по памяти (Колчин, Демидов) и с
+изданием не сверены. Вторая запись, `kshm/mechanics/strength.py`, где может, идёт от статики: втулка
+(кольца Ламе), стержень (Эйлер), кручение щеки (ряд Сен-Венана) и запасы прочности с книгой
+совпадают. Остальное тесты сверяют с балками и кольцами: изгиб пальца — до округления 12π/32 до 1,2
+(1,8 %), срез — до 0,85 вместо 8/(3π) (0,2 %); днище лежит между заделанной (0,75) и опёртой
+(1,24) пластинами; овализация тонкого кольца — того же порядка. Знак M₀ сжатой головки взят по
+статике. Коэффициенты верхней головки — приближения: прямая для M₀ завышает его вдесятеро у 100°,
+впятеро у 105° и сходится с брусом только у 90° и 130°.
+"""
+_ANGLES = (90, 100, 105, 110, 115, 120, 125, 130)
+_NUMBER_HEADS = ("число", "в книге", "у нас", "отклонение", "допуск", "вердикт")
+HEAD = (
+    "источник", "таблица", "место", "строка", "столбец", "что",
+    "в книге", "у нас", "отклонение", "допуск", "вердикт", "должно быть", "причина",
+)  # fmt: skip
+Kind = Literal["csv", "html", "pdf"]
+KINDS: tuple[Kind, ...] = ("csv", "html", "pdf")
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,9 +167,6 @@ def count_cells(counts: Counts) -> list[str]:
     return [str(number) for number in numbers]
 
 
-COUNT_HEADS = ("чисел", "совпадает", "до знака", "опечаток", "другой расчёт", "не воспр.")
-
-
 def _count_columns(first: str, width: float) -> list[TableColumn]:
     return [TableColumn(first, width, text=True), *(TableColumn(head) for head in COUNT_HEADS)]
 
@@ -220,21 +251,6 @@ def _cell(check: Check) -> Markup:
     )
 
 
-_HEAD = """# Сверка с печатными источниками
-
-> In English: every printed table and number of the sources that the software covers,
-> recomputed; what deviates is a misprint, belongs to another run or cannot be reproduced, each with
-> its reason. Generated from the data of `kshm validate`, which also lists the numbers that agree.
-
-Файл составлен командой `./run docs`; тест следит, чтобы он не устарел. Все числа по одному, с
-отклонением и допуском, даёт `kshm validate -o DIR` (`validation.html`, `validation.pdf`,
-`validation.csv`). Печатные числа и записанные причины лежат в `reports/studies/data/`, что чем
-считается — в `reports/studies/validation_registry.py`.
-
-«Совпадает» — в пределах допуска таблицы, он назван у каждой; «до знака» — расчёт, округлённый до
-напечатанных знаков, отличается не больше чем на половину последнего."""
-
-
 def markdown(book: Book) -> str:
     """The page as Markdown; the same data give the same text."""
     return "\n".join(_lines(book)) + "\n"
@@ -262,21 +278,6 @@ def _lines(book: Book) -> Iterator[str]:
         for checked in tables:
             yield from _section(checked)
     yield from _strength()
-
-
-_FITS = """
-## Прочность деталей: формулы и статика
-
-Печатного примера расчёта прочности деталей нет, формулы записаны по памяти (Колчин, Демидов) и с
-изданием не сверены. Вторая запись, `kshm/mechanics/strength.py`, где может, идёт от статики: втулка
-(кольца Ламе), стержень (Эйлер), кручение щеки (ряд Сен-Венана) и запасы прочности с книгой
-совпадают. Остальное тесты сверяют с балками и кольцами: изгиб пальца — до округления 12π/32 до 1,2
-(1,8 %), срез — до 0,85 вместо 8/(3π) (0,2 %); днище лежит между заделанной (0,75) и опёртой
-(1,24) пластинами; овализация тонкого кольца — того же порядка. Знак M₀ сжатой головки взят по
-статике. Коэффициенты верхней головки — приближения: прямая для M₀ завышает его вдесятеро у 100°,
-впятеро у 105° и сходится с брусом только у 90° и 130°.
-"""
-_ANGLES = (90, 100, 105, 110, 115, 120, 125, 130)
 
 
 def _strength() -> Iterator[str]:
@@ -322,9 +323,6 @@ def _section(checked: Checked) -> Iterator[str]:
         yield from _table(heads, rows)
 
 
-_NUMBER_HEADS = ("число", "в книге", "у нас", "отклонение", "допуск", "вердикт")
-
-
 def _row(check: Check) -> list[str]:
     return [
         shown.row_head(check), shown.printed(check), shown.ours(check),
@@ -337,12 +335,6 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]
     yield "|" + "---|" * len(heads)
     for row in rows:
         yield "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |"
-
-
-HEAD = (
-    "источник", "таблица", "место", "строка", "столбец", "что",
-    "в книге", "у нас", "отклонение", "допуск", "вердикт", "должно быть", "причина",
-)  # fmt: skip
 
 
 def listing(book: Book) -> str:
@@ -377,10 +369,6 @@ def _listed(check: Check) -> list[str]:
 
 def _number(value: float | None) -> str:
     return "" if value is None else f"{value:.6g}"
-
-
-Kind = Literal["csv", "html", "pdf"]
-KINDS: tuple[Kind, ...] = ("csv", "html", "pdf")
 
 
 def write(folder: Path, kinds: tuple[Kind, ...]) -> tuple[Book, list[Path], str]:

@@ -39,6 +39,20 @@ Number = Callable[[], Ours]
 _R, _LAM, _OMEGA = np.array(0.05), np.array(0.25), np.array(400.0)  # r and ω cancel
 _THIRD, _FIFTH = np.array(1 / 3), np.array(0.2)
 _PRINTED_STEP = 30  # degrees of the grid of tables П4.1 and П4.2
+_DEGREES = np.arange(0.0, 360.0)
+_PHI = np.radians(_DEGREES)
+_SYMBOLS = {"displacement": "s", "velocity": "v", "acceleration": "j"}
+# Table 1 of the paper, its smallest and its largest section: outer diameter of the small end,
+# height and width of the section over it, and the wall [mm]; the height grows downwards.
+_SECTIONS = {"low": (1.25 * 0.22, 0.50, 1.2, 0.5 * 0.33, 2.5),
+             "high": (1.65 * 0.28, 0.55, 1.4, 0.6 * 0.45, 4.0)}  # fmt: skip
+_BORES = (80.0, 120.0)
+_D50 = 19.2  # specific imbalance of the Д-50 [kg/m]: 192 gf·cm/cm²
+_RPM = np.pi / 30
+DISCS: dict[str, Number] = {
+    "first": lambda: float(modes_of(Train(np.array([211.4, 8.3]), np.array([9.775e6]))).hertz[0]),
+}
+_WIDTH = 0.5  # B/D
 
 
 def by_key(numbers: dict[str, Number]) -> Lookup:
@@ -225,11 +239,6 @@ APPENDIX_1: dict[str, Number] = {
 }
 
 
-_DEGREES = np.arange(0.0, 360.0)
-_PHI = np.radians(_DEGREES)
-_SYMBOLS = {"displacement": "s", "velocity": "v", "acceleration": "j"}
-
-
 def _two_term(name: str, phi: Array, lam: float) -> Array:
     values: Array = getattr(dimensionless.two_term(phi, np.array(lam)), _SYMBOLS[name])
     return values
@@ -310,13 +319,6 @@ def _velocity_error() -> float:
     return float(100 * np.abs(ratio - 1).max())
 
 
-# Table 1 of the paper, its smallest and its largest section: outer diameter of the small end,
-# height and width of the section over it, and the wall [mm]; the height grows downwards.
-_SECTIONS = {"low": (1.25 * 0.22, 0.50, 1.2, 0.5 * 0.33, 2.5),
-             "high": (1.65 * 0.28, 0.55, 1.4, 0.6 * 0.45, 4.0)}  # fmt: skip
-_BORES = (80.0, 120.0)
-
-
 def _section(which: str, *, big: bool) -> tuple[float, float]:
     """Slope and rest of r′² or R′² = slope·D − rest [mm, mm²], Ilchenko (21)."""
     outer, height, raised, width, wall = _SECTIONS[which]
@@ -340,9 +342,6 @@ ILCHENKO: dict[str, Number] = {
     "delta_I_min": lambda: UNKNOWN,
     "delta_I_max": lambda: UNKNOWN,
 }
-
-_D50 = 19.2  # specific imbalance of the Д-50 [kg/m]: 192 gf·cm/cm²
-_RPM = np.pi / 30
 
 
 def _gas_second() -> float:
@@ -392,13 +391,7 @@ def _frequency(number: int) -> float:
     return float(_mwm().hertz[number - 1])
 
 
-DISCS: dict[str, Number] = {
-    "first": lambda: float(modes_of(Train(np.array([211.4, 8.3]), np.array([9.775e6]))).hertz[0]),
-}
 MWM: dict[str, Number] = {f"f{number}": partial(_frequency, number) for number in range(1, 9)}
-
-
-_WIDTH = 0.5  # B/D
 
 
 def _at(form: Callable[[Array, Array], Array], eccentricity: float) -> float:

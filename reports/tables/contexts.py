@@ -37,6 +37,7 @@ Bounds = tuple[float, float]
 USUAL_SHARE = (
     f"доля массы шатуна на поршневом пальце {'…'.join(map(number_text, USUAL_SMALL_END_SHARE))}"
 )
+_CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
 def is_usual_share(name: str) -> str:
@@ -84,9 +85,6 @@ def _surfaces(scope: Scope) -> dict[str, Any]:
         for k in shape.journal_numbers
     ]  # fmt: skip
     return {"surfaces": [*pins, *mains]}
-
-
-_CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
 def _torque_orders(scope: Scope) -> dict[str, Any]:

@@ -34,6 +34,16 @@ _LEFT_OUT = frozenset({"checks"})
 _WHOLE = frozenset(
     {"gas_points", "gas_points_art"}
 )  # a diagram's points stand together, even usual ones
+# Comparison: forces of figures 23-25 and loads side by side, Gots 2.4. The last column of each row
+# names the regime that governs, the one with the greatest load.
+SHEET = "Режимы"
+MAIN_NAME = "основной режим"
+_FORCES = (("Pg_MPa", "Pg"), ("Pj_MPa", "Pj"), ("Ps_MPa", "Ps"))
+_CHARTS = (
+    ("23a", "Pg_MPa", "Удельная сила давления газов по режимам", "p′г, МПа"),
+    ("23b", "Pj_MPa", "Удельная сила инерции по режимам", "p′j, МПа"),
+    ("23c", "Ps_MPa", "Удельная суммарная сила по режимам", "p′s, МПа"),
+)
 
 
 @dataclass(frozen=True)
@@ -184,18 +194,6 @@ def regime_models(model: InputFile, chain: Callable[[InputFile], Part]) -> tuple
         inputs = tuple(iter_fields(alone))
         models.append(RegimeModel(number, inputs, part.blocks, part.charts, main))
     return tuple(models)
-
-
-# Comparison: forces of figures 23-25 and loads side by side, Gots 2.4. The last column of each row
-# names the regime that governs, the one with the greatest load.
-SHEET = "Режимы"
-MAIN_NAME = "основной режим"
-_FORCES = (("Pg_MPa", "Pg"), ("Pj_MPa", "Pj"), ("Ps_MPa", "Ps"))
-_CHARTS = (
-    ("23a", "Pg_MPa", "Удельная сила давления газов по режимам", "p′г, МПа"),
-    ("23b", "Pj_MPa", "Удельная сила инерции по режимам", "p′j, МПа"),
-    ("23c", "Ps_MPa", "Удельная суммарная сила по режимам", "p′s, МПа"),
-)
 
 
 def regime_titles(model: InputFile) -> tuple[str, ...]:

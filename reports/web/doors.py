@@ -39,28 +39,6 @@ from reports.web.shares import Turns
 
 _FOLDER = "earlier"
 _MOST = 20  # of one student: thirty megabytes each
-
-
-def keep_earlier(work: Path, coming: Path) -> None:
-    """Copy a work that counts aside before ``coming`` takes its place; the same file once."""
-    if not work.exists() or work.read_bytes() == coming.read_bytes():
-        return
-    make_dir(_folder(work))
-    when = datetime.fromtimestamp(work.stat().st_mtime)
-    shutil.copy2(work, _folder(work) / f"{when:%Y-%m-%d %H-%M-%S-%f}{work.suffix}")
-    for old in earlier(work)[:-_MOST]:
-        old.unlink(missing_ok=True)
-
-
-def earlier(work: Path) -> list[Path]:
-    """Works of the same student that have counted before, the first first."""
-    return sorted(_folder(work).glob(f"*{work.suffix}"))
-
-
-def _folder(work: Path) -> Path:
-    return work.parent / _FOLDER / work.stem
-
-
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
@@ -86,6 +64,32 @@ _HEADERS = {
 }
 # A page about a work may hold a student's words: nothing in a file that is shown may act.
 _SANDBOX = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:"
+_FOLDERS = re.compile(
+    "(?:" + "|".join(sorted({re.escape(str(path.resolve()).rstrip("/\\")) for path in (
+        Path(tempfile.gettempdir()), Path(__file__).parents[2], Path(sys.prefix), Path.home(),
+        Path.cwd(),
+    ) if path != Path(path.anchor)}, key=len, reverse=True)) + r")[^\s:;,«»]*[/\\]"
+)  # fmt: skip
+
+
+def keep_earlier(work: Path, coming: Path) -> None:
+    """Copy a work that counts aside before ``coming`` takes its place; the same file once."""
+    if not work.exists() or work.read_bytes() == coming.read_bytes():
+        return
+    make_dir(_folder(work))
+    when = datetime.fromtimestamp(work.stat().st_mtime)
+    shutil.copy2(work, _folder(work) / f"{when:%Y-%m-%d %H-%M-%S-%f}{work.suffix}")
+    for old in earlier(work)[:-_MOST]:
+        old.unlink(missing_ok=True)
+
+
+def earlier(work: Path) -> list[Path]:
+    """Works of the same student that have counted before, the first first."""
+    return sorted(_folder(work).glob(f"*{work.suffix}"))
+
+
+def _folder(work: Path) -> Path:
+    return work.parent / _FOLDER / work.stem
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,14 +188,6 @@ def visitor(request: Request) -> str:
 def public_words(text: str) -> str:
     """A message without the folders of the server."""
     return _FOLDERS.sub("", text)
-
-
-_FOLDERS = re.compile(
-    "(?:" + "|".join(sorted({re.escape(str(path.resolve()).rstrip("/\\")) for path in (
-        Path(tempfile.gettempdir()), Path(__file__).parents[2], Path(sys.prefix), Path.home(),
-        Path.cwd(),
-    ) if path != Path(path.anchor)}, key=len, reverse=True)) + r")[^\s:;,«»]*[/\\]"
-)  # fmt: skip
 
 
 def refusal(

@@ -56,6 +56,19 @@ _SYSTEM = (
     # Windows: where programs, fonts, settings, temporary files and the parts of WeasyPrint are
     "SYSTEMROOT", "WINDIR", "USERPROFILE", "LOCALAPPDATA", "TEMP", "WEASYPRINT_DLL_DIRECTORIES",
 )  # fmt: skip
+Texts = Mapping[str, str]  # of files by name
+MOST_WAITING, MOST_NEAR, MOST_OWN = 500, 200, 6  # of all, of an address, of a visitor
+MOST_BYTES = 2 * 10**9  # of all files kept
+KEEP_S = 14 * 86400.0
+_BUILD = ("build", "engine.toml", "-o", "out", "--only")
+_COMPARE = ("compare", "engine.toml", "other.toml", "-o")
+OFFERED = {  # titles of files and what makes them
+    **{kind: (title[0].upper() + title[1:], (*_BUILD, kind)) for kind, title in FORMATS.items()},
+    "csv": ("Таблицы CSV", ("solve", "engine.toml", "--csv", "csv")),
+    "json": ("Числа JSON", ("solve", "engine.toml", "--json", "out/engine.json")),
+    "compare-xlsx": ("Сравнение: книга", (*_COMPARE, "out/compare.xlsx")),
+    "compare-pdf": ("Сравнение: PDF", (*_COMPARE, "out/compare.pdf")),
+}
 
 
 def failed(why: str) -> dict[str, Any]:
@@ -109,21 +122,6 @@ async def run(
         "state": "done" if code in (0, 1) else "failed",
         "lines": [one_line(line, 400) for line in lines if line.strip()][:_LINES],
     }
-
-
-Texts = Mapping[str, str]  # of files by name
-MOST_WAITING, MOST_NEAR, MOST_OWN = 500, 200, 6  # of all, of an address, of a visitor
-MOST_BYTES = 2 * 10**9  # of all files kept
-KEEP_S = 14 * 86400.0
-_BUILD = ("build", "engine.toml", "-o", "out", "--only")
-_COMPARE = ("compare", "engine.toml", "other.toml", "-o")
-OFFERED = {  # titles of files and what makes them
-    **{kind: (title[0].upper() + title[1:], (*_BUILD, kind)) for kind, title in FORMATS.items()},
-    "csv": ("Таблицы CSV", ("solve", "engine.toml", "--csv", "csv")),
-    "json": ("Числа JSON", ("solve", "engine.toml", "--json", "out/engine.json")),
-    "compare-xlsx": ("Сравнение: книга", (*_COMPARE, "out/compare.xlsx")),
-    "compare-pdf": ("Сравнение: PDF", (*_COMPARE, "out/compare.pdf")),
-}
 
 
 class Queue:

@@ -30,6 +30,15 @@ _WIDTH = re.compile(r"width:([\d.]+)(%|mm|px)")
 CONTINUED_MM = 6.5  # height of the row «Продолжение таблицы»
 _SHORT = 6  # rows of a table that stay together anyhow
 _RULES = {"top": "single", "bottom": "single"}
+# Paragraph styles of the elements of the page by class, and of sections by what they hold.
+_DIVS = {"kind": "CoverKind", "title": "Title", "people": "CoverPeople", "approve": "TaskApprove",
+         "head": "TaskHead", "centre": "TaskCentre"}  # fmt: skip
+_PARTS = {"cover": "Cover", "task": "Task", "notation": "Notation"}
+_PARAGRAPHS = {"flush": "Flush", "keys": "Keywords"}
+_BLOCKS = {"div", "p", "section", "ul", "ol", "figure", "table", "nav", "h1", "h2", "h3"}
+_BESIDE = (0.04, 0.86, 0.10)  # of the width: left of a numbered formula, it, its number
+_APPENDIX = re.compile(r"(Приложение )([А-Я])$")
+_BELOW = {"BodyText": "BodyAfterTable", "Flush": "FlushAfterTable"}
 
 
 def table_of(
@@ -178,16 +187,6 @@ def _sized(runs: list[Element], source: HtmlElement) -> list[Element]:
         points = round(2 * float(match[1])) if match else 0
         about.extend([w("sz", val=points), w("szCs", val=points)])
     return runs
-
-
-# Paragraph styles of the elements of the page by class, and of sections by what they hold.
-_DIVS = {"kind": "CoverKind", "title": "Title", "people": "CoverPeople", "approve": "TaskApprove",
-         "head": "TaskHead", "centre": "TaskCentre"}  # fmt: skip
-_PARTS = {"cover": "Cover", "task": "Task", "notation": "Notation"}
-_PARAGRAPHS = {"flush": "Flush", "keys": "Keywords"}
-_BLOCKS = {"div", "p", "section", "ul", "ol", "figure", "table", "nav", "h1", "h2", "h3"}
-_BESIDE = (0.04, 0.86, 0.10)  # of the width: left of a numbered formula, it, its number
-_APPENDIX = re.compile(r"(Приложение )([А-Я])$")
 
 
 class Blocks:
@@ -368,9 +367,6 @@ class Blocks:
 
 def _is_table(element: Element) -> bool:
     return str(element.tag).endswith("}tbl")
-
-
-_BELOW = {"BodyText": "BodyAfterTable", "Flush": "FlushAfterTable"}
 
 
 def _moved_down(block: Element) -> None:

@@ -19,6 +19,13 @@ if TYPE_CHECKING:
 COUNT_MARK = "{kshm}count"  # on a run that shows how many there are: their kind
 _INSTRUCTION = f"{{{W}}}instrText"
 _KIND = f"{{{W}}}fldCharType"
+Looks = frozenset[str]
+_TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
+_BLANKS = re.compile("[ \t\r\n\f]+")
+_FACES = {"i": "i", "em": "i", "b": "b", "strong": "b", "sub": "sub", "sup": "sup", "u": "u"}
+# No-break spaces on a line to write on.
+_INK = {"ink": 30, "ink wide": 70, "ink day": 6, "ink month": 18}
+_NUMBER = re.compile(r"(?:([А-Я]|\d+)\.)?(\d+)")
 
 
 def count_totals(body: Element, bookmarks: Bookmarks) -> None:
@@ -62,15 +69,6 @@ def _runs(words: Element) -> list[Element]:
     while not any(c.get(_KIND) == "end" for c in runs[-1]):
         runs.append(runs[-1].getnext())
     return runs
-
-
-Looks = frozenset[str]
-_TEXTS = (f"{{{W}}}t", f"{{{omml.NAMESPACE}}}t")
-_BLANKS = re.compile("[ \t\r\n\f]+")
-_FACES = {"i": "i", "em": "i", "b": "b", "strong": "b", "sub": "sub", "sup": "sup", "u": "u"}
-# No-break spaces on a line to write on.
-_INK = {"ink": 30, "ink wide": 70, "ink day": 6, "ink month": 18}
-_NUMBER = re.compile(r"(?:([А-Я]|\d+)\.)?(\d+)")
 
 
 @dataclass

@@ -16,6 +16,29 @@ SEQUENCES = {"ris": "Рисунок", "tab": "Таблица", "eq": "Форму
 _LONGEST = 40  # letters of a bookmark's name
 TWIPS_MM = 1440 / 25.4
 Element: TypeAlias = etree._Element
+_EMU_MM = 36000
+_NAMES = {
+    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
+    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
+    "wps": "http://schemas.microsoft.com/office/word/2010/wordprocessingShape",
+}
+_ANCHOR = """<wp:anchor {names} distT="0" distB="0" distL="0" distR="0" simplePos="0"
+ relativeHeight="1" behindDoc="{behind}" locked="1" layoutInCell="0" allowOverlap="1">
+<wp:simplePos x="0" y="0"/>
+<wp:positionH relativeFrom="{across}"><wp:posOffset>{left}</wp:posOffset></wp:positionH>
+<wp:positionV relativeFrom="{down}"><wp:posOffset>{top}</wp:posOffset></wp:positionV>
+<wp:extent cx="{cx}" cy="{cy}"/><wp:wrapNone/>
+<wp:docPr id="{number}" name="{words} {number}" descr="{words}"/><wp:cNvGraphicFramePr/>
+<a:graphic><a:graphicData uri="{wps}"><wps:wsp><wps:cNvSpPr/><wps:spPr>
+<a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
+<a:prstGeom prst="rect"><a:avLst/></a:prstGeom>{looks}</wps:spPr>{text}</wps:wsp>
+</a:graphicData></a:graphic></wp:anchor>"""
+# Words that are read from below.
+_UPWARDS = """<wps:txbx><w:txbxContent xmlns:w="{W}"><w:p><w:pPr><w:pStyle w:val="Stamp"/></w:pPr>
+<w:r><w:t>{words}</w:t></w:r></w:p></w:txbxContent></wps:txbx>
+<wps:bodyPr vert="vert270" lIns="0" tIns="0" rIns="0" bIns="0" anchor="ctr"/>"""
+_LINE = '<a:noFill/><a:ln w="21600"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln>'
+_WHITE = '<a:solidFill><a:srgbClr val="FFFFFF"/></a:solidFill><a:ln><a:noFill/></a:ln>'
 
 
 def w(name: str, /, *children: Element, **attributes: object) -> Element:
@@ -99,31 +122,6 @@ def bookmark_name(anchor: str) -> str:
         return name
     digest = hashlib.sha256(anchor.encode()).hexdigest()[:12]
     return f"{re.sub(r'[^A-Za-z0-9]+', '_', anchor)[:27]}_{digest}"
-
-
-_EMU_MM = 36000
-_NAMES = {
-    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
-    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
-    "wps": "http://schemas.microsoft.com/office/word/2010/wordprocessingShape",
-}
-_ANCHOR = """<wp:anchor {names} distT="0" distB="0" distL="0" distR="0" simplePos="0"
- relativeHeight="1" behindDoc="{behind}" locked="1" layoutInCell="0" allowOverlap="1">
-<wp:simplePos x="0" y="0"/>
-<wp:positionH relativeFrom="{across}"><wp:posOffset>{left}</wp:posOffset></wp:positionH>
-<wp:positionV relativeFrom="{down}"><wp:posOffset>{top}</wp:posOffset></wp:positionV>
-<wp:extent cx="{cx}" cy="{cy}"/><wp:wrapNone/>
-<wp:docPr id="{number}" name="{words} {number}" descr="{words}"/><wp:cNvGraphicFramePr/>
-<a:graphic><a:graphicData uri="{wps}"><wps:wsp><wps:cNvSpPr/><wps:spPr>
-<a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
-<a:prstGeom prst="rect"><a:avLst/></a:prstGeom>{looks}</wps:spPr>{text}</wps:wsp>
-</a:graphicData></a:graphic></wp:anchor>"""
-# Words that are read from below.
-_UPWARDS = """<wps:txbx><w:txbxContent xmlns:w="{W}"><w:p><w:pPr><w:pStyle w:val="Stamp"/></w:pPr>
-<w:r><w:t>{words}</w:t></w:r></w:p></w:txbxContent></wps:txbx>
-<wps:bodyPr vert="vert270" lIns="0" tIns="0" rIns="0" bIns="0" anchor="ctr"/>"""
-_LINE = '<a:noFill/><a:ln w="21600"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln>'
-_WHITE = '<a:solidFill><a:srgbClr val="FFFFFF"/></a:solidFill><a:ln><a:noFill/></a:ln>'
 
 
 class Rectangle(NamedTuple):

@@ -28,6 +28,28 @@ _DPI = 220  # of the picture beside the SVG, for programs that show no SVG
 _PT = 72
 _INHERITED = ("font-family", "font-style", "font-weight", "font-size", "fill", "text-anchor")
 _USUAL = {"font-family": fonts.FAMILY, "font-size": "11"}
+Outline = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
+_EMU_MM = 36000
+_WIDTH = re.compile(r"width:([\d.]+)mm")
+_NAMES = {
+    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
+    "asvg": "http://schemas.microsoft.com/office/drawing/2016/SVG/main",
+    "pic": "http://schemas.openxmlformats.org/drawingml/2006/picture",
+    "r": "http://schemas.openxmlformats.org/officeDocument/2006/relationships",
+    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
+}
+_SVG_BLIP = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"  # extension of Office 2016
+_INLINE = """<wp:inline {names} distT="0" distB="0" distL="0" distR="0">
+<wp:extent cx="{cx}" cy="{cy}"/><wp:docPr id="{number}" name="Рисунок {number}"/>
+<wp:cNvGraphicFramePr><a:graphicFrameLocks noChangeAspect="1"/></wp:cNvGraphicFramePr>
+<a:graphic><a:graphicData uri="{pic}"><pic:pic>
+<pic:nvPicPr><pic:cNvPr id="{number}" name="figure{number}.svg"/><pic:cNvPicPr/></pic:nvPicPr>
+<pic:blipFill><a:blip r:embed="{png}"><a:extLst><a:ext uri="{uri}">
+<asvg:svgBlip r:embed="{svg}"/></a:ext></a:extLst></a:blip>
+<a:stretch><a:fillRect/></a:stretch></pic:blipFill>
+<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
+<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr>
+</pic:pic></a:graphicData></a:graphic></wp:inline>"""
 
 
 def outlined(svg: str) -> str:
@@ -100,9 +122,6 @@ def _placed(x: float, y: float) -> str:
     return f"{x:.2f} {y:.2f}"
 
 
-Outline = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
-
-
 @functools.lru_cache(maxsize=2048)
 def _glyph(family: str, style: str, weight: str, char: str) -> tuple[Outline, float]:
     """Outline [em] with y upwards and advance [em] of a letter."""
@@ -123,29 +142,6 @@ def _glyph(family: str, style: str, weight: str, char: str) -> tuple[Outline, fl
         for points, code in path.iter_segments(simplify=False, curves=True)
     )
     return outline, float(glyph.horiAdvance) / units
-
-
-_EMU_MM = 36000
-_WIDTH = re.compile(r"width:([\d.]+)mm")
-_NAMES = {
-    "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
-    "asvg": "http://schemas.microsoft.com/office/drawing/2016/SVG/main",
-    "pic": "http://schemas.openxmlformats.org/drawingml/2006/picture",
-    "r": "http://schemas.openxmlformats.org/officeDocument/2006/relationships",
-    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
-}
-_SVG_BLIP = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"  # extension of Office 2016
-_INLINE = """<wp:inline {names} distT="0" distB="0" distL="0" distR="0">
-<wp:extent cx="{cx}" cy="{cy}"/><wp:docPr id="{number}" name="Рисунок {number}"/>
-<wp:cNvGraphicFramePr><a:graphicFrameLocks noChangeAspect="1"/></wp:cNvGraphicFramePr>
-<a:graphic><a:graphicData uri="{pic}"><pic:pic>
-<pic:nvPicPr><pic:cNvPr id="{number}" name="figure{number}.svg"/><pic:cNvPicPr/></pic:nvPicPr>
-<pic:blipFill><a:blip r:embed="{png}"><a:extLst><a:ext uri="{uri}">
-<asvg:svgBlip r:embed="{svg}"/></a:ext></a:extLst></a:blip>
-<a:stretch><a:fillRect/></a:stretch></pic:blipFill>
-<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext cx="{cx}" cy="{cy}"/></a:xfrm>
-<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr>
-</pic:pic></a:graphicData></a:graphic></wp:inline>"""
 
 
 class Pictures:

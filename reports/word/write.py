@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from docx.section import Section
     from lxml.html import HtmlElement
 
+_THUMBNAIL = "docProps/thumbnail.jpeg"  # of the template
+
 
 def set_sheet(section: Section, style: Style) -> None:
     """A4 with the margins of the style."""
@@ -190,9 +192,6 @@ def _describe(document: Document, root: HtmlElement) -> None:
     about.last_modified_by, about.comments, about.language = meta("author"), "", "ru-RU"
     about.created = about.modified = datetime.fromisoformat(meta("dcterms.created"))
     about.revision = 1
-
-
-_THUMBNAIL = "docProps/thumbnail.jpeg"  # of the template
 
 
 def _timeless(data: bytes) -> bytes:

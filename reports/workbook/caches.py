@@ -33,6 +33,26 @@ _C = "http://schemas.openxmlformats.org/drawingml/2006/chart"
 _R = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _XDR = "http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing"
 _DRAWN = {"a": _A, "c": _C, "r": _R, "xdr": _XDR}
+_MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+_REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
+_CHART = "http://schemas.openxmlformats.org/drawingml/2006/chart"
+_CHARTS, _DRAWINGS = "xl/charts/chart", "xl/drawings/drawing"
+_VALUE = f"{{{_MAIN}}}v"
+_DCTERMS = "http://purl.org/dc/terms/"
+_MARK = "kshm"
+_MARKED = re.compile(rf"<\?{_MARK} (\d+)\?>".encode())
+_DIGITS = ".14g"  # a spreadsheet shows hardly one more; what follows is noise that takes room
+_NOTHING = 1e-13  # what is left of a zero
+_CHART_TEXT = (
+    f'<c:txPr xmlns:c="{_CHART}" xmlns:a="{_A}"><a:bodyPr/><a:p><a:pPr><a:defRPr sz="800">'
+    f'<a:latin typeface="{FONT}"/></a:defRPr></a:pPr><a:endParaRPr lang="ru-RU"/></a:p></c:txPr>'
+)
+_LEVELS = {LOWER: "subscript", UPPER: "superscript"}
+_LETTERS, _INDEX = f'<sz val="{SIZE}"/>', SIZE + 2
+# openpyxl writes the parts of a font in another order than the schema names them.
+_FONT_ORDER = ("b", "i", "strike", "condense", "extend", "outline", "shadow", "u", "vertAlign",
+               "sz", "color", "name", "family", "charset", "scheme")  # fmt: skip
 
 
 def hoist(root: etree._Element) -> None:
@@ -79,19 +99,6 @@ def _words(chart: etree._Element) -> str:
 
 def _text(title: etree._Element | None) -> str:
     return "" if title is None else "".join(t.text or "" for t in title.iter(f"{{{_A}}}t"))
-
-
-_MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-_REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-_PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
-_CHART = "http://schemas.openxmlformats.org/drawingml/2006/chart"
-_CHARTS, _DRAWINGS = "xl/charts/chart", "xl/drawings/drawing"
-_VALUE = f"{{{_MAIN}}}v"
-_DCTERMS = "http://purl.org/dc/terms/"
-_MARK = "kshm"
-_MARKED = re.compile(rf"<\?{_MARK} (\d+)\?>".encode())
-_DIGITS = ".14g"  # a spreadsheet shows hardly one more; what follows is noise that takes room
-_NOTHING = 1e-13  # what is left of a zero
 
 
 class CacheError(ValueError):
@@ -253,14 +260,6 @@ def _escaped(text: str) -> str:
     return text
 
 
-_CHART_TEXT = (
-    f'<c:txPr xmlns:c="{_CHART}" xmlns:a="{_A}"><a:bodyPr/><a:p><a:pPr><a:defRPr sz="800">'
-    f'<a:latin typeface="{FONT}"/></a:defRPr></a:pPr><a:endParaRPr lang="ru-RU"/></a:p></c:txPr>'
-)
-_LEVELS = {LOWER: "subscript", UPPER: "superscript"}
-_LETTERS, _INDEX = f'<sz val="{SIZE}"/>', SIZE + 2
-
-
 def _mark_symbols(
     root: etree._Element, symbols: Mapping[str, tuple[Runs, bool]], marks: list[bytes]
 ) -> None:
@@ -305,11 +304,6 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
     before.addnext(etree.fromstring(_CHART_TEXT))
     hoist(root)
     return _written(root)
-
-
-# openpyxl writes the parts of a font in another order than the schema names them.
-_FONT_ORDER = ("b", "i", "strike", "condense", "extend", "outline", "shadow", "u", "vertAlign",
-               "sz", "color", "name", "family", "charset", "scheme")  # fmt: skip
 
 
 def _fonts(data: bytes) -> bytes:

@@ -81,6 +81,14 @@ _TOP = 2
 _LINKS, _ACROSS, _EACH = 6, 3, 3  # first column, chapters in a row, columns that each takes
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
+SHEET = "Что если"
+_STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 12, "F": 6, "G": 12}
+_HEAD = ("Величина", "Обозначение", "Было", "Стало", "Разница", "", "Единица")
+_NOTE = (
+    "Измените жёлтую ячейку на листе «Исходные данные»: здесь видно, что от этого изменилось. "
+    "Вернуть: впишите на том листе число из столбца «Было»."
+)
+_NO_PART = "—"
 
 
 def write_cockpit(
@@ -368,16 +376,6 @@ def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], r
         cell = styles.as_text(sheet.cell(row + 1, 2, missing))
         cell.style = styles.NOTE
         cell.alignment = Alignment(vertical="top")
-
-
-SHEET = "Что если"
-_STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 12, "F": 6, "G": 12}
-_HEAD = ("Величина", "Обозначение", "Было", "Стало", "Разница", "", "Единица")
-_NOTE = (
-    "Измените жёлтую ячейку на листе «Исходные данные»: здесь видно, что от этого изменилось. "
-    "Вернуть: впишите на том листе число из столбца «Было»."
-)
-_NO_PART = "—"
 
 
 def write_what_if(book: Workbook, model: Model, writer: BlockWriter) -> None:

@@ -38,6 +38,7 @@ _SAMPLES = ((styles.INPUT, "меняют"), (styles.STRUCTURE, "строение
 _KEY = "Ключ в файле .toml"
 _FOLDED = "свёрнуто: «+» слева от строк"
 _TITLE_LETTERS = 32  # of a message box, as much as Excel takes
+_LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT, SOURCE_COLUMN: styles.UNIT}
 
 
 def write_inputs(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
@@ -119,9 +120,6 @@ def range_text(item: Field) -> str:
     if item.minimum is None or item.maximum is None:
         return ""
     return f"{short(item.minimum)} … {short(item.maximum)}"
-
-
-_LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT, SOURCE_COLUMN: styles.UNIT}
 
 
 def _labels(sheet: Worksheet, item: Field, row: int) -> None:

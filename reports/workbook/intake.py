@@ -16,6 +16,41 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.file_types import ARCHIVE, CALLED, OFFICE, kind_of, read_bytes
 
 _KEPT = 64 * 2**20  # bytes of unpacked parts that are kept
+_TARGET = re.compile(rb"""(\b(?:Target|PartName)\s*=\s*["'])([^"']*)(["'])""")
+# Parts that readers look for by these very names, whatever their case in a file.
+_USUAL_NAMES = ("[Content_Types].xml", "_rels/.rels", "xl/workbook.xml", "xl/sharedStrings.xml",
+                "xl/styles.xml", "xl/_rels/workbook.xml.rels")  # fmt: skip
+_ENTRY, _LOCAL = 46, 30  # bytes before the name in the directory of a zip, and before a part
+_BOOK, _TYPES = "xl/workbook.xml", "[Content_Types].xml"
+_SHEET_TYPE = b"spreadsheetml.sheet.main+xml"
+_STRICT = b"http://purl.oclc.org/ooxml/spreadsheetml/main"
+_SAVE_AS = "откройте её в Excel или LibreOffice и сохраните как .xlsx: Файл → Сохранить как"
+STRICT = (
+    "книга сохранена в строгом формате Open XML",
+    "сохраните её как обычную книгу Excel .xlsx: Файл → Сохранить как",
+)
+MAX_FILE = 30 * 10**6
+MAX_UNPACKED = 300 * 2**20
+MAX_PARTS = 2000
+MAX_RATIO = 400
+_HEAD = 4096
+# What may stand before the root element of a part: no DOCTYPE, whatever hides it from a look at
+# the beginning (a long remark, another coding).
+_ROOT = re.compile(
+    rb"(?:\xef\xbb\xbf)?(?>\s|<\?(?>(?:(?!\?>).)*)\?>|<!--(?>(?:(?!-->).)*)-->)*+<[^!?\0]",
+    re.DOTALL,
+)
+_CHUNK = 2**20
+_DAMAGED = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OSError,
+    struct.error,
+)
 
 
 class Package:
@@ -93,13 +128,6 @@ class Package:
         return self._archive.read(name) if part is None else part
 
 
-_TARGET = re.compile(rb"""(\b(?:Target|PartName)\s*=\s*["'])([^"']*)(["'])""")
-# Parts that readers look for by these very names, whatever their case in a file.
-_USUAL_NAMES = ("[Content_Types].xml", "_rels/.rels", "xl/workbook.xml", "xl/sharedStrings.xml",
-                "xl/styles.xml", "xl/_rels/workbook.xml.rels")  # fmt: skip
-_ENTRY, _LOCAL = 46, 30  # bytes before the name in the directory of a zip, and before a part
-
-
 def _as_named(data: bytes) -> bytes:
     """A zip with slashes and the usual case in the names of its parts; nothing is unpacked."""
     usual = {name.casefold(): name for name in _USUAL_NAMES}
@@ -138,38 +166,6 @@ def repacked(data: bytes, changed: Mapping[str, bytes]) -> bytes:
             part = changed.get(info.filename)
             target.writestr(info, source.read(info) if part is None else part)
     return stream.getvalue()
-
-
-_BOOK, _TYPES = "xl/workbook.xml", "[Content_Types].xml"
-_SHEET_TYPE = b"spreadsheetml.sheet.main+xml"
-_STRICT = b"http://purl.oclc.org/ooxml/spreadsheetml/main"
-_SAVE_AS = "откройте её в Excel или LibreOffice и сохраните как .xlsx: Файл → Сохранить как"
-STRICT = (
-    "книга сохранена в строгом формате Open XML",
-    "сохраните её как обычную книгу Excel .xlsx: Файл → Сохранить как",
-)
-MAX_FILE = 30 * 10**6
-MAX_UNPACKED = 300 * 2**20
-MAX_PARTS = 2000
-MAX_RATIO = 400
-_HEAD = 4096
-# What may stand before the root element of a part: no DOCTYPE, whatever hides it from a look at
-# the beginning (a long remark, another coding).
-_ROOT = re.compile(
-    rb"(?:\xef\xbb\xbf)?(?>\s|<\?(?>(?:(?!\?>).)*)\?>|<!--(?>(?:(?!-->).)*)-->)*+<[^!?\0]",
-    re.DOTALL,
-)
-_CHUNK = 2**20
-_DAMAGED = (
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    NotImplementedError,
-    RuntimeError,
-    ValueError,
-    OSError,
-    struct.error,
-)
 
 
 def check_package(path: Path) -> bytes:

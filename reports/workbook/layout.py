@@ -42,6 +42,12 @@ _MAIN_NAMES = {
     "masses_reciprocating_kg", "masses_piston_group_kg", "masses_rod_kg",
 }  # fmt: skip
 _ORDER = {"engine": 0, "report": 3, "workbook": 3}
+_ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
+_NEXT = "\x02"
+_ABOVE = "\x03"
+# The column of the first row's order; that of the next row stands beside it.
+_BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
+_WAVE = re.compile("\x04(\\d+)\x04")
 
 
 def arranged(inputs: Sequence[Field]) -> list[Field]:
@@ -55,14 +61,6 @@ def arranged(inputs: Sequence[Field]) -> list[Field]:
         return 1 if item.section == _MAIN_DATA else _ORDER.get(str(item.path[0]), 2)
 
     return sorted(map(grouped, inputs), key=order)
-
-
-_ROW = "\x01"  # stands for the row number in a formula compiled once for a whole column
-_NEXT = "\x02"
-_ABOVE = "\x03"
-# The column of the first row's order; that of the next row stands beside it.
-_BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
-_WAVE = re.compile("\x04(\\d+)\x04")
 
 
 @dataclass(frozen=True, slots=True)

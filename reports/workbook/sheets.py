@@ -37,6 +37,12 @@ from reports.workbook.layout import (
 )
 from reports.workbook.places import raise_row
 
+# Widths of the columns of titles, symbols and sources in a list.
+TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
+NARROW = 9.5  # of a column of a table
+_NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
+Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
+
 
 def link(
     sheet: Worksheet, cell_of_link: Cell, text: str, target: str, target_cell: str = "A1"
@@ -48,12 +54,6 @@ def link(
     cell.style = styles.LINK
 
 
-# Widths of the columns of titles, symbols and sources in a list.
-TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
-NARROW = 9.5  # of a column of a table
-_NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
-
-
 @dataclass(frozen=True, slots=True)
 class FilledColumn:
     """Formula cells below one written by openpyxl, which they look like."""
@@ -61,9 +61,6 @@ class FilledColumn:
     index: int
     first_row: int
     cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
-
-
-Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
 
 
 @dataclass

@@ -41,6 +41,19 @@ from reports.workbook.sheets import BlockWriter, CacheValues, link
 
 _Fields = Mapping[str, Sequence[Field]]
 _POINTS = Pair("gas.points", "gas.points", "Углы точек диаграммы возрастают")
+GOOD, _WHERE = "все выполнены", ", см. «Проверки»"
+_BAD, _UNUSUAL, _OUTSIDE, _BLANK = "не все", "есть необычное", "вне пределов", "не посчитаны"
+BAD, UNUSUAL, BEYOND, UNKNOWN = (f"{words}{_WHERE}" for words in (_BAD, _UNUSUAL, _OUTSIDE, _BLANK))
+RESHAPED = "структура изменена: выполните build"
+STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
+ODD, _UNKNOWN = "необычно", "—"
+_BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
+_WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
+_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах"
+_RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
+_WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
+_LISTS = 4  # rows before those of lists: a title and counts
+_CHECKS = "checks"  # the list of the house; a department's book may have checks too
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,22 +165,7 @@ def _scaled(text: str, term: Term) -> str:
     return text + power if term.times == 1 else f"{number(term.times)}*{text}{power}"
 
 
-GOOD, _WHERE = "все выполнены", ", см. «Проверки»"
-_BAD, _UNUSUAL, _OUTSIDE, _BLANK = "не все", "есть необычное", "вне пределов", "не посчитаны"
-BAD, UNUSUAL, BEYOND, UNKNOWN = (f"{words}{_WHERE}" for words in (_BAD, _UNUSUAL, _OUTSIDE, _BLANK))
-RESHAPED = "структура изменена: выполните build"
-STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
-ODD, _UNKNOWN = "необычно", "—"
-_BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
-_WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
-_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах"
-_RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
-_WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
-_LISTS = 4  # rows before those of lists: a title and counts
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
-
-
-_CHECKS = "checks"  # the list of the house; a department's book may have checks too
 
 
 def judged_lists(writer: BlockWriter) -> list[ScalarTable]:

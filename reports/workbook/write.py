@@ -65,6 +65,11 @@ from reports.workbook.verdict import colour_verdicts, write_verdict
 
 _ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
 _TURNS = {"cos": cos, "sin": sin}
+_MOST_CHECKS = 40
+_TEXT_WIDTH = 110
+NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
+_REMARK_WIDTH = 115  # of the columns of a list
+_CHARTS_ROW = 4  # of a sheet of diagrams
 
 
 def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
@@ -128,13 +133,6 @@ def _cell(
     writer.formula(sheet, row, column, text, value)
     cell = sheet.cell(row, column)
     cell.style, cell.number_format = _WAVE
-
-
-_MOST_CHECKS = 40
-_TEXT_WIDTH = 110
-NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
-_REMARK_WIDTH = 115  # of the columns of a list
-_CHARTS_ROW = 4  # of a sheet of diagrams
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:

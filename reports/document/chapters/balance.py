@@ -59,6 +59,34 @@ _LEFT = ["F_left_kN", "M_left_Nm"]  # behind balance shafts
 _SHAFTS = {"first_shafts": "первого", "second_shafts": "второго"}
 _ORDERS_OF_BANKS = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
                     "M_order_Nm", "M_order_min_Nm", "M_order_dir_deg"]  # fmt: skip
+_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+# Definitions that no single formula of the sheets states.
+_COMPANION_FORMULAS = {
+    "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
+    "series": r"\bar s = 1 + k_s - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
+    r" - p_6\cos 6\varphi + p_8\cos 8\varphi",
+    "exact": r"\bar j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
+    r" + \lambda\dfrac{\cos^2\varphi}{\cos^3\beta}",
+}
+_COMPANION_LISTS = {
+    "second": (
+        "Второй порядок крутящего момента",
+        ("d_j", "t_gas2", "gamma_gas2_deg", "t_inertia2", "t_j2", "t_gas2_idle",
+         "n_zone1", "n_zone2", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts"),
+    ),
+    "segal": (
+        "Погрешности приближений и крайние ускорения",
+        ("ds_max", "alpha_ds_deg", "dv_max", "alpha_dv_deg", "dj_max", "alpha_dj_deg", "j_rel_tdc",
+         "j_rel_bdc", "j_exact_min", "alpha_j_exact_min_deg", "j_two_term_min",
+         "alpha_j_two_term_min_deg"),
+    ),
+    "neiman": (
+        "Коэффициенты ряда перемещения",
+        ("neiman_k", *(f"neiman_p{n}" for n in (2, 4, 6, 8))),
+    ),
+}  # fmt: skip
+_TORQUE = ["order", "gas_amplitude_MPa", "gas_phase_deg", "inertia_amplitude_MPa",
+           "inertia_phase_deg", "cylinders_sum", "M_engine_order_Nm"]  # fmt: skip
 
 
 def balance(chapter: Chapter) -> Markup:
@@ -234,9 +262,6 @@ def _is_balanced(
     return _are_nothing(terms, [name for name in names if terms.has(name)], scale)
 
 
-_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
-
-
 def _are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
     """Whether columns are zero compared with a scale in their unit."""
     return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)
@@ -334,35 +359,6 @@ def _firing(chapter: Chapter) -> TableBlock:
         for ranked in rank_firing_orders(to_engine(chapter.input))[:_MOST_ORDERS]
     ]
     return table_block(columns, rows)
-
-
-# Definitions that no single formula of the sheets states.
-_COMPANION_FORMULAS = {
-    "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
-    "series": r"\bar s = 1 + k_s - \cos\varphi - p_2\cos 2\varphi + p_4\cos 4\varphi"
-    r" - p_6\cos 6\varphi + p_8\cos 8\varphi",
-    "exact": r"\bar j = \dfrac{\cos(\varphi+\beta)}{\cos\beta}"
-    r" + \lambda\dfrac{\cos^2\varphi}{\cos^3\beta}",
-}
-_COMPANION_LISTS = {
-    "second": (
-        "Второй порядок крутящего момента",
-        ("d_j", "t_gas2", "gamma_gas2_deg", "t_inertia2", "t_j2", "t_gas2_idle",
-         "n_zone1", "n_zone2", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts"),
-    ),
-    "segal": (
-        "Погрешности приближений и крайние ускорения",
-        ("ds_max", "alpha_ds_deg", "dv_max", "alpha_dv_deg", "dj_max", "alpha_dj_deg", "j_rel_tdc",
-         "j_rel_bdc", "j_exact_min", "alpha_j_exact_min_deg", "j_two_term_min",
-         "alpha_j_two_term_min_deg"),
-    ),
-    "neiman": (
-        "Коэффициенты ряда перемещения",
-        ("neiman_k", *(f"neiman_p{n}" for n in (2, 4, 6, 8))),
-    ),
-}  # fmt: skip
-_TORQUE = ["order", "gas_amplitude_MPa", "gas_phase_deg", "inertia_amplitude_MPa",
-           "inertia_phase_deg", "cylinders_sum", "M_engine_order_Nm"]  # fmt: skip
 
 
 def companions(chapter: Chapter) -> Markup:

@@ -36,6 +36,12 @@ if TYPE_CHECKING:
 
 STATICS = "P4_5s"  # table of the crankpins' torques by statics
 _NOUN = re.compile(r"^[^«»\d,;:(]*?\b(?:двигатель|дизель|мотор)\b", re.IGNORECASE)
+BOOK = "gots"
+ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
+# Signs of a place in the textbook that stays with the word before it; that stays in one line.
+_SHORT_PLACE, _ONE_FORMULA = 8, 14
+_PLAIN = {"MPa": "Па", "kN": "Н", "mm": "м", "kW": "Вт", "dm3": "м³"}  # units of SI
+FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
 def after_noun(name: str, *, genitive: bool = True) -> str:
@@ -127,14 +133,6 @@ def swing_errors(model: InputFile, throws: int) -> list[GridError]:
         for name, key in keys.items()
     ]
     return [error for error in errors if abs(error.percent) > MOST_GRID_ERROR]
-
-
-BOOK = "gots"
-ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
-# Signs of a place in the textbook that stays with the word before it; that stays in one line.
-_SHORT_PLACE, _ONE_FORMULA = 8, 14
-_PLAIN = {"MPa": "Па", "kN": "Н", "mm": "м", "kW": "Вт", "dm3": "м³"}  # units of SI
-FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
 @dataclass(frozen=True, slots=True)

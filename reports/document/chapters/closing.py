@@ -83,6 +83,7 @@ SOURCES = {
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
+_CHECKED = 3  # decimals of all checks, in one column
 
 
 def checks(chapter: Chapter) -> Markup:
@@ -185,9 +186,6 @@ def _check_table(terms: Terms) -> TableBlock:
         for each in checked(terms)
     ]
     return table_block(columns, rows)
-
-
-_CHECKED = 3  # decimals of all checks, in one column
 
 
 def allows(terms: Terms, key: str) -> str:

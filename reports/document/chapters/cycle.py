@@ -49,6 +49,16 @@ _EFFECTIVE = (
     "cyc_g_e", "cyc_N_i", "cyc_N_e", "cyc_M_e", "cyc_G_f", "cyc_G_a", "cyc_N_error",
 )  # fmt: skip
 _HEAT = ("heat_a", "heat_b", "heat_c", "hot_a", "hot_b")
+# Curves of the external characteristic: rows of the grid, the right scale, from zero.
+_SPEED = {
+    "speed_Gf": ((0, 3), True, True),
+    "speed_Ne": ((0, 5), False, True),
+    "speed_ge": ((4, 5), True, False),
+    "speed_Me": ((6, 5), False, False),
+}
+_SPEED_MM = 118.0
+# Columns of the passes for n₂ whose symbols stand nowhere else.
+_OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
 
 
 def cycle(chapter: Chapter) -> Markup:
@@ -116,16 +126,6 @@ def _characteristic_plan(terms: Terms) -> Figure:
     return Figure(draw, "Внешняя скоростная характеристика")
 
 
-# Curves of the external characteristic: rows of the grid, the right scale, from zero.
-_SPEED = {
-    "speed_Gf": ((0, 3), True, True),
-    "speed_Ne": ((0, 5), False, True),
-    "speed_ge": ((4, 5), True, False),
-    "speed_Me": ((6, 5), False, False),
-}
-_SPEED_MM = 118.0
-
-
 def _tables(chapter: Chapter) -> dict[str, TablePlan]:
     terms, dense = chapter.terms, {"size": "dense", "keep": True}
     near = "Последовательные приближения показателя политропы"
@@ -181,10 +181,6 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
     while len(rows) > 2 and rows[-1][1:] == rows[-2][1:] == rows[-3][1:]:
         rows.pop()  # the last two that are alike show that the passes have converged
     return table_block(columns, rows)
-
-
-# Columns of the passes for n₂ whose symbols stand nowhere else.
-_OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
 
 
 def _symbols(terms: Terms, grid: Grid, names: Sequence[str]) -> Markup:

@@ -37,6 +37,30 @@ from reports.tables.cycle_members import section_of
 from reports.tables.verdicts import reasons_of
 
 EXAMPLE = 30.0  # crank angle of the worked lines [deg]; every grid has it
+# Sizes of the mechanism, one of which follows from another.
+_SIZES = {
+    "r_crank": "радиус кривошипа", "L_rod": "длина шатуна",
+    "lam": "отношение радиуса кривошипа к длине шатуна", "S_stroke": "ход поршня",
+    "F_piston": "площадь поршня",
+}  # fmt: skip
+_ERRORS = tuple(
+    key
+    for name in ("s", "v", "j", "Pj", "N", "T", "M")
+    for key in (f"e{name}_max", f"phi_e{name}_deg", f"e{name}_rel")
+)
+_POINTS = (
+    "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
+    "phi_open_deg", "p_open", "phi_scavenge_deg", "phi_close_deg",
+)  # fmt: skip
+_DIGITS = 2  # decimals of a pressure in a sentence
+_TDC = "(360 + phi_tdc_deg)"
+_BEFORE = "min({pz}, p_start + ({pz} - p_start)*({tdc} - phi_c_deg)/gas_injection_advance_deg)"
+# Ratios of table 4 as the chapter on the data calls them.
+_RATIOS = {"area_piston": "piston_mass", "area_rod": "rod_mass", "area_throw": "throw_mass",
+           "rod_share": "rod_share"}  # fmt: skip
+_BY_FORMULA = ("geometry", "masses")  # lists whose values stand behind their formulas
+_PRESSURE = "gas.p_MPa"
+_MOST_PANELS = 2
 
 
 def kinematics(chapter: Chapter) -> Markup:
@@ -57,14 +81,6 @@ def kinematics(chapter: Chapter) -> Markup:
     return page + (chapter.page("articulated") if chapter.shape.articulated else "")
 
 
-# Sizes of the mechanism, one of which follows from another.
-_SIZES = {
-    "r_crank": "радиус кривошипа", "L_rod": "длина шатуна",
-    "lam": "отношение радиуса кривошипа к длине шатуна", "S_stroke": "ход поршня",
-    "F_piston": "площадь поршня",
-}  # fmt: skip
-
-
 def _given_sizes(terms: Terms) -> set[str]:
     """Sizes of the mechanism that the input gives; those from which they would follow are not."""
     given = {
@@ -74,13 +90,6 @@ def _given_sizes(terms: Terms) -> set[str]:
         "S_stroke": terms.has("geometry_stroke_mm"),
     }
     return {key for key, is_given in given.items() if is_given}
-
-
-_ERRORS = tuple(
-    key
-    for name in ("s", "v", "j", "Pj", "N", "T", "M")
-    for key in (f"e{name}_max", f"phi_e{name}_deg", f"e{name}_rel")
-)
 
 
 def reference(chapter: Chapter) -> Markup:
@@ -131,12 +140,6 @@ def _table(terms: Terms, table: str, count: int) -> TableBlock:
         *(TableColumn(f"λ = {head}") for head in heads),
     ]
     return table_block(columns, rows)
-
-
-_POINTS = (
-    "phi_c_deg", "p_start", "p_c_end", "gas_max_pressure_mpa", "cyc_p_z",
-    "phi_open_deg", "p_open", "phi_scavenge_deg", "phi_close_deg",
-)  # fmt: skip
 
 
 def dynamics(chapter: Chapter) -> Markup:
@@ -193,11 +196,6 @@ def greatest_pressure(chapter: Chapter) -> GasPeak:
     return GasPeak(with_unit(in_table, unit), f"при φ = {fixed(angle, 0)}°", angle, between)
 
 
-_DIGITS = 2  # decimals of a pressure in a sentence
-_TDC = "(360 + phi_tdc_deg)"
-_BEFORE = "min({pz}, p_start + ({pz} - p_start)*({tdc} - phi_c_deg)/gas_injection_advance_deg)"
-
-
 def _jump(terms: Terms) -> tuple[Markup, Markup] | None:
     """Pressures before and after the top dead centre where they are printed apart."""
     name = "cyc_p_z" if terms.has("cyc_p_z") else "gas_max_pressure_mpa"
@@ -213,12 +211,6 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
     """Whether a mass follows from others and is not simply given."""
     scalar = chapter.model.scalars.get(key)
     return scalar is not None and any(sign in scalar.expr for sign in "+-*/")
-
-
-# Ratios of table 4 as the chapter on the data calls them.
-_RATIOS = {"area_piston": "piston_mass", "area_rod": "rod_mass", "area_throw": "throw_mass",
-           "rod_share": "rod_share"}  # fmt: skip
-_BY_FORMULA = ("geometry", "masses")  # lists whose values stand behind their formulas
 
 
 def _mass_notes(chapter: Chapter) -> Markup:
@@ -301,9 +293,6 @@ def _nodes(terms: Terms) -> TableBlock:
     return table_block([TableColumn("Точка", text=True), *map(TableColumn, heads)], rows)
 
 
-_PRESSURE = "gas.p_MPa"
-
-
 def _processes(terms: Terms) -> dict[str, str]:
     """Symbol of each process of the gas that has a column of its own → the column."""
     columns = terms.model.tables["gas"].columns
@@ -358,9 +347,6 @@ def rods_text(chapter: Chapter) -> Markup:
     tables = [rods_table(k) for k in range(1, shape.throws + 1)]
     hung = f"cylinder_{shape.cylinders}" if shape.articulated else ""
     return chapter.page("rods", rods=rods_table(1), group=shape.groups[0], hung=hung, tables=tables)
-
-
-_MOST_PANELS = 2
 
 
 def torque(chapter: Chapter) -> Markup:

@@ -27,6 +27,18 @@ _TASK = ("engine_cylinders", "engine_strokes", "geometry_bore_mm", "geometry_str
          "geometry_crank_radius_mm", "geometry_rod_length_mm", "geometry_lambda",
          "geometry_compression_ratio", "regime_speed_rpm", "regime_indicated_power_kw",
          "cycle_power_kw", "cycle_excess_air", "cycle_boost_ratio")  # fmt: skip
+_READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks
+_PERSONS = ("developed", "checked", "controlled", "approved")
+# Words of the title block with width and height of their cells [mm] and their usual type [pt].
+_CELLS = {
+    "designation": (("Обозначение документа",), 108.0, 14.0, 14.0),
+    "name": (("Тема работы", "название двигателя"), 68.0, 24.0, 10.0),
+    "organisation": (("Учебное заведение", "кафедра", "группа"), 46.0, 14.0, 8.5),
+    "developed": (("Студент",), 20.0, 4.6, 8.5),
+    "checked": (("Руководитель",), 20.0, 4.6, 8.5),
+    "controlled": (("Нормоконтроль",), 20.0, 4.6, 8.5),
+    "approved": (("Утвердил",), 20.0, 4.6, 8.5),
+}
 
 
 def title_page(model: InputFile, style: TitlePage, frame: str | None = None) -> Words:
@@ -89,20 +101,6 @@ def _aim(chapter: Chapter) -> str:
         return list(dict.fromkeys(r.aim for r in chapter.records if r.aim and r.name in names))
 
     return joined_phrases(of(chapter.relevant) or of(_MECHANISM))
-
-
-_READABLE = 7.0  # pt; a name that would be smaller leaves the surname alone, as ГОСТ 2.104 asks
-_PERSONS = ("developed", "checked", "controlled", "approved")
-# Words of the title block with width and height of their cells [mm] and their usual type [pt].
-_CELLS = {
-    "designation": (("Обозначение документа",), 108.0, 14.0, 14.0),
-    "name": (("Тема работы", "название двигателя"), 68.0, 24.0, 10.0),
-    "organisation": (("Учебное заведение", "кафедра", "группа"), 46.0, 14.0, 8.5),
-    "developed": (("Студент",), 20.0, 4.6, 8.5),
-    "checked": (("Руководитель",), 20.0, 4.6, 8.5),
-    "controlled": (("Нормоконтроль",), 20.0, 4.6, 8.5),
-    "approved": (("Утвердил",), 20.0, 4.6, 8.5),
-}
 
 
 def crowded(model: InputFile, frame: str | None = None) -> list[str]:

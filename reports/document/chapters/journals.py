@@ -52,6 +52,16 @@ _MEAN = (
     ("q_{}_mean", r"q_{\mathrm{ср}}", "МПа"),
     ("hole_{}_deg", r"\alpha_{\mathrm{м}}", "°"),
 )
+_MOST_SHOWN = 3
+_THREE_MOMENTS = (
+    r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
+    r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
+    r" - \sum P \dfrac{u'\,(l_k^2 - \left(u'\right)^2)}{l_k}"
+)
+_BENDING = (
+    "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",
+    "Malpha_mean", "alpha_best_deg", "Mbest_swing",
+)  # fmt: skip
 
 
 def crankpin(chapter: Chapter) -> Markup:
@@ -264,18 +274,6 @@ def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> Ta
         sums = [fixed(terms.value(f"{name}_sum{i}"), _SUM_DIGITS) for name in names]
         rows.append([roman(i), fixed(terms.value(f"{names[0]}_deg{i}"), 0), *sums])
     return table_block(columns, rows)
-
-
-_MOST_SHOWN = 3
-_THREE_MOMENTS = (
-    r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
-    r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
-    r" - \sum P \dfrac{u'\,(l_k^2 - \left(u'\right)^2)}{l_k}"
-)
-_BENDING = (
-    "alpha_oil_deg", "Ralpha_max", "Ralpha_min", "Malpha_max", "Malpha_min", "Malpha_swing",
-    "Malpha_mean", "alpha_best_deg", "Mbest_swing",
-)  # fmt: skip
 
 
 def bearings(chapter: Chapter) -> Markup:

@@ -41,6 +41,15 @@ _SAFETY = (
     r"\qquad n_{\mathrm{о,\,г}} = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
 )
 CLASS_RULE = 1.15  # what the rule asks of its ratio
+_TOLD = 1.05
+_CLOSED = 1e-3
+_SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
+_SAFE_PINS = (
+    "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
+    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1",
+    "safe_pin_crank_a1_MPa", "safe_pin_crank_m1_MPa", "safe_pin_bend_fillet1",
+    "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,17 +141,6 @@ def _times(mean: Sequence[float], gaps: Array) -> str:
     """Ratio of film thicknesses, mean load to cycle; empty below one."""
     times = float((np.array(mean) / gaps).max())
     return fixed(times, 1) if times >= _TOLD else ""
-
-
-_TOLD = 1.05
-_CLOSED = 1e-3
-_SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
-_SAFE_PINS = (
-    "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
-    "safe_pin_bend_hole1", "safe_pin_turn_hole1", "safe_pin_hole1",
-    "safe_pin_crank_a1_MPa", "safe_pin_crank_m1_MPa", "safe_pin_bend_fillet1",
-    "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
-)  # fmt: skip
 
 
 def _worst(case: FilmCase, value: float) -> Worst:

@@ -60,6 +60,7 @@ _SYMBOLS = (
     "P4_1.S_MPa", "P4_1.T_MPa", "P4_1.K_MPa", "P4_1.M_Nm", "P4_2.Msum_Nm", "M_mean",
     "crankpin.Rpin_MPa", "crankpin.psi_deg", "P4_3_1.R_MPa",
 )  # fmt: skip
+Points = Sequence[tuple[float, float]]
 
 
 def notation(chapter: Chapter, text: str | None = None) -> Markup:
@@ -227,9 +228,6 @@ def _arms(fields: Sequence[Field]) -> TableBlock:
     # Arms of a second rod and webs that are not given are zero on every throw.
     shown = [n for n in range(len(columns)) if any(row[n] != "0" for row in rows)]
     return table_block([columns[n] for n in shown], [[row[n] for n in shown] for row in rows])
-
-
-Points = Sequence[tuple[float, float]]
 
 
 def printed(model: InputFile, step: float) -> tuple[Points, float]:

@@ -32,6 +32,26 @@ from reports.shared.russian import NBSP, fixed, joined, short, uncapital
 from reports.shared.standing import WORDS, Standing, printed_span, standing
 from reports.tables.cycle_members import ranges_of, section_of
 
+# Main values; those of the table of usual ranges are not repeated.
+_POWER = "cyc_N_e", "N_e_calc"
+_NODES = {
+    "cylinders": "engine_cylinders", "bore_mm": "geometry_bore_mm",
+    "stroke_mm": "geometry_stroke_mm", "rod_length_mm": "geometry_rod_length_mm",
+    "compression_ratio": "geometry_compression_ratio", "speed_rpm": "regime_speed_rpm",
+    "power_kw": "cyc_N_e", "mechanical_efficiency": "regime_mechanical_efficiency",
+    "max_pressure_mpa": "gas_max_pressure_mpa", "piston_group_kg": "masses_piston_group_kg",
+    "rod_kg": "masses_rod_kg", "pin_diameter_mm": "crankshaft_pin_diameter_mm",
+    "main_diameter_mm": "crankshaft_main_diameter_mm",
+}  # fmt: skip
+# Sizes of a prototype that follow from its main values.
+_SIZES = {
+    "F_piston": "pi*geometry_bore_mm**2/4e6", "S_stroke": "geometry_stroke_mm/1000",
+    "lam": "geometry_stroke_mm/2/geometry_rod_length_mm",
+    "c_m": "S_stroke*regime_speed_rpm/30", "V_engine": "1000*F_piston*S_stroke*engine_cylinders",
+}  # fmt: skip
+# Reasons that the chapter on the cycle holds against limits too, by the names it has for them.
+_OF_CYCLE = {"peak": "cyc_p_z", "efficiency": "cyc_eta_m"}
+
 
 @dataclass(frozen=True, slots=True)
 class Judged:
@@ -103,8 +123,6 @@ class Main:
     digits: int = 0
 
 
-# Main values; those of the table of usual ranges are not repeated.
-_POWER = "cyc_N_e", "N_e_calc"
 _MAIN = (
     Main("Число цилиндров", "i", ("engine_cylinders",)),
     Main("Диаметр цилиндра", "D", ("2000*sqrt(F_piston/pi)",), "мм", 1),
@@ -166,23 +184,6 @@ def stated(section: PrototypeSection) -> Prototype:
     return Prototype(section.name, value)
 
 
-_NODES = {
-    "cylinders": "engine_cylinders", "bore_mm": "geometry_bore_mm",
-    "stroke_mm": "geometry_stroke_mm", "rod_length_mm": "geometry_rod_length_mm",
-    "compression_ratio": "geometry_compression_ratio", "speed_rpm": "regime_speed_rpm",
-    "power_kw": "cyc_N_e", "mechanical_efficiency": "regime_mechanical_efficiency",
-    "max_pressure_mpa": "gas_max_pressure_mpa", "piston_group_kg": "masses_piston_group_kg",
-    "rod_kg": "masses_rod_kg", "pin_diameter_mm": "crankshaft_pin_diameter_mm",
-    "main_diameter_mm": "crankshaft_main_diameter_mm",
-}  # fmt: skip
-# Sizes of a prototype that follow from its main values.
-_SIZES = {
-    "F_piston": "pi*geometry_bore_mm**2/4e6", "S_stroke": "geometry_stroke_mm/1000",
-    "lam": "geometry_stroke_mm/2/geometry_rod_length_mm",
-    "c_m": "S_stroke*regime_speed_rpm/30", "V_engine": "1000*F_piston*S_stroke*engine_cylinders",
-}  # fmt: skip
-
-
 def _pairs(chapter: Chapter) -> list[tuple[Main, float, float]]:
     """Main values that both engines have."""
     prototype = chapter.prototype
@@ -221,10 +222,6 @@ def concluded(chapter: Chapter) -> Markup:
         also = " и результаты расчёта цикла" if found else ""
         return Markup(f"принятые данные{also} лежат в обычных пределах")
     return Markup("вне обычных пределов: ") + Markup("; ").join(parts)
-
-
-# Reasons that the chapter on the cycle holds against limits too, by the names it has for them.
-_OF_CYCLE = {"peak": "cyc_p_z", "efficiency": "cyc_eta_m"}
 
 
 def numbers(terms: Terms) -> Callable[[str], float]:

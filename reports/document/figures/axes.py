@@ -19,6 +19,8 @@ _ANGLE_STEPS = (5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 120.0, 180.0)
 _MOST_ANGLES = 13
 _FACTORS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _BEYOND, _GAP = 11.0, 3.0  # pt from the end of an axis and from its last text to its name
+_MARK_GAP = 3.0  # between the texts of neighbouring marks [pt]
+_TOP = 0.75  # of the type above the baseline, which half a number's height stands off its mark
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,10 +105,6 @@ def bounds(columns: Iterable[Iterable[float]]) -> tuple[float, float]:
         msg = "Кривая пуста или содержит не число"
         raise ValueError(msg)
     return min(values), max(values)
-
-
-_MARK_GAP = 3.0  # between the texts of neighbouring marks [pt]
-_TOP = 0.75  # of the type above the baseline, which half a number's height stands off its mark
 
 
 @dataclass(frozen=True, slots=True)

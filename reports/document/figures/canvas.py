@@ -23,6 +23,13 @@ from reports.draw.writers import PT_PER_MM, svg_element
 PAGE_WIDTH = 165.0  # mm of text width
 FONT_SIZE = 11.0  # pt
 SMALL = 9.5
+HALO = 0.55  # pt of white around a text
+_CURVE = 0.5522847498  # of the radius: handles of a quarter of a circle
+Point = tuple[float, float]
+Dash = tuple[float, ...]
+THICK, THIN, HAIR = 2.2, 0.9, 0.6
+CENTRE: Dash = (10, 2.5, 1.5, 2.5)  # centre line
+DASHED: Dash = (4, 2.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +69,6 @@ PATTERNS = (
 GRID = LineStyle(0.45, colour="#c4c4c4")
 AXIS = LineStyle(0.8)
 EDGE = LineStyle(0.8, miter=True)
-HALO = 0.55  # pt of white around a text
-
-_CURVE = 0.5522847498  # of the radius: handles of a quarter of a circle
 
 
 class Sheet:
@@ -185,13 +189,6 @@ class Sheet:
 
 def _n(value: float) -> str:
     return f"{round(value, 2) + 0.0:g}"
-
-
-Point = tuple[float, float]
-Dash = tuple[float, ...]
-THICK, THIN, HAIR = 2.2, 0.9, 0.6
-CENTRE: Dash = (10, 2.5, 1.5, 2.5)  # centre line
-DASHED: Dash = (4, 2.5)
 
 
 class Pen:

@@ -38,6 +38,7 @@ _SAMPLE, _GAP, _COLUMNS_GAP, LEGEND_ROW = 30.8, 8.8, 15.4, 16.5
 _IN_ROW, _INSET = 4, 3.3
 _NEAR = 1 / 3  # of its length, the abscissa's beginning from which it is drawn from zero
 _BESIDE, _DOT = 4.0, 3.4  # pt between the stems of one order; dots at their ends
+_THIN = LineStyle(0.6, (5, 2.5))
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,9 +262,6 @@ class ScaledCurve:
     zero: bool = False
     marks: Sequence[Mark] = ()
     rise: str = ""
-
-
-_THIN = LineStyle(0.6, (5, 2.5))
 
 
 def bands_figure(

@@ -42,6 +42,9 @@ _PRIORITIES = (90.0, 60.0, 30.0, 20.0, 10.0, 5.0, 1.0)
 _LABEL = 8.5
 _IN_ROW = 2  # names of a legend
 Sides = tuple[bool, bool]  # positive x to the left, positive y downwards
+_DEPTH = 0.62  # part of the radius that the greatest sum takes
+_FILL = "#d6d6d6"
+_BETWEEN = 12  # points of the smooth curve to a ray
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,11 +236,6 @@ def _order(
         for index in np.intersect1d(multiples, rows).tolist():
             order.setdefault(index, 14.0 if step >= 30 else 24.0)
     return list(order.items())
-
-
-_DEPTH = 0.62  # part of the radius that the greatest sum takes
-_FILL = "#d6d6d6"
-_BETWEEN = 12  # points of the smooth curve to a ray
 
 
 def wear_diagram(

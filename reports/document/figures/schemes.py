@@ -25,6 +25,9 @@ from reports.draw.writers import PT_PER_MM
 
 _GREY = "#e4e4e4"
 _FAINT = "#b4b4b4"
+_ROW = 17.0
+_CLEAR = 20.0  # between a letter beside the axis of the shaft and a ray [deg]
+_HALF = 15.0  # of a cylinder's width
 
 
 def mechanism_sketch(lam: float, phi: float = 50.0, *, k: float = 0.0, width: float = 150.0) -> str:
@@ -218,11 +221,6 @@ def _beside(start: Point, end: Point, share: float, offset: float) -> Point:
     along = direction(start, end)
     foot = shifted(start, along, share * math.dist(start, end))
     return shifted(foot, (-along[1], along[0]), offset)
-
-
-_ROW = 17.0
-_CLEAR = 20.0  # between a letter beside the axis of the shaft and a ray [deg]
-_HALF = 15.0  # of a cylinder's width
 
 
 def engine_scheme(

@@ -17,6 +17,7 @@ from reports.shared.russian import NBSP, capital
 
 _LONG = 12  # rows from which a table is worth the lines
 _DASH = "—"
+_NO_ANGLE = 1e-6  # deg
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,9 +154,6 @@ class DocumentInfo:
     keywords: str = ""
     created: str = "2000-01-01"
     generator: str = "kshm"
-
-
-_NO_ANGLE = 1e-6  # deg
 
 
 def angle_table(

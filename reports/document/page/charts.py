@@ -29,6 +29,14 @@ from reports.shared.russian import NBSP, fixed
 
 _THROW, _MECHANISM = (98.0, 92.0), (52.0, 92.0)  # width and height of both on the figure [mm]
 _BETWEEN, _LETTERS = 8.0, 2.5
+HEIGHT = 76.0  # mm
+_LETTER = "A-Za-zΑ-Ωα-ω"
+_SYMBOL = re.compile(rf"[{_LETTER}(]*[{_LETTER}][{_LETTER}′²()/0-9]*")
+_COMMANDS = {letter: rf"\{name} " for name, letter in reversed(GREEK.items())}
+Row = tuple[str, int]  # name of a point of the first curve and its row
+Column = NDArray[np.float64]
+_TIE = float(TIE)
+_NOISE = 1e-9  # of a curve's largest ordinate: what sums leave where they are zero
 
 
 def throw_of(terms: Terms, number: int = 1) -> ThrowSizes:
@@ -103,14 +111,6 @@ def throws_of(terms: Terms) -> list[ThrowSizes]:
     return [throw_of(terms, n) for n in range(1, Shape.of(terms.model.input).throws + 1)]
 
 
-HEIGHT = 76.0  # mm
-_LETTER = "A-Za-zΑ-Ωα-ω"
-_SYMBOL = re.compile(rf"[{_LETTER}(]*[{_LETTER}][{_LETTER}′²()/0-9]*")
-_COMMANDS = {letter: rf"\{name} " for name, letter in reversed(GREEK.items())}
-
-Row = tuple[str, int]  # name of a point of the first curve and its row
-
-
 def chart_figure(
     terms: Terms,
     chart: ChartSpec,
@@ -174,11 +174,6 @@ def _curves(
         curves_figure, x, (panel,), axis_name(terms, name),
         height=size, angle=chart.x_is_angle, x_step=chart.x_step,
     )  # fmt: skip
-
-
-Column = NDArray[np.float64]
-_TIE = float(TIE)
-_NOISE = 1e-9  # of a curve's largest ordinate: what sums leave where they are zero
 
 
 def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, list[list[Column]]]:

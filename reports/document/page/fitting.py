@@ -36,6 +36,8 @@ _UNBROKEN = re.compile(r'class="(?:nb|ref)"')
 # After a hyphen, a dash or a stroke before a letter a line may end.
 _PARTS = re.compile(r"(?<=[^\W\d]-)(?=[^\W\d])|(?<=–)(?=[^\s])|(?<=[^\W\d]/)(?=[^\W\d]|\()")
 _LETTERS = re.compile(r"[^\W\d_]+")
+_LEAST_PT = 5.0
+_LINE = 1.12  # of the type
 
 
 def fitted(block: TableBlock, size: str, style: Style) -> tuple[list[TableBlock], str]:
@@ -137,10 +139,6 @@ def _part(block: TableBlock, places: Sequence[int]) -> TableBlock:
         tuple(tuple(row[i] for i in places) for row in block.rows),
         tuple(i + 1 for i in places),
     )
-
-
-_LEAST_PT = 5.0
-_LINE = 1.12  # of the type
 
 
 def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> float:

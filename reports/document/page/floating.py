@@ -33,6 +33,25 @@ _TRIES = 8
 _CLOSE = 0.995  # of the height that there is
 _WITH_LETTERS = 0.92  # part of its size that a picture keeps whose letters shrink: 7.7 to 7 pt
 _FIGURE = re.compile(r'<figure id="([^"]+)"')
+_TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
+_BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
+_FORMULA = re.compile(r'<(?:svg|img) class="tex"[^>]*?style="([^"]*)"')
+_EM = re.compile(r"height:([\d.]+)em")
+_DEPTH = re.compile(r"vertical-align:-([\d.]+)em")
+_ASCENT, _DESCENT = 0.95, 0.35  # of a line of text between formulas [em]
+_NUMBERED = re.compile(r'<span class="hn">(\d+)')
+_AFTER_NUMBER = 0.25  # of a heading [em], beside the space
+_ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
+_CELL = re.compile(r"<t[dh]([^>]*)>(.*?)</t[dh]>", re.DOTALL)
+_LINED = re.compile(r'<table class="data[^"]* lined')
+_SHARE = re.compile(r'<col style="width:([\d.]+)%')
+_SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
+_TAGS = re.compile(r"<(?!/?su[bp]\b)[^>]*>")  # all but those of indices
+_PT = 96 / 72  # CSS pixels in a point
+_SLACK = 0.1  # px kept free on every page: estimates are no measures
+_RUN_ON = 'class="runon '
+_SCANT = 0.3  # of a page, the last one before a chapter on a page of its own
+_NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 
 
 def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, str], str]) -> str:
@@ -87,27 +106,6 @@ def _size_key(draw: Callable[[], str]) -> str | None:
 def _height(svg: str) -> float:
     match = _SIZE.search(svg)
     return float(match[2]) if match else 0.0
-
-
-_TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
-_BOX = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
-_FORMULA = re.compile(r'<(?:svg|img) class="tex"[^>]*?style="([^"]*)"')
-_EM = re.compile(r"height:([\d.]+)em")
-_DEPTH = re.compile(r"vertical-align:-([\d.]+)em")
-_ASCENT, _DESCENT = 0.95, 0.35  # of a line of text between formulas [em]
-_NUMBERED = re.compile(r'<span class="hn">(\d+)')
-_AFTER_NUMBER = 0.25  # of a heading [em], beside the space
-_ROW = re.compile(r"<tr.*?</tr>", re.DOTALL)
-_CELL = re.compile(r"<t[dh]([^>]*)>(.*?)</t[dh]>", re.DOTALL)
-_LINED = re.compile(r'<table class="data[^"]* lined')
-_SHARE = re.compile(r'<col style="width:([\d.]+)%')
-_SMALL = re.compile(r"<su[bp]>(.*?)</su[bp]>", re.DOTALL)
-_TAGS = re.compile(r"<(?!/?su[bp]\b)[^>]*>")  # all but those of indices
-_PT = 96 / 72  # CSS pixels in a point
-_SLACK = 0.1  # px kept free on every page: estimates are no measures
-_RUN_ON = 'class="runon '
-_SCANT = 0.3  # of a page, the last one before a chapter on a page of its own
-_NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 
 
 def arranged(

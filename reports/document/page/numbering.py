@@ -25,6 +25,7 @@ _WORDS: dict[Kind, tuple[str, str]] = {
     "formula": ("формула", "eq"),
     "source": ("источник", "src"),
 }
+_KEPT_ROWS = 10  # a longer table that must not break would leave half a page empty
 
 
 class NumberingError(ValueError):
@@ -248,9 +249,6 @@ def _ascii(key: str) -> str:
     """Anchor-safe form of a key; distinct keys stay distinct."""
     safe = (c.isascii() and (c.isalnum() or c in "_-") for c in key)
     return "".join(c if ok else f".{ord(c):x}." for c, ok in zip(key, safe, strict=True))
-
-
-_KEPT_ROWS = 10  # a longer table that must not break would leave half a page empty
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,6 +62,14 @@ _TOKENS = {
     "end of template": "конец шаблона", "template data / text": "текст", "name": "имя",
     "integer": "число", "float": "число", "string": "текст в кавычках",
 }  # fmt: skip
+KEY = "report.templates"
+MOST_NESTED = 100  # blocks of Jinja or elements of the page: the report's own have nine
+_OPENING = re.compile(
+    r"(?P<kind>\{%-?\s*|<)(?P<end>end|/)?"
+    r"(?:if|for|block|macro|call|filter|with|div|span|section|table|ul|ol|b|i|em|strong|figure"
+    r"|article|main|a|sub|sup)\b"
+)
+SUFFIX = ".j2"
 
 
 def in_russian(error: Exception) -> str:
@@ -86,16 +94,6 @@ def _quoted(text: str) -> str:
     text = _TOKENS.get(text, text)
     *most, last = re.split(" or | and ", re.sub("'([^']+)'", r"\1", text))
     return f"{', '.join(most)} или {last}" if most else last
-
-
-KEY = "report.templates"
-MOST_NESTED = 100  # blocks of Jinja or elements of the page: the report's own have nine
-_OPENING = re.compile(
-    r"(?P<kind>\{%-?\s*|<)(?P<end>end|/)?"
-    r"(?:if|for|block|macro|call|filter|with|div|span|section|table|ul|ol|b|i|em|strong|figure"
-    r"|article|main|a|sub|sup)\b"
-)
-SUFFIX = ".j2"
 
 
 def find(given: str, beside: Path) -> Path | None:

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from weasyprint.urls import URLFetcher, URLFetcherResponse
 
 _TYPES = {".toml": "application/toml"}  # that Python's list of media types lacks
+_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
+_DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")
 
 
 def finish(pdf: Any) -> None:  # noqa: ANN401
@@ -84,10 +86,6 @@ def _typed(pdf: Any, file: dict[str, Any]) -> None:  # noqa: ANN401
         if file["UF"].string.endswith(ending):
             stream = pdf.objects[int(file["EF"]["F"].split()[0])]
             stream.extra["Subtype"] = f"/{media.replace('/', '#2f')}"
-
-
-_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
-_DATA_TYPES = ("data:image/png", "data:image/svg+xml", "data:image/jpeg")
 
 
 class RenderError(RuntimeError):

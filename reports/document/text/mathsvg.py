@@ -41,6 +41,22 @@ from reports.document.text.tex import (
 from reports.document.text.texts import pictured
 from reports.shared.russian import MINUS, NBSP
 
+_UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
+_PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
+# Of a brace, in units of a formula's size: its width, the room before conditions and between
+# the branches, the height of a relation sign above the baseline.
+_BRACE, _BETWEEN, _LEADING, _AXIS = 450.0, 900.0, 350.0, 250.0
+_PRIME, _SPACE = 0x2032, 0x20
+_PRIME_DROP = 0.5
+_PRIME_GROWTH = 1.25
+_NO_SIGN = {r"\left", r"\right", r"\,", r"\;", r"\:", r"\!"}
+_SILENT = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
+_WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
+_SIGN = 0.56  # em that a sign takes on the average
+_INVISIBLE = re.compile(r"\\(?:left|right)\.")
+_ONE = re.compile(r"−?[\w.]+")  # an index or exponent that needs no brackets
+_DECIMAL_POINT = re.compile(r"\d\.\d")
+
 
 class _Collector(logging.Handler):
     def __init__(self) -> None:
@@ -63,25 +79,6 @@ def complaints(name: str) -> Iterator[list[str]]:
         yield collector.lines
     finally:
         logger.handlers[:], logger.propagate = handlers, propagate
-
-
-_UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
-_PAD = 0.04  # em added left and right: slanted letters reach out of their boxes
-
-# Of a brace, in units of a formula's size: its width, the room before conditions and between
-# the branches, the height of a relation sign above the baseline.
-_BRACE, _BETWEEN, _LEADING, _AXIS = 450.0, 900.0, 350.0, 250.0
-
-_PRIME, _SPACE = 0x2032, 0x20
-_PRIME_DROP = 0.5
-_PRIME_GROWTH = 1.25
-_NO_SIGN = {r"\left", r"\right", r"\,", r"\;", r"\:", r"\!"}
-_SILENT = {"mathrm", "text", "left", "right", "operatorname", "mathit", "displaystyle"}
-_WORDS = {r"\sin", r"\cos", r"\tg", r"\min", r"\max", r"\arcsin", r"\arccos", r"\arctg"}
-_SIGN = 0.56  # em that a sign takes on the average
-_INVISIBLE = re.compile(r"\\(?:left|right)\.")
-_ONE = re.compile(r"−?[\w.]+")  # an index or exponent that needs no brackets
-_DECIMAL_POINT = re.compile(r"\d\.\d")
 
 
 class FormulaImageError(ValueError):

@@ -39,6 +39,44 @@ _IN_TITLE = re.compile(
     rf"(?<![{_WORD}°])([A-Za-zα-ω]|Δ(?=m))(?:_?(max|min|[a-z]|\d|[а-я][а-я.]{{0,4}}))?(?![{_WORD}°])"
 )
 _ELEMENTS = "HON"
+_MARKUP = re.compile(r"(<sub>)|<[^>]+>")
+_NO_TEXT = ("<sup>", "<span")  # raised, with a bar
+_INDEXED = re.compile(r"_([^\s_·/=,;.()²³⁴]+(?:[.\u00a0][^\s_·/=,;.()²³⁴]+)*(?:\([i\d\s+]+\))?)")
+# A symbol as the checks of an input write it, «m_j/F_п», and a unit with a slash.  A key of the
+# file has more letters before its «_», or a point.
+_INDEX = r"_−?[^\W_]+(?:\.[^\W_]+)*'*(?!\w)"
+_GIVEN = rf"(?P<symbol>(?<![\w.'])Δ?[^\W\d_]'?{_INDEX}(?:/[^\W\d_](?:{_INDEX})?(?= = ))?)"
+_OF_REMARK = re.compile(rf"{_GIVEN}|(?P<unit>[а-яА-Я·]+/[а-яА-Я·]+[²³]?)")
+_GREEK = {
+    "alpha": "альфа", "beta": "бета", "gamma": "гамма", "delta": "дельта", "epsilon": "эпсилон",
+    "varepsilon": "эпсилон", "zeta": "дзета", "eta": "эта", "theta": "тета", "vartheta": "тета",
+    "iota": "йота", "kappa": "каппа", "lambda": "лямбда", "mu": "мю", "nu": "ню", "xi": "кси",
+    "omicron": "омикрон", "pi": "пи", "rho": "ро", "varsigma": "сигма", "sigma": "сигма",
+    "tau": "тау", "upsilon": "ипсилон", "varphi": "фи", "phi": "фи", "chi": "хи", "psi": "пси",
+    "omega": "омега", "partial": "дэ",
+}  # fmt: skip
+_LETTERS = {sign: _GREEK[name] for name, sign in GREEK.items() if name in _GREEK}
+_SPOKEN_FUNCTIONS = {
+    "sin": "синус", "cos": "косинус", "tg": "тангенс", "tan": "тангенс", "ctg": "котангенс",
+    "arcsin": "арксинус", "arccos": "арккосинус", "arctg": "арктангенс", "arctan": "арктангенс",
+    "ln": "натуральный логарифм", "lg": "десятичный логарифм", "exp": "экспонента",
+    "sh": "гиперболический синус", "ch": "гиперболический косинус", "sign": "знак", "sgn": "знак",
+    "min": "мин", "max": "макс", "lim": "предел", "mod": "остаток",
+}  # fmt: skip
+_KEPT = ("cdot", "times", "pm", "approx", "leq", "geq", "le", "ge")
+_SIGNS = {name: SIGNS[name] for name in _KEPT}
+_OVER = {
+    "bar": "с чертой", "overline": "с чертой", "dot": "с точкой", "ddot": "с двумя точками",
+    "hat": "с крышкой", "vec": "вектор",
+}  # fmt: skip
+_SPOKEN_UPRIGHT = {"mathrm", "text", "operatorname", "mathbf"}
+_NOT_SAID = {"left", "right", "displaystyle", "hspace", "!"}
+_POWERS = {"2": "в квадрате", "3": "в кубе"}
+_RAISED = str.maketrans(f"0123456789+-{MINUS}", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁻")
+_INVISIBLE = re.compile(r"\\(?:left|right)\.")
+_INSTEAD = (("{,}", ","), (r"\\", ";"), (r"\left|", r"\mathrm{модуль} ("), (r"\right|", ")"))
+_ATOM = re.compile(r"[\w,.°′]+")
+_SPOKEN_WORD = re.compile(r"[a-z]{2,}", re.IGNORECASE)
 
 
 class SymbolError(ValueError):
@@ -61,10 +99,6 @@ def inline_html(symbol_tex: str) -> Markup:
         raise SymbolError(str(error)) from error
 
 
-_MARKUP = re.compile(r"(<sub>)|<[^>]+>")
-_NO_TEXT = ("<sup>", "<span")  # raised, with a bar
-
-
 @functools.lru_cache(maxsize=4096)
 def indexed(symbol_tex: str, plain: str) -> str:
     """A symbol as text with «_» before its index, «R_ш.ш»; ``plain`` where it is no simple one."""
@@ -74,9 +108,6 @@ def indexed(symbol_tex: str, plain: str) -> str:
         return plain
     text = Markup(_MARKUP.sub(lambda match: "_" if match[1] else "", html)).unescape()
     return plain if any(each in html for each in _NO_TEXT) else text
-
-
-_INDEXED = re.compile(r"_([^\s_·/=,;.()²³⁴]+(?:[.\u00a0][^\s_·/=,;.()²³⁴]+)*(?:\([i\d\s+]+\))?)")
 
 
 @functools.lru_cache(maxsize=4096)
@@ -151,13 +182,6 @@ def _piece(node: TexNode, *, upright: bool) -> str:
     return {"'": "′", "-": MINUS}.get(token) or str(escape(token))
 
 
-# A symbol as the checks of an input write it, «m_j/F_п», and a unit with a slash.  A key of the
-# file has more letters before its «_», or a point.
-_INDEX = r"_−?[^\W_]+(?:\.[^\W_]+)*'*(?!\w)"
-_GIVEN = rf"(?P<symbol>(?<![\w.'])Δ?[^\W\d_]'?{_INDEX}(?:/[^\W\d_](?:{_INDEX})?(?= = ))?)"
-_OF_REMARK = re.compile(rf"{_GIVEN}|(?P<unit>[а-яА-Я·]+/[а-яА-Я·]+[²³]?)")
-
-
 def remark_html(text: str) -> Markup:
     """A remark on the input with its symbols as symbols; no line ends within a unit."""
     pieces, end = [], 0
@@ -170,40 +194,10 @@ def remark_html(text: str) -> Markup:
     return Markup("").join([*pieces, rich(text[end:])])
 
 
-_GREEK = {
-    "alpha": "альфа", "beta": "бета", "gamma": "гамма", "delta": "дельта", "epsilon": "эпсилон",
-    "varepsilon": "эпсилон", "zeta": "дзета", "eta": "эта", "theta": "тета", "vartheta": "тета",
-    "iota": "йота", "kappa": "каппа", "lambda": "лямбда", "mu": "мю", "nu": "ню", "xi": "кси",
-    "omicron": "омикрон", "pi": "пи", "rho": "ро", "varsigma": "сигма", "sigma": "сигма",
-    "tau": "тау", "upsilon": "ипсилон", "varphi": "фи", "phi": "фи", "chi": "хи", "psi": "пси",
-    "omega": "омега", "partial": "дэ",
-}  # fmt: skip
-_LETTERS = {sign: _GREEK[name] for name, sign in GREEK.items() if name in _GREEK}
-_SPOKEN_FUNCTIONS = {
-    "sin": "синус", "cos": "косинус", "tg": "тангенс", "tan": "тангенс", "ctg": "котангенс",
-    "arcsin": "арксинус", "arccos": "арккосинус", "arctg": "арктангенс", "arctan": "арктангенс",
-    "ln": "натуральный логарифм", "lg": "десятичный логарифм", "exp": "экспонента",
-    "sh": "гиперболический синус", "ch": "гиперболический косинус", "sign": "знак", "sgn": "знак",
-    "min": "мин", "max": "макс", "lim": "предел", "mod": "остаток",
-}  # fmt: skip
-_KEPT = ("cdot", "times", "pm", "approx", "leq", "geq", "le", "ge")
-_SIGNS = {name: SIGNS[name] for name in _KEPT}
 _SIGNS |= {"sum": "сумма", "int": "интеграл", "oint": "интеграл по контуру",
            "infty": "бесконечность", "prod": "произведение", "neq": "≠", "ne": "≠", "equiv": "≡",
            "dots": "…", "ldots": "…", "circ": "°", "degree": "°", "prime": "штрих", "mid": "|",
            "parallel": "∥", "to": "→", "Delta": "дельта", "colon": ":"}  # fmt: skip
-_OVER = {
-    "bar": "с чертой", "overline": "с чертой", "dot": "с точкой", "ddot": "с двумя точками",
-    "hat": "с крышкой", "vec": "вектор",
-}  # fmt: skip
-_SPOKEN_UPRIGHT = {"mathrm", "text", "operatorname", "mathbf"}
-_NOT_SAID = {"left", "right", "displaystyle", "hspace", "!"}
-_POWERS = {"2": "в квадрате", "3": "в кубе"}
-_RAISED = str.maketrans(f"0123456789+-{MINUS}", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁻")
-_INVISIBLE = re.compile(r"\\(?:left|right)\.")
-_INSTEAD = (("{,}", ","), (r"\\", ";"), (r"\left|", r"\mathrm{модуль} ("), (r"\right|", ")"))
-_ATOM = re.compile(r"[\w,.°′]+")
-_SPOKEN_WORD = re.compile(r"[a-z]{2,}", re.IGNORECASE)
 
 
 @functools.lru_cache(maxsize=4096)

@@ -43,6 +43,10 @@ _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
 _SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
 _NO_SPACE = {"°"}
+_GIVEN = 8  # significant digits of an input that nobody would write by hand
+# Words of a field's title for who fills it in, which a note does not repeat.
+_HINTS = re.compile(r",? (если|0 —) .*|,? PL\d| \((двухтактный двигатель|сдвинутой — [^)]*)\)")
+_ADVANCE = {"diesel": "впрыска", "petrol": "зажигания"}
 
 
 def unit_tex(label: str) -> str:
@@ -72,19 +76,11 @@ def input_text(given: Field) -> str:
     return given.value if isinstance(given.value, str) else plain_number(float(given.value))
 
 
-_GIVEN = 8  # significant digits of an input that nobody would write by hand
-
-
 def plain_number(value: float) -> str:
     """A number with the digits it was given with; what was calculated for it has no more."""
     value = float(f"{value:.{_GIVEN}g}")
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
-
-
-# Words of a field's title for who fills it in, which a note does not repeat.
-_HINTS = re.compile(r",? (если|0 —) .*|,? PL\d| \((двухтактный двигатель|сдвинутой — [^)]*)\)")
-_ADVANCE = {"diesel": "впрыска", "petrol": "зажигания"}
 
 
 def crankcase_scavenges(model: InputFile) -> bool:

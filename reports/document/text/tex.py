@@ -36,6 +36,14 @@ GREEK |= {
 }
 GREEK |= {"Phi": "Φ", "Omega": "Ω"}
 
+_CASES = re.compile(r"(.*?)\\begin\{cases\}(.*)\\end\{cases\}", re.DOTALL)
+_OPERATORS = {"tg", "ctg", "arctg", "sh", "ch", "sign"}  # unknown to mathtext
+_FUNCTIONS = _OPERATORS | {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "ln", "lg", "exp"}
+_RENAMED = {r"\le": r"\leq", r"\ge": r"\geq", r"\text": r"\mathrm", r"\ne": r"\neq"}
+_BIG = {r"\sum", r"\int", r"\prod", r"\oint"}
+_DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
+_PRIMES = re.compile("'+")
+
 
 class TexError(ValueError):
     """The TeX is not well formed."""
@@ -210,9 +218,6 @@ def steps(tex: str, widest: Callable[[Sequence[TexNode]], bool]) -> list[str]:
     return [short, *named]
 
 
-_CASES = re.compile(r"(.*?)\\begin\{cases\}(.*)\\end\{cases\}", re.DOTALL)
-
-
 def cases(lead: str, branches: Iterable[tuple[str, str]]) -> str:
     """TeX of a value from its branches, each a formula and the condition of it."""
     body = r" \\ ".join(rf"{formula}, & {condition}" for formula, condition in branches)
@@ -240,15 +245,9 @@ def case_lines(tex: str) -> str:
     return r" \\ ".join(rf"{lead} " + r"\quad ".join(row) for row in rows)
 
 
-_OPERATORS = {"tg", "ctg", "arctg", "sh", "ch", "sign"}  # unknown to mathtext
-_FUNCTIONS = _OPERATORS | {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "ln", "lg", "exp"}
-_RENAMED = {r"\le": r"\leq", r"\ge": r"\geq", r"\text": r"\mathrm", r"\ne": r"\neq"}
 _RENAMED |= {r"\bar": r"\overline"}  # the accent of mathtext breaks beside a prime
 _RENAMED |= {rf"\{name}": rf"\operatorname{{{name}}}" for name in _OPERATORS}
 _RENAMED |= {".": r".\hspace{-0.2}"}
-_BIG = {r"\sum", r"\int", r"\prod", r"\oint"}
-_DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
-_PRIMES = re.compile("'+")
 
 
 def for_mathtext(tex: str, *, level_primes: bool = False) -> str:

@@ -24,6 +24,35 @@ _WHOLE = re.compile(
     r"(?<![\w-])(\d+-[а-яё]{1,3}(?: изд\.)?|[A-ZА-ЯЁ]-[а-яё]+"
     r"|\d*[ДЧ][А-Я]* \d+(?:,\d+)?/\d+(?:,\d+)?)(?![\w-])"
 )
+FORMULA = "\u2062"  # an invisible sign before the words of a formula tells it from a figure
+_OPENING = re.compile(r'<svg class="(\w+)"([^>]*?)style="([^"]*)"([^>]*)>')
+_OF_PAGE = re.compile(r' (?:role|xmlns)="[^"]*"')
+_SIZE = re.compile(r' data-size="[\d./]+"')
+_SVG_NAMESPACE = ' xmlns="http://www.w3.org/2000/svg"'
+_SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
+_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
+# Units as sentences of the templates put them behind a number, and the pages of a book.
+_UNIT = r"(?:%|°C|с\.|(?:(?:кН|Н)(?:·м)?|[мМ]?Па|мк?м|кг|к?Дж|к?Вт|мин|рад|Гц|л|м)(?![А-Яа-яё]))"
+# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
+# or a longer one after «по»; before the number of a thing, «рисунок 1», «шейки 2», «№ 3», and a
+# dash, but not the one of a caption after its number; within «а — размеры»; round the sign of
+# «φ = 56°»; before a unit.  The space stands first: it is looked for at once.
+_UNBROKEN = re.compile(
+    r" (?:(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\. )(?=[А-ЯЁ])"
+    r'|(?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|, <a))'
+    rf'|(?<=\bпо )(?=\[<a class="ref"[^<>]*>\d+</a>,{NBSP})'
+    r"|(?:(?<=шейк[а-я] )|(?<=подшипник )|(?<=подшипник[а-я] )|(?<=цилиндр[а-я] )|(?<=колен[а-я] )"
+    r"|(?<=№ ))(?=\d+(?!\d|,\d))"
+    r'|(?:(?<=рисун[а-я]{2} )|(?<=рисунках )|(?<=аблиц[а-я] )|(?<=аблицах ))(?=<a class="ref")'
+    r"|(?<!\d</span> )(?=— )"
+    r"|(?<=[ :;][а-е] — )"
+    r"|(?:(?==[ \u00a0])|(?<=[ \u00a0]= )"
+    rf"|(?<=\d )(?={_UNIT}))"
+    r"(?![^<>]*>))"  # but in words for a reader's ear
+)
+_SMALL = 1e-4  # a smaller number is written as a power of ten
+# Widths of STIX in quarters of an em; a digit has two, the minus really 2.74.
+_QUARTERS = {",": 1, NBSP: 1, MINUS: 3, "+": 3} | dict.fromkeys("0123456789", 2)
 
 
 @functools.lru_cache(maxsize=8192)
@@ -59,13 +88,6 @@ def titled(svg: str, title: object) -> Markup:
     )
 
 
-FORMULA = "\u2062"  # an invisible sign before the words of a formula tells it from a figure
-_OPENING = re.compile(r'<svg class="(\w+)"([^>]*?)style="([^"]*)"([^>]*)>')
-_OF_PAGE = re.compile(r' (?:role|xmlns)="[^"]*"')
-_SIZE = re.compile(r' data-size="[\d./]+"')
-_SVG_NAMESPACE = ' xmlns="http://www.w3.org/2000/svg"'
-
-
 def pictured(svg: str, title: object) -> Markup:
     """An inline SVG as a picture of its own with an alternative text, for paper.
 
@@ -83,31 +105,6 @@ def pictured(svg: str, title: object) -> Markup:
     words = Markup(FORMULA if kind == "tex" else "") + plain(title)
     values = (kind, Markup(style), Markup(size), words, Markup(data))
     return Markup(picture).format(*values)
-
-
-_SPACE_BEFORE = re.compile('([ \u00a0])(<(?:a(?! class="ref")|i)\\b[^<>]*>)')
-_SPACE_BEFORE_UNBROKEN = re.compile('([ \u00a0])(<span class="nb">|<a class="ref")')
-
-
-# Units as sentences of the templates put them behind a number, and the pages of a book.
-_UNIT = r"(?:%|°C|с\.|(?:(?:кН|Н)(?:·м)?|[мМ]?Па|мк?м|кг|к?Дж|к?Вт|мин|рад|Гц|л|м)(?![А-Яа-яё]))"
-# Spaces that no line ends at: of initials, «А. Н. Гоц»; before a short reference, «Гоца [1]»,
-# or a longer one after «по»; before the number of a thing, «рисунок 1», «шейки 2», «№ 3», and a
-# dash, but not the one of a caption after its number; within «а — размеры»; round the sign of
-# «φ = 56°»; before a unit.  The space stands first: it is looked for at once.
-_UNBROKEN = re.compile(
-    r" (?:(?<=[^А-ЯЁа-яёA-Za-z][А-ЯЁ]\. )(?=[А-ЯЁ])"
-    r'|(?=\[<a class="ref"[^<>]*>\d+</a>(?:\]|, <a))'
-    rf'|(?<=\bпо )(?=\[<a class="ref"[^<>]*>\d+</a>,{NBSP})'
-    r"|(?:(?<=шейк[а-я] )|(?<=подшипник )|(?<=подшипник[а-я] )|(?<=цилиндр[а-я] )|(?<=колен[а-я] )"
-    r"|(?<=№ ))(?=\d+(?!\d|,\d))"
-    r'|(?:(?<=рисун[а-я]{2} )|(?<=рисунках )|(?<=аблиц[а-я] )|(?<=аблицах ))(?=<a class="ref")'
-    r"|(?<!\d</span> )(?=— )"
-    r"|(?<=[ :;][а-е] — )"
-    r"|(?:(?==[ \u00a0])|(?<=[ \u00a0]= )"
-    rf"|(?<=\d )(?={_UNIT}))"
-    r"(?![^<>]*>))"  # but in words for a reader's ear
-)
 
 
 def unbroken(body: str) -> str:
@@ -151,9 +148,6 @@ def of_digits(value: float, digits: Digits) -> str:
     return written(value, digits, group=digits.hides == "")
 
 
-_SMALL = 1e-4  # a smaller number is written as a power of ten
-
-
 def _small(value: float, digits: Digits) -> tuple[str, int] | None:
     """Mantissa and exponent of a number of many zeros, with the digits that it has."""
     if digits.kind != "fixed" or not 0 < abs(value) < _SMALL:
@@ -188,10 +182,6 @@ def significant(value: float, digits: int) -> str:
 def to_tex(text: str) -> str:
     r"""Turn a written number into TeX: ``{,}`` for the comma, ``-``, thin space in groups."""
     return text.replace(",", "{,}").replace(MINUS, "-").replace(NBSP, r"\,")
-
-
-# Widths of STIX in quarters of an em; a digit has two, the minus really 2.74.
-_QUARTERS = {",": 1, NBSP: 1, MINUS: 3, "+": 3} | dict.fromkeys("0123456789", 2)
 
 
 def aligned(texts: Iterable[str]) -> list[str]:

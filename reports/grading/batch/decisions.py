@@ -30,6 +30,8 @@ _WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
 _ANOTHER = "после решения преподавателя сдан другой файл: решите о нём заново"
 _ANOTHER_COLUMN = "после решения преподавателя сдан другой файл, решите заново о столбцах: "
 _SHEET = "Оценки"
+_PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a format: signs that mean themselves
+_ANY = Rubric(maximum=1e9)  # words are held to the rubric when they are taken in
 
 
 @dataclass(frozen=True, slots=True)
@@ -372,9 +374,6 @@ def _meant(cell: Any) -> Any:  # noqa: ANN401 - a cell of openpyxl and what it h
     return value
 
 
-_PLAIN_TEXT = re.compile(r'"[^"]*"|\\.')  # of a format: signs that mean themselves
-
-
 def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
     """A result as the person has decided on its file; without such decisions the same."""
     own = _of(result, decisions)
@@ -411,9 +410,6 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
 def _award(entry: Decision) -> Award:
     """The award of a decision, its change read from its word."""
     return award_of(entry.word, _ANY, None) if entry.word else Award(entry.points)
-
-
-_ANY = Rubric(maximum=1e9)  # words are held to the rubric when they are taken in
 
 
 def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:

@@ -35,6 +35,10 @@ SLOW = "проверка заняла слишком много времени"
 DIED = "проверка прервана: файл исчерпал память или повредил программу чтения"
 
 Marked = tuple[dict[str, Any], str]
+_COPIES = "reports.grading.pages.marked_copy"
+Job = tuple[Submission, dict[str, Any], Work]
+PART = 20  # files; starting the process costs as much as a few of them
+Answers = list[tuple[str, dict[str, Any] | None, str, str]]  # key, result, page, problem
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,9 +101,6 @@ def _marking(register_folder: Path) -> Callable[[Submission], Marked]:
 
 # --- copies --------------------------------------------------------------------------------------
 
-_COPIES = "reports.grading.pages.marked_copy"
-Job = tuple[Submission, dict[str, Any], Work]
-
 
 def copies(
     jobs: Sequence[Job], rubric: Rubric, workers: int, timeout_s: float
@@ -121,8 +122,6 @@ def _copying(rubric: Rubric) -> Callable[..., bytes]:
 
 # --- a Dask cluster ------------------------------------------------------------------------------
 
-PART = 20  # files; starting the process costs as much as a few of them
-
 
 @dataclass(frozen=True, slots=True)
 class ClusterPart:
@@ -131,9 +130,6 @@ class ClusterPart:
     register: str
     submissions: list[tuple[Submission, bytes]]
     timeout_s: float
-
-
-Answers = list[tuple[str, dict[str, Any] | None, str, str]]  # key, result, page, problem
 
 
 def grade_far(

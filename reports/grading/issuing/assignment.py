@@ -31,6 +31,8 @@ _PICKS = ("element", "col_last")
 # What models with the same blocks have in common.
 _SHARED = ("graph", "items", "points", "blocks", "fill_nodes", "states", "given_nodes",
            "live_nodes")  # fmt: skip
+NUMBER, LIVE, HIDDEN = "number", "live", "hidden"
+_PHASE = "phase_deg"
 
 
 @dataclass(frozen=True, slots=True)
@@ -396,9 +398,6 @@ def _scalar_item(block: str, scalar: Scalar) -> Item:
 
 
 # --- what stands beside the cells to fill in -----------------------------------------------------
-
-NUMBER, LIVE, HIDDEN = "number", "live", "hidden"
-_PHASE = "phase_deg"
 
 
 def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:

@@ -58,6 +58,14 @@ _LEGEND = (
     (styles.FORMULA, "дано: числа и формулы от ваших ячеек"),
     (styles.HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )
+_DIGITS = 4  # that are compared within one place: as few as a table prints
+_EXACT = 11  # that are compared of single values
+_NOUGHT = 1e-12
+_FEWEST = 4  # answers of a column in one place that are no chance
+_PICKS = {"abs", "element", "following", "previous", "col_max", "col_min", "col_last"}
+_REPEATS = SCALE_FUNCTIONS | _PICKS
+_TURNS = np.radians(np.arange(1, 721))  # angles in radians: ω at 3000 rpm has the digits of π
+_NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?(?![\w])")
 
 
 class _HandoutWriter(BlockWriter):
@@ -253,15 +261,6 @@ def _lock(book: Workbook, layout: Layout) -> None:
 
 
 # --- leaks ---------------------------------------------------------------------------------------
-
-_DIGITS = 4  # that are compared within one place: as few as a table prints
-_EXACT = 11  # that are compared of single values
-_NOUGHT = 1e-12
-_FEWEST = 4  # answers of a column in one place that are no chance
-_PICKS = {"abs", "element", "following", "previous", "col_max", "col_min", "col_last"}
-_REPEATS = SCALE_FUNCTIONS | _PICKS
-_TURNS = np.radians(np.arange(1, 721))  # angles in radians: ω at 3000 rpm has the digits of π
-_NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?(?![\w])")
 
 
 @dataclass(frozen=True, slots=True)

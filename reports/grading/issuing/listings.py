@@ -25,6 +25,18 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
 MAX_BYTES, MAX_FIELD = 2_000_000, 200
 _MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
 _FIRST_LINES = 20  # by which the delimiter is known
+_AS_FORMULA = re.compile(r'="([^"]*)"')
+# Other encodings of Russian lists: of Windows, of its command line, of old Unix, of a Mac.
+_ENCODINGS = ("cp1251", "cp866", "koi8-r", "mac-cyrillic")
+_WORD = re.compile(r"[А-ЯЁ][а-яё]+|[А-ЯЁ]+|[а-яё]+")
+_LETTERS = re.compile(r"[^\W\d_]+")
+_LEAST_RUSSIAN = 0.6  # of the words that are no plain Latin
+_USUAL = frozenset("километр вода суп нить")  # all letters that are usual
+# A fill that says nothing, as some programs write it: openpyxl reads no such book.
+_STYLES = "xl/styles.xml"
+_NO_FILL = re.compile(rb"<((?:\w+:)?)fill\s*(?:/>|></\1fill>)")
+_EMPTY_FILL = rb"<\1fill><\1patternFill/></\1fill>"
+A_DATE = "дата вместо текста"
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +89,6 @@ def _clean(cell: str) -> str:
     return one_line(unicodedata.normalize("NFC", text[1] if text else cell), MAX_FIELD + 1)
 
 
-_AS_FORMULA = re.compile(r'="([^"]*)"')
-
-
 # --- CSV -------------------------------------------------------------------------------------
 
 
@@ -97,12 +106,6 @@ def _csv_lines(path: Path, text: str) -> list[RosterLine]:
     return lines
 
 
-# Other encodings of Russian lists: of Windows, of its command line, of old Unix, of a Mac.
-_ENCODINGS = ("cp1251", "cp866", "koi8-r", "mac-cyrillic")
-_WORD = re.compile(r"[А-ЯЁ][а-яё]+|[А-ЯЁ]+|[а-яё]+")
-_LETTERS = re.compile(r"[^\W\d_]+")
-
-
 def _text(path: Path, data: bytes) -> str:
     """The text of a list in the one encoding that gives Russian words."""
     try:
@@ -118,10 +121,6 @@ def _text(path: Path, data: bytes) -> str:
     return text
 
 
-_LEAST_RUSSIAN = 0.6  # of the words that are no plain Latin
-_USUAL = frozenset("километр вода суп нить")  # all letters that are usual
-
-
 def _russian(text: str) -> float:
     """Share of the foreign words that are written as Russian ones are: case, usual letters."""
     words = [w for w in _LETTERS.findall(text) if not w.isascii() and len(w) > 2]
@@ -135,12 +134,6 @@ def _russian(text: str) -> float:
 
 
 # --- a book of Excel -------------------------------------------------------------------------
-
-
-# A fill that says nothing, as some programs write it: openpyxl reads no such book.
-_STYLES = "xl/styles.xml"
-_NO_FILL = re.compile(rb"<((?:\w+:)?)fill\s*(?:/>|></\1fill>)")
-_EMPTY_FILL = rb"<\1fill><\1patternFill/></\1fill>"
 
 
 def _sheets(path: Path, data: bytes) -> list[RosterListing]:
@@ -221,9 +214,6 @@ def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
                 faults[i], cells[i] = A_DATE, str(cell.value)
         if any(cells) or faults:
             yield RosterLine(number, cells, faults)
-
-
-A_DATE = "дата вместо текста"
 
 
 def _fault(cell: ReadOnlyCell, source: ReadOnlyCell) -> str:

@@ -26,6 +26,9 @@ ENVIRONMENT = "KSHM_SECRET"
 SECRET = "secret.key"
 PATTERN = re.compile(r"K[A-Z2-7]{24}")
 _LENGTH = 32
+VERSION = 1
+FILE = "register.json"
+MAX_BYTES = 50_000_000
 
 
 def secret_path(given: Path | None) -> Path:
@@ -100,10 +103,6 @@ def ticket(secret: bytes, *, batch: str, student: str, file: str, variant: Any) 
 
 
 # --- the register --------------------------------------------------------------------------------
-
-VERSION = 1
-FILE = "register.json"
-MAX_BYTES = 50_000_000
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,6 +54,10 @@ _NOBODY = frozenset(("группа", "итого", "всего", "куратор
 _REMARKS = _NOBODY | frozenset(("профорг", "зам", "заместитель", "академ", "отпуск", "отчислен",
                                 "отчислена", "переведен", "переведена", "бюджет", "контракт",
                                 "платно", "целевое", "декрет", "должник"))  # fmt: skip
+_LETTERED = re.compile(r"(?:[^\W\d_]|[IVXLC]+)\)\s*|[IVXLC]+\.\s+")
+_FEW = 3  # people of whom two may well have one name
+_NAME = re.compile(r"[^\W\d_]+(?:[- .’'][^\W\d_]+)*\.?")
+_MORE = re.compile(r"\+?\s*(\d{1,3})\s*(д|дн|дня|дней|день|сут\w*|ч|час|часа|часов|d|h)\.?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,9 +197,6 @@ def _continues(head: RosterLine, line: RosterLine) -> bool:
     return any(name and (kind or not cell) for cell, kind, name, _ in pairs)
 
 
-_LETTERED = re.compile(r"(?:[^\W\d_]|[IVXLC]+)\)\s*|[IVXLC]+\.\s+")
-
-
 def _unmarked(line: RosterLine, columns: dict[str, int]) -> RosterLine:
     """A line whose names have no number, bullet or other sign before and behind them."""
     cells = list(line.cells)
@@ -220,10 +221,6 @@ def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
     alone = all(not line.cells[i] for i in (columns.get("name"), columns.get("email"))
                 if i is not None and i < len(line.cells))  # fmt: skip
     return alone and bool(texts & _SERVICE or (not texts and filled & _SERVICE))
-
-
-_FEW = 3  # people of whom two may well have one name
-_NAME = re.compile(r"[^\W\d_]+(?:[- .’'][^\W\d_]+)*\.?")
 
 
 def _joined(
@@ -388,9 +385,6 @@ def _student(headed: _List, line: RosterLine) -> Student | Problem:
     key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
     return Student(key, surname, name, group, given.get("email", ""), given.get("id", ""),
                    extension)  # fmt: skip
-
-
-_MORE = re.compile(r"\+?\s*(\d{1,3})\s*(д|дн|дня|дней|день|сут\w*|ч|час|часа|часов|d|h)\.?")
 
 
 def _extension(text: str) -> str | None:

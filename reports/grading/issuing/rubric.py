@@ -21,6 +21,28 @@ Positive = Annotated[float, Field(gt=0)]
 Points = Annotated[float, Field(ge=0, le=1e6)]
 Name = Annotated[str, Field(min_length=1, max_length=100)]
 Letters = Annotated[str, Field(pattern=r"^[A-Z]{0,3}$")]
+_WANTED = {
+    "less_than_equal": "нужно число от 0 до 1",
+    "greater_than_equal": "нужно число не меньше нуля",
+    "greater_than": "нужно положительное число",
+    "float_type": "нужно число",
+    "float_parsing": "нужно число",
+    "finite_number": "нужно конечное число",
+    "bool_parsing": "нужно true или false",
+    "bool_type": "нужно true или false",
+    "int_type": "нужно целое число",
+    "int_parsing": "нужно целое число",
+    "tuple_type": "нужен список",
+    "dict_type": "нужен раздел",
+    "model_type": "нужен раздел",
+    "string_type": "нужен текст",
+    "missing": "ключ обязателен",
+    "formula": "нужна формула на языке таблиц: r_crank*(1 - cos(rad(phi_deg)))",
+    "string_pattern_mismatch": "нужны буквы столбца или адрес ячейки: B, E12",
+    "string_too_short": "нужен текст",
+    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00",
+    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00",
+}
 
 
 class _Section(BaseModel):
@@ -230,30 +252,6 @@ def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
                 wanted = _WANTED.get(item["type"], "смотрите образец")
                 problems.append(Problem(where, what, hint if words else wanted))
         raise InputError(problems) from None
-
-
-_WANTED = {
-    "less_than_equal": "нужно число от 0 до 1",
-    "greater_than_equal": "нужно число не меньше нуля",
-    "greater_than": "нужно положительное число",
-    "float_type": "нужно число",
-    "float_parsing": "нужно число",
-    "finite_number": "нужно конечное число",
-    "bool_parsing": "нужно true или false",
-    "bool_type": "нужно true или false",
-    "int_type": "нужно целое число",
-    "int_parsing": "нужно целое число",
-    "tuple_type": "нужен список",
-    "dict_type": "нужен раздел",
-    "model_type": "нужен раздел",
-    "string_type": "нужен текст",
-    "missing": "ключ обязателен",
-    "formula": "нужна формула на языке таблиц: r_crank*(1 - cos(rad(phi_deg)))",
-    "string_pattern_mismatch": "нужны буквы столбца или адрес ячейки: B, E12",
-    "string_too_short": "нужен текст",
-    "datetime_from_date_parsing": "нужна дата и время: 2026-12-20T23:59:00",
-    "datetime_parsing": "нужна дата и время: 2026-12-20T23:59:00",
-}
 
 
 def _keys(location: tuple[int | str, ...]) -> list[str]:

@@ -38,6 +38,8 @@ _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _OF_SIGN = {OPPOSITE, *(words for _, words in SIGNS)}
 _EXACT = "exact"  # in the key of a column by the exact formula
 _VARIED = 4  # different values of a column that tells anything
+Change = Callable[[ast.expr], Any]
+_LEAST = 3  # values of an item that one of them is told distance from
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +52,6 @@ class Scene:
     values: Array
 
 
-Change = Callable[[ast.expr], Any]
 Attempt = tuple[str, Callable[[Scene], Array | None]]  # a mistake in words, and what it gives
 
 
@@ -433,8 +434,6 @@ def _is_place(item: Item) -> bool:
 
 
 # --- rows ----------------------------------------------------------------------------------------
-
-_LEAST = 3  # values of an item that one of them is told distance from
 
 
 def moved(right: Array, values: Array, by: int) -> Array:

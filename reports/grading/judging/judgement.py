@@ -39,6 +39,9 @@ WORDS = {
 
 
 E = TypeVar("E")
+_MOST_LABELS = 8
+_ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
+_CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 
 
 def fault(error: Exception) -> str:
@@ -50,9 +53,6 @@ def fault(error: Exception) -> str:
     if isinstance(error, MemoryError):
         raise error
     return one_line(f"внутренняя ошибка проверки ({type(error).__name__}: {error})", _FAULT)
-
-
-_MOST_LABELS = 8
 
 
 def unread_remark(labels: Sequence[str]) -> str:
@@ -122,10 +122,6 @@ def close(
     """Mask of values that agree between two columns of an engine."""
     with np.errstate(invalid="ignore"):
         return np.asarray(distance(item.nodes, values, expected, run) <= allowed)
-
-
-_ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
-_CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 
 
 def explains(

@@ -27,6 +27,11 @@ _DIGITS = 20  # of a text that is a list
 _LONG = 5  # digits of a number that nobody knows by heart
 _EXACT = 9  # decimals that a calculation keeps
 _TYPED = 4  # digits, the comma with them, of a number in a list that is read; angles have fewer
+_TURNS, _PARTS, _COUNTS = 15, 1440, 16  # degrees, minutes and days; whole numbers up to
+_PLAIN = frozenset((18.0, 24.0, 32.0, 64.0, 9550.0, 9549.0, 3600.0))
+_EQUAL = ("op", "=")
+_BEFORE = frozenset(("op", sign) for sign in "(,;{")
+_AFTER = frozenset(("op", sign) for sign in "),;}")
 
 
 def reads_a_list(student: StudentBook, node: str) -> bool:
@@ -110,10 +115,6 @@ def _mantissa(value: float) -> str:
 @lru_cache(maxsize=20_000)
 def _literals(formula: Formula) -> set[float]:
     return {float(value) for kind, value in formula.pattern if kind == "number"}
-
-
-_TURNS, _PARTS, _COUNTS = 15, 1440, 16  # degrees, minutes and days; whole numbers up to
-_PLAIN = frozenset((18.0, 24.0, 32.0, 64.0, 9550.0, 9549.0, 3600.0))
 
 
 def _is_usual(number: float) -> bool:
@@ -254,11 +255,6 @@ def _told(tokens: Sequence[Token]) -> int:
         map(_digits, {at[1] for before, at, after in around
                       if at[0] == "number" and _EQUAL not in (before, after)})
     )  # fmt: skip
-
-
-_EQUAL = ("op", "=")
-_BEFORE = frozenset(("op", sign) for sign in "(,;{")
-_AFTER = frozenset(("op", sign) for sign in "),;}")
 
 
 def _digits(number: str) -> int:

@@ -59,6 +59,7 @@ from reports.workbook.layout import Layout
 FORMAT = 8
 _DISGUISED = 3  # numbers in the guise of formulas from which a person looks
 Result = dict[str, Any]
+T = TypeVar("T")
 
 
 def blank_result(submission: Submission) -> Result:
@@ -282,9 +283,6 @@ class Marker:
     def titles(assignment: Assignment) -> dict[str, str]:
         """Name of an input → its title."""
         return {name: field.title for name, field in assignment.model.fields.items()}
-
-
-T = TypeVar("T")
 
 
 def _doubt(result: Result, text: str) -> None:

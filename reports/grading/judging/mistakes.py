@@ -73,6 +73,11 @@ _UNSQUARED = ("rad(", "deg(", "to_", "of_", "sqrt(")
 _PRODUCTS = 4  # of a formula, in which it may divide instead
 ROOTLESS = "значение под корнем: корень не извлечён"
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
+_POWERS = {2.0: "квадрат", 3.0: "куб"}
+# How people call the functions of the language; what is not here is called as in Excel.
+_CALLED = {"col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ", "total": "Σ",
+           "running_sum": "Σ", "sqrt": "√"}  # fmt: skip
+_NAMELESS = SCALE_FUNCTIONS | SHIFTS | {"rad", "deg", "element", "col_last", "round"}
 
 
 def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
@@ -162,13 +167,6 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     yield "скобка не возведена в степень", WithoutPowers().visit
     for more, words in ((True, "больше"), (False, "меньше")):
         yield f"показатель степени на единицу {words}", OtherExponent(more=more).visit
-
-
-_POWERS = {2.0: "квадрат", 3.0: "куб"}
-# How people call the functions of the language; what is not here is called as in Excel.
-_CALLED = {"col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ", "total": "Σ",
-           "running_sum": "Σ", "sqrt": "√"}  # fmt: skip
-_NAMELESS = SCALE_FUNCTIONS | SHIFTS | {"rad", "deg", "element", "col_last", "round"}
 
 
 def symbol_of(name: str, block: str, model: Model) -> str:

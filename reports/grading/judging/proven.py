@@ -19,6 +19,7 @@ from reports.grading.reading.student import StudentBook, covered
 from reports.recalculation.grid import Area, Run
 
 _BEYOND = frozenset(("SUMIF", "AVERAGEIF"))  # read as many cells as their first range has
+EXACT = 1e-9  # of the largest value of a column
 
 
 @dataclass(frozen=True)
@@ -93,9 +94,6 @@ def rows_as_issued(student: StudentBook) -> set[str]:
         if [constants.get(row) for row in location.rows if row is not None] == list(table.rows):
             tables.add(node)
     return tables
-
-
-EXACT = 1e-9  # of the largest value of a column
 
 
 def settled(student: StudentBook, exact: Mapping[str, bool]) -> frozenset[str]:

@@ -7,6 +7,8 @@ from typing import ClassVar, TypeGuard
 
 from reports.formula.parse import parse
 
+LEAST = 2  # exponent, below which there is no power
+
 
 def summands(tree: ast.AST) -> list[ast.expr]:
     """Summands of all sums of a formula but those of its exponents, as they are written."""
@@ -204,9 +206,6 @@ class LowerPower(ast.NodeTransformer):
         if exponent > LEAST and ast.unparse(node.left) == self.text:
             node.right = ast.Constant(exponent - 1)
         return node
-
-
-LEAST = 2  # exponent, below which there is no power
 
 
 def exponent_of(node: ast.AST) -> float:

@@ -7,6 +7,8 @@ from functools import lru_cache
 from reports.recalculation.formulas import Formula, Token
 
 _MINUS, _POWER, _OPEN, _CLOSE = ("op", "-"), ("op", "^"), ("op", "("), ("op", ")")
+_COSINE = ("name", "COS")
+_CHOICES = frozenset(("IF", "IFERROR", "IFNA", "IFS", "SWITCH", "CHOOSE"))
 
 
 @lru_cache(maxsize=20_000)
@@ -28,15 +30,9 @@ def squares_a_cosine(formula: Formula) -> bool:
     return any(_is_raised(tokens, at) for at in cosines)
 
 
-_COSINE = ("name", "COS")
-
-
 def chooses_a_number(formula: Formula) -> bool:
     """Whether a choice between cases stands about a number, for the looks of it."""
     return not formula.functions.isdisjoint(_CHOICES)
-
-
-_CHOICES = frozenset(("IF", "IFERROR", "IFNA", "IFS", "SWITCH", "CHOOSE"))
 
 
 def _tokens(formula: Formula) -> list[Token]:

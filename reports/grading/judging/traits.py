@@ -35,6 +35,7 @@ Names = frozenset[tuple[str, tuple[str, int, int]]]
 _PLAIN_TITLES = ("лист", "sheet", "таблица")
 _ISSUED_NAMES = ("col_", "cell_", "_xlnm", "_xlfn", "_xlpm", "kshm", "print_", "_filter")
 _HABIT = 8  # columns in which a step that does nothing is a manner of writing
+_CELL = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
 
 
 def digest(what: object) -> str:
@@ -237,9 +238,6 @@ def _idle_traits(idle: Sequence[tuple[str, list[str], str]]) -> list[Trait]:
         (IDLE, item, digest(steps), spelt, steps[0] if times[steps[0]] > _HABIT else item)
         for item, steps, spelt in idle
     ]
-
-
-_CELL = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
 
 
 def _spelling(run: Run) -> tuple[tuple[str, str], ...]:

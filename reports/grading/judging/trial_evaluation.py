@@ -38,6 +38,18 @@ _EDGE, _APART = 0.02, 0.25  # of the range: from its ends, between the first two
 _TURN = 1.7  # ° or %, which no table has as its step
 _NOUGHT = 1e-6  # of the last digit that is printed: what is left of A − A
 _NARROW = 0.05  # where all variants have the same value
+_METRES = 1e-3
+# In what else a student may write the input data down: cm, g, kPa, bar, Pa, thousands of turns and
+# turns a second, W.
+_OTHER_UNITS = {
+    "мм": (_METRES, 0.1),
+    "кг": (1e3,),
+    MPA.label: (1e3, 10.0, MPA.times),
+    "мин⁻¹": (1e-3, 1 / 60),
+    "кВт": (1e3,),
+}
+Array = NDArray[np.float64]
+_FOUR = 0.5e-4  # what a table of sines with four digits leaves out
 
 
 @dataclass(frozen=True)
@@ -187,17 +199,6 @@ def _everything(
 
 # --- copied inputs -------------------------------------------------------------------------------
 
-_METRES = 1e-3
-# In what else a student may write the input data down: cm, g, kPa, bar, Pa, thousands of turns and
-# turns a second, W.
-_OTHER_UNITS = {
-    "мм": (_METRES, 0.1),
-    "кг": (1e3,),
-    MPA.label: (1e3, 10.0, MPA.times),
-    "мин⁻¹": (1e-3, 1 / 60),
-    "кВт": (1e3,),
-}
-
 
 def known_numbers(
     fields: Mapping[str, Field], trials: Sequence[Trial]
@@ -231,9 +232,6 @@ def stepping(cells: Mapping[tuple[str, int, int], float]) -> set[tuple[str, int,
 
 
 # --- evaluation ----------------------------------------------------------------------------------
-
-Array = NDArray[np.float64]
-_FOUR = 0.5e-4  # what a table of sines with four digits leaves out
 
 
 @dataclass(frozen=True)

@@ -46,6 +46,14 @@ _BY_CHANCE = (
     "числа верны, а при других исходных данных формула даёт не то: совпало у этого варианта?"
 )
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
+# How a cell that is not right is called, the worst first.
+_WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
+_ERRORS = {
+    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
+    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
+    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
+    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -328,10 +336,6 @@ def _by_chance(e: ItemEvidence) -> Judgement | None:
     return replace(e.judgement, verdict=UNKNOWN, rows=rows, typed=(), reason=_BY_CHANCE)
 
 
-# How a cell that is not right is called, the worst first.
-_WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
-
-
 def _by_cells(e: ItemEvidence) -> Judgement:
     """The verdict that most cells have, but numbers in disguise before all others."""
     counts, total = Counter(e.words), len(e.words)
@@ -444,14 +448,6 @@ def own_values(item: Item, student: StudentBook, precedents: frozenset[str] | No
         run = student.expected.fork(known_values(student.answers, used - {node}))
         parts.append(np.ravel(np.asarray(run.value(node), dtype=float)))
     return np.concatenate(parts)
-
-
-_ERRORS = {
-    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
-    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
-    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
-    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
-}  # fmt: skip
 
 
 def shown_errors(item: Item, student: StudentBook) -> str:

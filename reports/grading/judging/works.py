@@ -35,6 +35,13 @@ from reports.grading.reading.student import StudentBook
 from reports.workbook.layout import Layout
 
 _TELLING = 6  # tokens of a formula that may tell who wrote it
+Trait = tuple[str, str, str, str, str]  # kind, item, digest, digest as spelt, what it goes with
+_MARK = 16  # signs of a mark of right values
+_NONE = " " * _MARK
+Shared = dict[Any, Any]  # entries and traits
+VERBATIM, NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
+_SAMPLE = 200  # signs of a formula that a person looks at
+SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
 
 def formula_marks(student: StudentBook, own: Mapping[str, str]) -> dict[str, list[Any]]:
@@ -113,10 +120,6 @@ def is_odd(tokens: Sequence[tuple[str, str]]) -> bool:
 
 # --- the small form ------------------------------------------------------------------------------
 
-Trait = tuple[str, str, str, str, str]  # kind, item, digest, digest as spelt, what it goes with
-_MARK = 16  # signs of a mark of right values
-_NONE = " " * _MARK
-
 
 @dataclass(frozen=True, slots=True)
 class Entry:
@@ -169,9 +172,6 @@ class Work:
         """Items with the marks of their right values, empty where there is nothing to tell."""
         for index, entry in enumerate(self.items):
             yield entry, self._rights[index * _MARK : (index + 1) * _MARK].strip()
-
-
-Shared = dict[Any, Any]  # entries and traits
 
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
@@ -228,18 +228,12 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
     )
 
 
-VERBATIM, NEARLY_ALL = 10, 0.9  # formulas, and the share of them, that nobody writes by chance
-
-
 def is_verbatim(own: int, count: int) -> bool:
     """Whether so many formulas are the program's to a sign that they are copied."""
     return own >= max(VERBATIM, NEARLY_ALL * count)
 
 
 # --- lines of the feedback -----------------------------------------------------------------------
-
-_SAMPLE = 200  # signs of a formula that a person looks at
-SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
 
 def feedback_line(

@@ -17,6 +17,20 @@ _HEAD = ("Вариант", "Студент", "Группа", "Баллы", "Из
 # Filled in by the instructor, read back by the next run.
 DECISION = ("Решение: баллы", "Решение: примечание")
 OF_FILE = "SHA-256"  # in a hidden column: the file that was decided on
+_FOR_TEACHER = ("State", "For the teacher")  # Moodle's import passes by what nobody maps
+_AS_TYPED = "@"  # a spreadsheet makes 5 of «+5» and 0.5 of «50%»
+GROUPS, DECIDED = "Решения", "решено"
+_GROUP_HEAD = ("Группа", "Работ", "Что", "Почему ждёт", "Формула", "Из", *DECISION, "Студенты")
+_GROUP_WIDTHS = (11, 8, 20, 46, 40, 7, 10, 26, 60)
+TITLE = "Для печати"
+_PRINTED = ("№", "Студент", "Группа", "Баллы", "Состояние")
+_POINTS_COLUMN, _STATE_COLUMN = 4, 5  # points stand in the others behind them as well
+_WIDTHS = (3.2, 20.0, 7.0, 5.0, 11.0)  # in digits of the default font, for letters of _SIZE_PT
+_TABLE = 4.2  # width of a table's points
+_SIZE_PT, _PAGE = 5.6, 142.0  # size of the letters, width of a page
+_HEAD_PT, _PAGE_PT = 56.0, 538.0  # heights: of the titles, of a page without margins
+_LEAST_PT, _MOST_PT = 6.8, 13.0  # height of a row
+_LARGE = 42  # students on one page; more take two, as many as these hold
 
 
 def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
@@ -46,9 +60,6 @@ def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
 def whole_remark(row: Mapping[str, Any]) -> str:
     """The remark on a work with what it shares with others: for the teacher."""
     return "; ".join(filter(None, (row["remark"], row.get("similar"))))
-
-
-_FOR_TEACHER = ("State", "For the teacher")  # Moodle's import passes by what nobody maps
 
 
 def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
@@ -136,12 +147,6 @@ def gradebook_xlsx(
     return finish(book)
 
 
-_AS_TYPED = "@"  # a spreadsheet makes 5 of «+5» and 0.5 of «50%»
-GROUPS, DECIDED = "Решения", "решено"
-_GROUP_HEAD = ("Группа", "Работ", "Что", "Почему ждёт", "Формула", "Из", *DECISION, "Студенты")
-_GROUP_WIDTHS = (11, 8, 20, 46, 40, 7, 10, 26, 60)
-
-
 def _add_groups(
     book: Workbook, groups: Sequence[Mapping[str, Any]], decided: Sequence[Mapping[str, Any]]
 ) -> None:
@@ -213,16 +218,6 @@ def _decimal(value: float | None) -> str:
 
 
 # --- the printer's sheet -------------------------------------------------------------------------
-
-TITLE = "Для печати"
-_PRINTED = ("№", "Студент", "Группа", "Баллы", "Состояние")
-_POINTS_COLUMN, _STATE_COLUMN = 4, 5  # points stand in the others behind them as well
-_WIDTHS = (3.2, 20.0, 7.0, 5.0, 11.0)  # in digits of the default font, for letters of _SIZE_PT
-_TABLE = 4.2  # width of a table's points
-_SIZE_PT, _PAGE = 5.6, 142.0  # size of the letters, width of a page
-_HEAD_PT, _PAGE_PT = 56.0, 538.0  # heights: of the titles, of a page without margins
-_LEAST_PT, _MOST_PT = 6.8, 13.0  # height of a row
-_LARGE = 42  # students on one page; more take two, as many as these hold
 
 
 def add_printed(

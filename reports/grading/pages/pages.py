@@ -19,6 +19,10 @@ from reports.grading.pages.states import State, state_of_result
 from reports.shared.resources import templates_dir
 from reports.shared.russian import capital, fixed, short, written
 
+WIDTH, HEIGHT = 640, 200
+_LEFT, _RIGHT, _TOP, _BOTTOM = 80, 16, 26, 26
+Points = Sequence[float | None]
+
 
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
@@ -155,11 +159,6 @@ def rows(labels: list[str], limit: int = 14) -> str:
 
 
 # --- curves --------------------------------------------------------------------------------------
-
-WIDTH, HEIGHT = 640, 200
-_LEFT, _RIGHT, _TOP, _BOTTOM = 80, 16, 26, 26
-
-Points = Sequence[float | None]
 
 
 def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tuple[str, str]) -> str:

@@ -25,6 +25,8 @@ from reports.workbook.layout import (
     Layout,
 )
 
+_SEARCH_ROWS = 2000
+
 
 def stretches(rows: Iterable[int]) -> list[tuple[int, int]]:
     """First and last of the rows that follow each other without a gap."""
@@ -45,9 +47,6 @@ def range_text(first: int, last: int, column: int) -> str:
 def address(row: int, column: int) -> str:
     """Cell address for messages."""
     return Cell("", row, column).coordinate
-
-
-_SEARCH_ROWS = 2000
 
 
 @dataclass(frozen=True, slots=True)

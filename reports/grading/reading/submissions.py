@@ -33,6 +33,11 @@ _MOODLE = re.compile(r"(?P<name>[^/]+?)_(?P<id>\d+)_assignsubmission_file(?:_|/|
 
 MOODLE, ZIP, FILE_TIME = "moodle", "zip", "file"
 CLOCKS = {MOODLE: "часы Moodle", ZIP: "время в архиве", FILE_TIME: "время файла"}
+_NOBODYS = "нет идентификатора, имя файла не указывает на студента"
+# What Moodle calls those whose names it hides from the grader.
+_NAMELESS = re.compile(r"(участник|participant)[ _]?\d*", re.IGNORECASE)
+Spelling = Callable[[str], set[str]]
+_SURE = 4  # letters of a surname's skeleton that is no word by chance
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,10 +213,6 @@ def _moodle(key: str) -> dict[str, str]:
 
 # --- owners --------------------------------------------------------------------------------------
 
-_NOBODYS = "нет идентификатора, имя файла не указывает на студента"
-# What Moodle calls those whose names it hides from the grader.
-_NAMELESS = re.compile(r"(участник|participant)[ _]?\d*", re.IGNORECASE)
-
 
 @dataclass(frozen=True, slots=True)
 class Match:
@@ -363,10 +364,6 @@ def _named(register: Register, text: str) -> list[Issued]:
             if hits:
                 return hits
     return []
-
-
-Spelling = Callable[[str], set[str]]
-_SURE = 4  # letters of a surname's skeleton that is no word by chance
 
 
 def _names(book: Issued, of: Spelling) -> set[str]:

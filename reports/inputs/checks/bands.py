@@ -18,6 +18,16 @@ TABLE_4 = "таблица 4 учебника с запасом"
 PIN_DIAMETERS = ("pin_diameter_mm", "pin_diameters_mm")
 PIN_LENGTHS = ("pin_length_mm", "pin_lengths_mm")
 MAIN_DIAMETERS = ("main_diameter_mm", "main_diameters_mm")
+LARGE_BORE_MM = 250.0
+# A point of the diagram stands out from both its neighbours by these factors: from near
+# ones and from those further than so many degrees.
+LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0
+# Combustion at a constant pressure; what is usual of spark ignition stays below.
+_DIESEL_RHO = 1.2
+_WORDS = {
+    "diesel": ("дизел", "diesel"),
+    "petrol": ("бензин", "искров", "карбюратор", "petrol", "gasoline"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +227,6 @@ SMALL_END = Band(
 )
 ROD_INERTIA = Band("masses.rod_inertia_kg_m2", "", "I_ш/(m_ш·l²)", 0.05, 0.45)
 LARGE_SIZES = Band("geometry", "", "S/D", *engine.STROKE_TO_BORE)  # crosshead engines
-LARGE_BORE_MM = 250.0
 SPEED = Band(
     "regime.speed_rpm", "", "средняя скорость поршня Sn/30", *engine.MEAN_SPEED, unit="м/с"
 )
@@ -239,22 +248,11 @@ TRACE_EXPANSION = Band("gas.points", "", "показатель расширен�
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
 THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)
 DAMPING = Band("torsion.damping_nms_rad", "", "b/(F_п r²)", 12, 118, unit="кН·с/м³")
-# A point of the diagram stands out from both its neighbours by these factors: from near
-# ones and from those further than so many degrees.
-LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0
 
 
 def band_of(key: str) -> Band:
     """First band of a key."""
     return next(band for band in BANDS if band.key == key)
-
-
-# Combustion at a constant pressure; what is usual of spark ignition stays below.
-_DIESEL_RHO = 1.2
-_WORDS = {
-    "diesel": ("дизел", "diesel"),
-    "petrol": ("бензин", "искров", "карбюратор", "petrol", "gasoline"),
-}
 
 
 def stated_kind(model: InputFile) -> str:

@@ -20,6 +20,9 @@ from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
 from reports.inputs.units import number_text, span_text
 
 _WORDS = {"pin": "шатунного", "main": "коренного"}
+_TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
+_SHAFTS = (("bearings", "в расчёте подшипников"), ("torsion", "в крутильной схеме"))
+_Entry = tuple[Path, float]
 
 
 def check_bearings(values: ValidValues) -> Iterator[Finding]:
@@ -72,10 +75,6 @@ def _widths(
 def _rods(values: ValidValues) -> int:
     places = arrangement_given(values)
     return rods_beside(places, 0) if places else 1
-
-
-_TERM = re.compile(r"(?:(?P<times>[\d.]+)\*)?(?P<key>=?[a-z0-9_.]+)(?:\^(?P<power>[\d.]+))?")
-_SHAFTS = (("bearings", "в расчёте подшипников"), ("torsion", "в крутильной схеме"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,9 +265,6 @@ def _told(pair: Pair, values: ValidValues) -> Iterator[Finding]:
             path = (less if blamed == "less" else more)[0]
             yield Finding(path, what, pair.hint.format(**said), warning=pair.warning)
             return
-
-
-_Entry = tuple[Path, float]
 
 
 def _side(values: ValidValues, side: str) -> tuple[bool, list[_Entry]]:

@@ -23,6 +23,8 @@ from reports.inputs.sections.report import MOST_LAMBDAS
 from reports.inputs.units import is_within, number_text, span_text
 
 _DESIGN = ("stroke_bore", "size_step_mm", "rounding")
+LENGTH_TOLERANCE = 1e-3
+Check = Callable[[ValidValues], Iterator[Finding]]
 
 
 def check_cycle(values: ValidValues) -> Iterator[Finding]:
@@ -114,9 +116,6 @@ def check_reference(values: ValidValues) -> Iterator[Finding]:
         yield Finding(("reference", "lambdas"), what, "исправьте список")
 
 
-LENGTH_TOLERANCE = 1e-3
-
-
 def _geometry(values: ValidValues) -> Iterator[Finding]:
     keys = ("crank_radius_mm", "stroke_mm", "rod_length_mm", "lambda")
     if not values.sure("geometry", *keys):
@@ -169,7 +168,6 @@ def _arms(values: ValidValues) -> Iterator[Finding]:
             yield Finding(("crankshaft", "arms", index), what, hint)
 
 
-Check = Callable[[ValidValues], Iterator[Finding]]
 CHECKS: tuple[Check, ...] = (
     _geometry, *(partial(check_pair, pair) for pair in PAIRS), check_layout, _arms, check_masses,
     check_gas, check_cycle, check_torsion, check_bearings, check_reference, check_accepted,

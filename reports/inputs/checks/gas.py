@@ -25,6 +25,13 @@ from reports.inputs.units import MPA, is_within, number_text
 if TYPE_CHECKING:
     from kshm.arrays import Array
 
+PRESSURE_TOLERANCE_MPA = 1e-6
+# Angles from the TDC of combustion [deg]: valves are closed and nothing burns there.
+COMPRESSION, EXPANSION = (-90.0, -40.0), (50.0, 90.0)
+INTAKE = (-330.0, -210.0)
+FARTHEST_PEAK_DEG = 45.0
+_GAUGE, _LATE = 1.15, 1.4  # exponents of expansion that speak for the pressure and for the angle
+
 
 def volume_ratio(angle_deg: float, lam: float, ratio: float) -> float:
     """V/V_c at a crank angle of a central mechanism with this λ and compression ratio."""
@@ -131,9 +138,6 @@ def _start(values: ValidValues) -> float | None:
 def _place(values: ValidValues, key: str, usual: float) -> float:
     angle = values.get("gas", key)
     return usual if angle is None else float(angle)
-
-
-PRESSURE_TOLERANCE_MPA = 1e-6
 
 
 def check_gas(values: ValidValues) -> Iterator[Finding]:
@@ -281,13 +285,6 @@ def _two_stroke(values: ValidValues) -> Iterator[Finding]:
     if closes is not None and closes + (scavenge or 0.0) <= 0:
         what = "продувка и выпуск кончаются там же, где начинаются"
         yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, "увеличьте угол")
-
-
-# Angles from the TDC of combustion [deg]: valves are closed and nothing burns there.
-COMPRESSION, EXPANSION = (-90.0, -40.0), (50.0, 90.0)
-INTAKE = (-330.0, -210.0)
-FARTHEST_PEAK_DEG = 45.0
-_GAUGE, _LATE = 1.15, 1.4  # exponents of expansion that speak for the pressure and for the angle
 
 
 @dataclass(frozen=True, slots=True)

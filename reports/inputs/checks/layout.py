@@ -17,6 +17,14 @@ from reports.inputs.units import number_text
 
 ANGLE_TOLERANCE_DEG = 0.01
 USUAL_OFFSET = 0.25  # k = e/r; the book names 0.05…0.20
+# Fillets and rounded sizes of real shafts make main journals up to 13 % longer than the arms
+# leave; a crankpin stands between two webs.
+_MOST_OVER, _MOST_OVER_PIN = 1.25, 1.02
+# A pin's length that is told of one rod: the arms leave the rest of the rods their room, and
+# what a rod would have of it over the diameter is less than a shaft has.
+_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, 0.35
+_SAME_AXIS = 1e-6  # [rad]
+Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
 
 
 def check_layout(values: ValidValues) -> Iterator[Finding]:
@@ -246,16 +254,6 @@ def _articulated(values: ValidValues) -> Iterator[Finding]:
         )
         hint = "удлините шатун или поставьте палец ближе к углу развала"
         yield Finding(("articulated", "rod_length_mm"), what, hint)
-
-
-# Fillets and rounded sizes of real shafts make main journals up to 13 % longer than the arms
-# leave; a crankpin stands between two webs.
-_MOST_OVER, _MOST_OVER_PIN = 1.25, 1.02
-# A pin's length that is told of one rod: the arms leave the rest of the rods their room, and
-# what a rod would have of it over the diameter is less than a shaft has.
-_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, 0.35
-_SAME_AXIS = 1e-6  # [rad]
-Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
 
 
 def check_room(model: InputFile, accepted: Keys) -> Iterator[Finding]:

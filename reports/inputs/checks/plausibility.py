@@ -27,6 +27,8 @@ from reports.inputs.to_si.masses import Sizes
 from reports.inputs.units import is_within, number_text
 
 _MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
+# --- a key against its band ---
+Tested = tuple[Path, Band, float]
 
 
 def check_plausibility(
@@ -65,10 +67,6 @@ def check_plausibility(
             yield from _judged(path, band, value)
     for index in range(len(model.regimes)):
         yield from _lower_regime(model, sizes, index)
-
-
-# --- a key against its band ---
-Tested = tuple[Path, Band, float]
 
 
 def _of_the_bore(entries: list[Tested]) -> list[Tested]:

@@ -22,6 +22,9 @@ _EQUIVALENT = (
     "throws_nm_rad", "rear_nm_rad", "driven_nm_rad", "web_width_mm", "web_thickness_mm",
 )  # fmt: skip
 _RISING = "по возрастанию"
+_SPACING = 1.25  # of cylinders, in bores, from memory: the length that twists
+_PATH = ("torsion",)
+Entry = tuple[Path, float]
 
 
 def check_torsion(values: ValidValues) -> Iterator[Finding]:
@@ -86,11 +89,6 @@ def _peaks(values: ValidValues) -> Iterator[Finding]:
         if after.speed_rpm <= before.speed_rpm:
             what = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
             yield Finding(("torsion", "peaks", index, "speed_rpm"), what, f"запишите {_RISING}")
-
-
-_SPACING = 1.25  # of cylinders, in bores, from memory: the length that twists
-_PATH = ("torsion",)
-Entry = tuple[Path, float]
 
 
 def train_values(model: InputFile, sizes: Sizes) -> Iterator[tuple[Path, Band, float]]:

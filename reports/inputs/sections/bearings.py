@@ -10,6 +10,7 @@ from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
 
 MEMORY = "по памяти, без источника"
+_STRENGTH = "σв и σт — {} (по памяти), пределы выносливости — оценка 0,43σв и 0,25σв"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +44,6 @@ OILS = {
     "m8": OilGrade("М-8", 62.0, 6.8),
     "m10": OilGrade("М-10", 90.0, 9.1),
 }
-_STRENGTH = "σв и σт — {} (по памяти), пределы выносливости — оценка 0,43σв и 0,25σв"
 MATERIALS = {
     "40h2n2ma": Material("40Х2Н2МА", 1080.0, 930.0, 465.0, 270.0, 1.05,
                          _STRENGTH.format("ГОСТ 4543")),

@@ -57,6 +57,23 @@ BOOST_EXTRA = (
     "turbine_outlet_ratio",
     "exhaust_heat_kj_kg_k",
 )
+SOURCES = {
+    "polytropic": "по политропам",
+    "table": "по точкам диаграммы",
+    "cycle": "по расчёту цикла",
+    "rounded": "скруглённая действительная диаграмма",
+}
+# Angles of the cycle: combustion's dead centre of four strokes, bottom dead centres.
+FIRING_TDC_DEG, BDC_DEG, TWO_STROKE_BDC_DEG = 360.0, 540.0, 180.0
+INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без выбросов"}
+PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
+PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
+JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
+_SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, structural=True)
+_ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
+# The same in every diagram that has them, whatever the point z is called there.
+_P_Z = ("p_z", MPA, 0.2, 60)
+_RHO = (title_of("cyc_rho"), "ρ", NONE, 1, 6)
 
 
 def _limited(title: str, symbol: str, unit: InputUnit, field: str, default: object = ...) -> Any:  # noqa: ANN401
@@ -157,25 +174,6 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     idle_speed_rpm: float | None = number(
         title_of("reg_n_idle"), "n_х", RPM, 10, 60000, None, solver="omega_idle"
     )
-
-
-SOURCES = {
-    "polytropic": "по политропам",
-    "table": "по точкам диаграммы",
-    "cycle": "по расчёту цикла",
-    "rounded": "скруглённая действительная диаграмма",
-}
-# Angles of the cycle: combustion's dead centre of four strokes, bottom dead centres.
-FIRING_TDC_DEG, BDC_DEG, TWO_STROKE_BDC_DEG = 360.0, 540.0, 180.0
-INTERPOLATIONS = {"linear": "прямыми", "monotone": "гладко, без выбросов"}
-PEAK_SHARE = {"petrol": 0.85, "diesel": 1.0}
-PEAK_DEG = {"petrol": 12.0, "diesel": 10.0}
-JOIN_DEG = {"petrol": 40.0, "diesel": 45.0}
-_SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, structural=True)
-_ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
-# The same in every diagram that has them, whatever the point z is called there.
-_P_Z = ("p_z", MPA, 0.2, 60)
-_RHO = (title_of("cyc_rho"), "ρ", NONE, 1, 6)
 
 
 class _Ambient(Strictly):

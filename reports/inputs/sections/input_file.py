@@ -41,6 +41,7 @@ METHODS = {
 }
 LAYOUTS = {"inline": "рядный", "v": "V-образный", "opposed": "оппозитный"}
 STROKES = {"4": "4", "2": "2"}
+_PROTOTYPE = "Прототип"
 
 
 class EngineSection(Strictly):
@@ -145,9 +146,6 @@ class RegimeSection(RegimeValues):
     """[[regimes]]: a further regime with gas data of its own in [regimes.gas]."""
 
     gas: Annotated[GasSection, Field(discriminator="source")]
-
-
-_PROTOTYPE = "Прототип"
 
 
 class PrototypeSection(Strictly):

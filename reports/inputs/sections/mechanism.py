@@ -34,6 +34,7 @@ ESTIMATE_EXTRA = (
     "estimate_throw_kg_per_m2",
     "estimate_pin_share",
 )
+_SHARES = {"counterweight_share", "first_shafts_share", "second_shafts_share"}
 
 
 class MassesSection(Strictly):
@@ -210,9 +211,6 @@ class CrankshaftSection(Strictly):
     )
     webs: Annotated[tuple[WebSection, ...], Strict(False)]
     arms: Annotated[tuple[ArmsSection, ...], Strict(False)]
-
-
-_SHARES = {"counterweight_share", "first_shafts_share", "second_shafts_share"}
 
 
 class BalanceSection(Strictly, usual=(Balancing,)):

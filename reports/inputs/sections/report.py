@@ -56,6 +56,43 @@ Format = Literal["xlsx", "pdf", "html", "docx", "sheet"]
 USUAL_FORMATS: tuple[Format, ...] = ("xlsx", "pdf")
 FILE_KEYS = ("style", "templates", "compare")  # what names files of the machine
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}
+DIAGRAMS = {
+    "pv": "индикаторная диаграмма свёрнутая",
+    "p_phi": "индикаторная диаграмма развёрнутая",
+    "forces": "удельные силы газов, инерции, суммарная",
+    "side": "силы N и S",
+    "crank": "силы K и T",
+    "torque": "суммарный крутящий момент со средним",
+    "pin_polar": "полярная диаграмма шатунной шейки",
+    "pin_load": "развёрнутая нагрузка на шатунную шейку",
+    "pin_wear": "диаграмма износа шатунной шейки",
+    "main_polar": "полярная диаграмма коренной шейки",
+    "main_load": "развёрнутая нагрузка на коренную шейку",
+    "main_wear": "диаграмма износа коренной шейки",
+    "shaft": "схема вала, звезда колен, порядок работы",
+    "balance": "схема уравновешивания",
+    "running": "таблица набегающих моментов",
+    "results": "основные результаты",
+    "throw": "колено вала с размерами",
+    "mechanism": "механизм с размерами",
+}
+Diagram = Literal[
+    "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
+    "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
+    "throw", "mechanism",
+]  # fmt: skip
+USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
+         "main_wear", "shaft", "balance", "running", "results", "throw", "main_polar")  # fmt: skip
+SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
+WAYS = {"landscape": "альбомная", "portrait": "книжная"}
+SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}
+MOST_LAMBDAS = 12
+BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
+# Checks of the calculation, besides the keys of the file that `check` warns of.
+CHECKS = (
+    "closure", "work", "grid", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
+    "power", "share",
+)  # fmt: skip
 
 
 def _this_year() -> int:
@@ -91,37 +128,6 @@ class ReportSection(Strictly):
     books: tuple[str, ...] | None = text("Своя книга {n}", None)
 
 
-DIAGRAMS = {
-    "pv": "индикаторная диаграмма свёрнутая",
-    "p_phi": "индикаторная диаграмма развёрнутая",
-    "forces": "удельные силы газов, инерции, суммарная",
-    "side": "силы N и S",
-    "crank": "силы K и T",
-    "torque": "суммарный крутящий момент со средним",
-    "pin_polar": "полярная диаграмма шатунной шейки",
-    "pin_load": "развёрнутая нагрузка на шатунную шейку",
-    "pin_wear": "диаграмма износа шатунной шейки",
-    "main_polar": "полярная диаграмма коренной шейки",
-    "main_load": "развёрнутая нагрузка на коренную шейку",
-    "main_wear": "диаграмма износа коренной шейки",
-    "shaft": "схема вала, звезда колен, порядок работы",
-    "balance": "схема уравновешивания",
-    "running": "таблица набегающих моментов",
-    "results": "основные результаты",
-    "throw": "колено вала с размерами",
-    "mechanism": "механизм с размерами",
-}
-Diagram = Literal[
-    "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
-    "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
-    "throw", "mechanism",
-]  # fmt: skip
-USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
-         "main_wear", "shaft", "balance", "running", "results", "throw", "main_polar")  # fmt: skip
-SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
-WAYS = {"landscape": "альбомная", "portrait": "книжная"}
-
-
 class SheetSection(Strictly):
     """[sheet]: size of the sheet and what stands on it."""
 
@@ -130,19 +136,12 @@ class SheetSection(Strictly):
     diagrams: tuple[Diagram, ...] | None = choice("Лист: место {n}", DIAGRAMS, None)
 
 
-SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}
-
-
 class WorkbookSection(Strictly):
     """[workbook]: which sheets the Excel workbook has."""
 
     sheets: Literal["course", "full"] = choice(
         "Листы книги Excel", SHEET_SETS, "course", structural=True
     )
-
-
-MOST_LAMBDAS = 12
-BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
 
 
 class ReferenceSection(Strictly):
@@ -154,13 +153,6 @@ class ReferenceSection(Strictly):
     angle_deg: float = number(
         "Угол кривошипа на схемах рисунков 5 и 9", "φ", DEG, 5, 175, 50.0, solver="reference_angle"
     )
-
-
-# Checks of the calculation, besides the keys of the file that `check` warns of.
-CHECKS = (
-    "closure", "work", "grid", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
-    "power", "share",
-)  # fmt: skip
 
 
 class AcceptedEntry(Strictly):

@@ -10,6 +10,13 @@ from kshm.engine.strength import PartStrength
 from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 
+KINDS = {"petrol": "с искровым зажиганием", "diesel": "дизель"}
+PISTONS = {"aluminium": "алюминиевый сплав", "iron": "чугун"}
+CROWNS = {"full": "p(r/δ)²", "quarter": "0,25p(d/δ)²"}
+PINS = {"minus": "Pz − k|Pj|", "plus": "Pz + kPj со знаком"}
+OVALS = {"curved": "(1 + 2α)/α внутри", "program": "(2 + α)/α внутри"}
+BOLTS = {"each": "на каждый болт", "all": "на все болты вместе"}
+
 
 @dataclass(frozen=True, slots=True)
 class PartMaterial:
@@ -33,12 +40,6 @@ PART_MATERIALS = {
     "18h2n4va": PartMaterial("18Х2Н4ВА", 1100.0, 850.0, 540.0, 380.0, 2.2e5, 1.0e-5),
 }
 PART_NAMES = {key: material.label for key, material in PART_MATERIALS.items()}
-KINDS = {"petrol": "с искровым зажиганием", "diesel": "дизель"}
-PISTONS = {"aluminium": "алюминиевый сплав", "iron": "чугун"}
-CROWNS = {"full": "p(r/δ)²", "quarter": "0,25p(d/δ)²"}
-PINS = {"minus": "Pz − k|Pj|", "plus": "Pz + kPj со знаком"}
-OVALS = {"curved": "(1 + 2α)/α внутри", "program": "(2 + α)/α внутри"}
-BOLTS = {"each": "на каждый болт", "all": "на все болты вместе"}
 
 
 def _size(key: str, symbol: str) -> float | None:

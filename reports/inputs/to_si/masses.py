@@ -21,6 +21,8 @@ from reports.inputs.sections.mechanism import CrankshaftSection, MassesSection
 from reports.inputs.units import KG, KG_M2, MM
 
 _SIMILAR_MM = 150.0  # masses over the piston area grow with the bore of larger engines
+PIN_SHARE = Estimate(fuel="diesel").pin_share
+ROD_SHARE = SMALL_END_SHARE  # as in section 2.9
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,10 +73,6 @@ def rod_length_mm(geometry: GeometrySection) -> float:
     if geometry.lambda_ is None:
         raise ValueError("geometry does not fix the rod length")
     return crank_radius_mm(geometry) / geometry.lambda_
-
-
-PIN_SHARE = Estimate(fuel="diesel").pin_share
-ROD_SHARE = SMALL_END_SHARE  # as in section 2.9
 
 
 def to_masses(given: MassesSection, geometry: Geometry) -> Masses:

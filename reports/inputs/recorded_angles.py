@@ -58,7 +58,7 @@ def angles_fault(
         if counted and part[0] in (0, 1):
             what = f"углы идут {span} через 1: это номера отсчётов или один оборот"
             return what, f"нужны градусы за цикл {number_text(period)}°"
-        unit = next(_units(whole, period, speed_rpm), "")
+        unit = next(_units(whole, step, period, speed_rpm), "")
         if not unit and whole < 10 and speed_rpm and 0.5 < whole * 6 * speed_rpm / period < 100:
             unit = "секунды"
         if unit:
@@ -72,7 +72,7 @@ def angles_fault(
         return None
     if counted:
         return f"углы идут {span} через 1: похоже на номера отсчётов", _MENDS["номера отсчётов"]
-    unit = next(_units(whole, period, speed_rpm), "")
+    unit = next(_units(whole, step, period, speed_rpm), "")
     if unit:
         return f"углы идут {span}: похоже на {unit}", _MENDS.get(unit, _TIME_MEND)
     what = f"углы идут {span}, но давления не повторяются через {number_text(period)}°"
@@ -94,15 +94,18 @@ def _turns(angles: Array, period: float) -> Fault | None:
     return what, "цикл занимает 720°: прибавляйте к каждому обороту на 360° больше"
 
 
-def _units(whole: float, period: float, speed_rpm: float | None) -> Iterator[str]:
-    """Units in which numbers may span whole cycles."""
+def _units(whole: float, step: float, period: float, speed_rpm: float | None) -> Iterator[str]:
+    """Units in which numbers may span whole cycles, with points close enough for a diagram."""
+    widest = WIDEST_GAP_DEG / period  # of a cycle
     for unit, turn, most in (("радианы", math.tau, 8), ("обороты", 1.0, 20)):
-        if _is_whole(whole / (turn * period / 360), most, 0.01):
+        cycle = turn * period / 360
+        if _is_whole(whole / cycle, most, 0.01) and step <= widest * cycle:
             yield unit
     if speed_rpm:
         cycle_s = period / (6 * speed_rpm)
         for unit, factor in _TIMES.items():
-            if _is_whole(whole / (cycle_s * factor), 100, 0.02):
+            cycle = cycle_s * factor
+            if _is_whole(whole / cycle, 100, 0.02) and step <= widest * cycle:
                 yield unit
 
 
@@ -121,6 +124,8 @@ def _are_alike(angles: Array, pressures: Array, period: float) -> bool:
         if here.sum() < 10:
             continue
         there = np.interp(angles[here] - number * period, known, p)
+        if not np.ptp(there) and not np.ptp(pressures[here]):
+            continue
         with np.errstate(invalid="ignore", divide="ignore"):
             if not np.corrcoef(there, pressures[here])[0, 1] >= _LEAST_ALIKE:
                 return False

@@ -90,7 +90,7 @@ def test_files_that_one_person_saved_last():
 
 
 def test_foreign_identifiers_are_told():
-    (text,) = signals([result(1, manual=["идентификатор выдан: Петров"])])
+    (text,) = signals([result(1, identity=["идентификатор выдан: Петров"])])
     assert text == "Студент 1 (1.xlsx): идентификатор выдан: Петров"
 
 

@@ -35,7 +35,7 @@ def teacher(browser: Any, served: Served) -> Any:
 
 def stored(served: Served) -> Path:
     """The class as it lies on the server's disk: its register is the test's key to the answers."""
-    (found,) = (served.data / "classes").iterdir()
+    (found,) = (path for path in (served.data / "classes").iterdir() if path.is_dir())
     return found
 
 

@@ -369,11 +369,11 @@ def _outcomes(tree: ast.expr) -> Iterator[ast.expr]:
 
 
 def _is_pick(tree: ast.expr) -> bool:
-    """Whether a formula is the sum of products of two names each: a mark and what it picks."""
+    """Whether a formula sums products: a mark and what it picks, or a share of what is picked."""
     match tree:
         case ast.Call(func=ast.Name(id="total"), args=terms):
             return all(map(_is_pick, terms))
-        case ast.BinOp(left=ast.Name(), op=ast.Mult(), right=ast.Name()):
+        case ast.BinOp(left=ast.Name() | ast.Constant(), op=ast.Mult(), right=ast.Name()):
             return True
     return False
 

@@ -33,7 +33,10 @@ TORSION: Points = ((1.0, 0.208), (1.5, 0.231), (1.75, 0.239), (2.0, 0.246), (2.5
 
 
 def between(x: float | Array, points: Points) -> Array:
-    """Values on the straight lines between points, the ends' beyond them."""
+    """Value of a table at ``x`` [unit of its points], shape of ``x``; by linear interpolation.
+
+    Beyond the ends it is that of the end.
+    """
     known, values = np.array(points).T
     return np.asarray(np.interp(x, known, values))
 

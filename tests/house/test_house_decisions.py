@@ -17,6 +17,7 @@ _READING = {
 }  # fmt: skip
 # Where people's files and letters are read, and what is grammar or notation and no judgement.
 READERS = {
+    "reports/grading/batch/awards.py": "words of a decision as typed",
     "reports/grading/issuing/roster.py": "a list of students",
     "reports/grading/pages/moodle.py": "a file of Moodle",
     "reports/inputs/toml_errors.py": "words typed into a file",

@@ -89,7 +89,7 @@ def test_words_stand_where_symbols_cannot():
     about = rows()
     assert WORDS.keys() <= about.keys()
     assert {key for key, each in about.items() if not each.symbol} == {
-        "tor_fresh", "oil_fresh", "W_fresh",
+        "tor_fresh", "oil_fresh", "W_fresh", "st_over",
     }  # fmt: skip
     told = {"check_value", "oil_open", "governs", "verdict"}
     assert told <= {key for key in WORDS if not about[key].tex}

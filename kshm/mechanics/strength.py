@@ -33,7 +33,7 @@ TORSION: Points = ((1.0, 0.208), (1.5, 0.231), (1.75, 0.239), (2.0, 0.246), (2.5
 
 
 def between(x: float | Array, points: Points) -> Array:
-    """Value of a table at ``x`` [unit of its points], shape of ``x``; by linear interpolation.
+    """Value of a table at ``x`` [unit of its points], shape of ``x``; lines by definition.
 
     Beyond the ends it is that of the end.
     """

@@ -106,11 +106,11 @@ def inertia_results(case: Case) -> Results:
         "omega_min": float(omega.min()),
         "delta_speed": float(np.ptp(omega) / omega[:-1].mean()),
     }
-    steps = {}
+    steps, torque = {}, float(raw.torque_sum[case.index][:-1].mean())
     if engine.step_deg > FINE_STEP:
         steps["inertia_steps"] = {
             "W_step_deg": np.radians([FINE_STEP, engine.step_deg]),
-            "W_step_J": np.array([scalars["W_fine"], scalars["W_range"]]),
+            "W_step_share": np.array([scalars["W_fine"], scalars["W_range"]]) / torque,
         }
     return {"inertia": table} | steps, scalars | _rod_model(engine)
 

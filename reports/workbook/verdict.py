@@ -244,7 +244,7 @@ def _of_list(sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter
     bad = ODD if block.held is Held.USUAL else NO
     _counted(
         sheet, row, f"{block.title}: {_FAILED}", block.sheet,
-        f'={len(cells)}-COUNTIF({within},"{good}")', writer, count, bad=bad,
+        f'=COUNTIF({within},"<>{good}")', writer, count, bad=bad,
     )  # fmt: skip
     return bad if count else YES
 

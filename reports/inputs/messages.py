@@ -15,6 +15,8 @@ from reports.inputs.normalise import is_ambiguous
 from reports.inputs.registry import homes
 from reports.shared.errors import one_line
 
+_LIKE_DIGITS = str.maketrans("ОоOoЗзlI", "00003311")
+_PLAIN_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 _LOOK_ALIKE = str.maketrans("аеорсухкмтіАВЕКМНОРСТХУ", "aeopcyxkmtiABEKMHOPCTXY")
 
 
@@ -105,6 +107,9 @@ def _number_hint(value: object, *, in_book: bool) -> str:
         return f"неясно, {readings}; " + (
             "сделайте ячейку числом" if in_book else "пишите без кавычек"
         )
+    digits = value.strip().translate(_LIKE_DIGITS).replace(",", ".")
+    if digits != value.strip().replace(",", ".") and _PLAIN_NUMBER.fullmatch(digits):
+        return f"в числе буква вместо цифры; возможно, {digits}"
     number = re.match(r"\s*([-+]?\d+([.,]\d+)?)", value)
     if in_book or number is None:
         return "сделайте ячейку числом" if in_book else ""

@@ -39,33 +39,7 @@ SENSITIVITY, SIZE_FACTOR = 0.7, 0.75
 # Clearances of the bearings over the root of the diameter [mm over √mm], from memory.
 CLEARANCE_SHARES = {"min": 0.007, "max": 0.014}
 
-# Usual sizes of the parts, from memory of A. I. Kolchin and V. P. Demidov (2008): what a size is
-# measured by, its share for petrol engines and for diesels (least, greatest); the middle is taken.
-Span = tuple[float, float]
-PART_SHARES: dict[str, tuple[str, Span, Span]] = {
-    "crown": ("bore", (0.05, 0.10), (0.12, 0.20)),
-    "height": ("bore", (0.8, 1.3), (1.0, 1.7)),
-    "skirt": ("bore", (0.6, 0.8), (0.6, 1.1)),
-    "head_wall": ("bore", (0.05, 0.10), (0.05, 0.10)),
-    "land": ("bore", (0.03, 0.05), (0.04, 0.07)),
-    "bosses": ("bore", (0.3, 0.5), (0.3, 0.5)),
-    "ring_radial": ("bore", (0.040, 0.045), (0.040, 0.045)),
-    "ring_gap": ("ring_radial", (2.5, 4.0), (2.5, 4.0)),
-    "pin": ("bore", (0.22, 0.28), (0.30, 0.38)),
-    "pin_bore": ("pin", (0.65, 0.75), (0.50, 0.70)),
-    "pin_length": ("bore", (0.78, 0.88), (0.80, 0.90)),
-    "eye_length": ("bore", (0.33, 0.45), (0.33, 0.45)),
-    "eye_outer": ("pin", (1.25, 1.65), (1.3, 1.7)),
-    "bush_wall": ("pin", (0.055, 0.085), (0.055, 0.085)),
-    "shank_height": ("eye_outer", (0.60, 0.77), (0.60, 0.77)),
-    "shank_width": ("eye_length", (0.50, 0.60), (0.55, 0.75)),
-    "shank_web": ("bore", (0.030, 0.045), (0.040, 0.070)),
-    "shank_flange": ("bore", (0.030, 0.045), (0.040, 0.070)),
-    "bolt": ("bore", (0.12, 0.14), (0.13, 0.16)),
-    "bolts_apart": ("crankpin", (1.30, 1.75), (1.30, 1.75)),
-    "cap_length": ("crankpin", (0.45, 0.95), (0.45, 0.95)),
-    "shell": ("crankpin", (0.03, 0.05), (0.03, 0.05)),
-}
+# Parts, of which strength is calculated.
 PISTON_SHARE = 0.65  # of the reciprocating mass, without a source
 CAP_SHARE = 0.22  # of the rod's big end, without a source
 GROOVE_SHARE = 0.5  # of the piston group above the section of the oil ring's groove

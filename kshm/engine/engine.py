@@ -24,14 +24,15 @@ from kshm.engine.masses import DirectMasses, Masses
 from kshm.engine.strength import PartStrength
 from kshm.engine.torsion import Torsion
 from kshm.nomenclature.quantity import UNITS
+from kshm.ranges import RANGES
 
 Method = Literal["textbook", "exact"]
 _MOST_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
-STROKE_TO_BORE = (0.6, 4.5)  # up to crosshead engines
-MEAN_SPEED = (2.8, 26.0)  # of the piston [m/s]
-PEAK_PRESSURE = (1.2, 25.0)  # [MPa]
-USUAL_SMALL_END_SHARE = (0.2, 0.3)  # of the rod's mass on the piston pin, Gots 2.2
-_RECIPROCATING = (30.0, 2000.0)  # over the piston's area [kg/m²], from models to ships
+# Sizes beyond these are another unit's, of whatever engine.
+_STROKE_BORE = RANGES["stroke_bore"].doubtful["crosshead"]
+_PISTON_SPEED = RANGES["piston_speed"].doubtful[""]
+_PEAK_PRESSURE = RANGES["combustion.p_z"].doubtful[""]
+_RECIPROCATING = RANGES["reciprocating_mass"].doubtful["any"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,9 +303,9 @@ def implausible(engine: Engine) -> Iterator[str]:
     peak = max(gas.pressures) if isinstance(gas, TabulatedGas) else gas.p_max
     speed = size.stroke * engine.speed_rpm / 30
     tests = [
-        ("stroke over bore", "", size.stroke / size.bore, STROKE_TO_BORE, "millimetres"),
-        ("mean piston speed", " m/s", speed, MEAN_SPEED, "millimetres and min⁻¹"),
-        ("highest pressure", " MPa", peak / UNITS["MPa"].si, PEAK_PRESSURE, "MPa, absolute"),
+        ("stroke over bore", "", size.stroke / size.bore, _STROKE_BORE, "millimetres"),
+        ("mean piston speed", " m/s", speed, _PISTON_SPEED, "millimetres and min⁻¹"),
+        ("highest pressure", " MPa", peak / UNITS["MPa"].si, _PEAK_PRESSURE, "MPa, absolute"),
     ]
     if isinstance(engine.masses, DirectMasses):
         mass = engine.masses.reciprocating / size.piston_area

@@ -1,6 +1,6 @@
 """Inputs of the strength of piston, ring, pin, rod, bolts and webs; SI units.
 
-A size that is None is its usual share of another, `kshm.defaults.PART_SHARES`.
+A size that is None is its usual share of another, `kshm.ranges.PART_SHARES`.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm.defaults import PART_SHARES
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
+from kshm.ranges import PART_SHARES
 
 EngineKind = Literal["petrol", "diesel"]
 _ROUNDED = 6  # decimals of a usual share

@@ -19,26 +19,16 @@ from kshm.engine.arrangement import throws as throws_of
 from kshm.engine.crankshaft import Throw
 from kshm.engine.engine import Engine
 from kshm.engine.masses import DirectMasses, Estimate, Masses, Swinging, Weighing
+from kshm.ranges import (
+    MASSES_BORES,
+    MASSES_STROKE_BORE,
+    PISTON_MASSES,
+    ROD_MASSES,
+    THROW_MASSES,
+    Span,
+)
 
 GRAVITY = 9.81  # m/s², as the textbook takes it
-Range = tuple[float, float]
-# Table 4 [kg/m²].  The row of the rod has lost its numbers in the text at hand: 100…200 and
-# 250…400 are those of Kolchin and Demidov, whose table the other rows repeat.
-PISTON: dict[tuple[str, str], Range] = {
-    ("aluminium", "petrol"): (80.0, 100.0),
-    ("aluminium", "diesel"): (150.0, 300.0),
-    ("iron", "petrol"): (150.0, 200.0),
-    ("iron", "diesel"): (250.0, 400.0),
-}
-ROD: dict[str, Range] = {"petrol": (100.0, 200.0), "diesel": (250.0, 400.0)}
-THROW: dict[tuple[str, str], Range] = {
-    ("steel", "petrol"): (150.0, 200.0),
-    ("steel", "diesel"): (200.0, 400.0),
-    ("iron", "petrol"): (100.0, 200.0),
-    ("iron", "diesel"): (150.0, 300.0),
-}
-BORES: dict[str, Range] = {"petrol": (0.06, 0.1), "diesel": (0.08, 0.12)}
-STROKE_BORE: Range = (1.0, 1.2)  # «the smaller values for S/D ≤ 1»
 
 
 def two_mass_rod(rod: float, centre: float, length: float) -> tuple[float, float]:
@@ -139,19 +129,19 @@ def two_mass_inertia(mass: float, centre: float, length: float) -> float:
 def area_masses(estimate: Estimate, bore: float, stroke: float) -> AreaMasses:
     """Table 4 between its bounds [kg/m²]: pistons and throws by bore, rods by S/D."""
     fuel = estimate.fuel
-    size = _share(bore, BORES[fuel])
-    slender = _share(stroke / bore, STROKE_BORE)
+    size = _share(bore, MASSES_BORES[fuel])
+    slender = _share(stroke / bore, MASSES_STROKE_BORE)
     table = (
-        (estimate.piston_area_mass, PISTON[estimate.piston_material, fuel], size),
-        (estimate.rod_area_mass, ROD[fuel], slender),
-        (estimate.throw_area_mass, THROW[estimate.shaft, fuel], size),
+        (estimate.piston_area_mass, PISTON_MASSES[estimate.piston_material, fuel], size),
+        (estimate.rod_area_mass, ROD_MASSES[fuel], slender),
+        (estimate.throw_area_mass, THROW_MASSES[estimate.shaft, fuel], size),
     )
     return AreaMasses(
         *(low + (high - low) * at if own is None else own for own, (low, high), at in table)
     )
 
 
-def _share(value: float, bounds: Range) -> float:
+def _share(value: float, bounds: Span) -> float:
     low, high = bounds
     return min(1.0, max(0.0, (value - low) / (high - low)))
 

@@ -1,7 +1,7 @@
 """What an engine's main data are held against: usual values, with what follows, and a prototype.
 
-Comments of `new`, the note's chapter on the data and its conclusion take them from here.  A
-range comes from the textbook where ``place`` names its section; the others are accepted.
+Comments of `new`, the note's chapter on the data and its conclusion take them from here; the
+spans stand in `kshm.ranges`.
 """
 
 from __future__ import annotations
@@ -10,18 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from kshm.cycle.inputs import RANGES
-from kshm.engine.engine import USUAL_SMALL_END_SHARE as SHARE
-from kshm.mechanics.masses import BORES, PISTON, ROD, THROW
+from kshm.ranges import MASSES_BORES, RANGES, Ranges, Span
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import short
 
-Span = tuple[float, float]
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
 FILM_REQUIRED = "bearings_reserve_allowed*oil_hcr_um"  # least film that carries [µm]
 RODS = "rods_on_pin"  # a number beside the model's nodes
-_LEAST_BORE_MM = 1000 * BORES["petrol"][0]  # of table 4
+_LEAST_BORE_MM = 1000 * MASSES_BORES["petrol"][0]  # of table 4
 _SIMILAR = (
     f"таблица 4 пособия составлена для диаметров от {short(_LEAST_BORE_MM)} мм, у подобных "
     "двигателей удельная масса пропорциональна диаметру"
@@ -49,11 +46,9 @@ class Reason:
         title: Russian title.
         tex: symbol.
         value: formulas, the first whose nodes the model has is taken.
-        petrol: usual span of spark-ignition engines.
-        diesel: usual span of diesels.
+        ranges: its usual range.
         unit: unit of the span.
         digits: decimals in print.
-        place: section of the textbook that prints the span; empty where it is accepted.
         above: what follows above the span.
         below: what follows below it.
         by_size: the span grows with the bore as that of table 4.
@@ -65,16 +60,19 @@ class Reason:
     title: str
     tex: str
     value: tuple[str, ...]
-    petrol: Span
-    diesel: Span
+    ranges: Ranges
     unit: str
     digits: int
-    place: str
     above: str
     below: str
     by_size: bool = False
     one_rod: bool = False
     required: tuple[str, ...] = ()
+
+    @property
+    def place(self) -> str:
+        """Section of the textbook that prints the span; empty where it is accepted."""
+        return self.ranges.source.replace("Gots table", "табл.").replace("Gots", "п.")
 
     def below_at(self, bore_mm: float) -> str:
         """What follows below the span; a bore below those of the table is light by similarity."""
@@ -83,9 +81,7 @@ class Reason:
 
     def span(self, kind: str, heavier: float = 1.0) -> Span:
         """Usual span of a kind of engine; of an unknown one that of both."""
-        spans = {"petrol": self.petrol, "diesel": self.diesel}
-        both = min(self.petrol[0], self.diesel[0]), max(self.petrol[1], self.diesel[1])
-        low, high = spans.get(kind, both)
+        low, high = self.ranges.of(kind)
         return (low * heavier, high * heavier) if self.by_size else (low, high)
 
     def words(self, kind: str) -> str:
@@ -94,70 +90,61 @@ class Reason:
         return f"пределы {short(low)}…{short(high)}{f' {self.unit}' if self.unit else ''}"
 
 
-def _of_cycle(key: str) -> tuple[Span, Span]:
-    """Usual spans of a result of the cycle: of spark ignition, of all diesels."""
-    groups = RANGES[key]
-    diesels = groups["diesel_na"], groups["diesel_turbo"]
-    both = min(each.low for each in diesels), max(each.high for each in diesels)
-    return (groups["petrol"].low, groups["petrol"].high), both
-
-
 REASONS: tuple[Reason, ...] = (
     Reason("stroke_bore", "Отношение хода поршня к диаметру цилиндра", "S/D",
-           (f"1000*S_stroke/{_BORE}",), (0.7, 1.1), (0.9, 1.35), "", 2, "",
+           (f"1000*S_stroke/{_BORE}",), RANGES["stroke_bore"], "", 2,
            "растут скорость поршня и высота двигателя",
            "камера сгорания становится плоской, растут потери теплоты"),
     Reason("lam", "Отношение радиуса кривошипа к длине шатуна", r"\lambda",
-           ("lam",), (0.24, 0.31), (0.24, 0.31), "", 3, "п. 1.1",
+           ("lam",), RANGES["lam"], "", 3,
            "растут боковая сила и силы инерции второго порядка",
            "растут высота и масса двигателя"),
     Reason("piston_speed", "Средняя скорость поршня", "c_m",
-           ("c_m",), (9, 16), (5, 16), "м/с", 2, "п. 1.2",
+           ("c_m",), RANGES["piston_speed"], "м/с", 2,
            "растут силы инерции, тепловая напряжённость и износ",
            "двигатель тихоходный, масса на единицу мощности велика"),
     Reason("compression", "Степень сжатия", r"\varepsilon",
-           ("geometry_compression_ratio",), (6, 12), (14, 23), "", 1, "",
+           ("geometry_compression_ratio",), RANGES["compression_ratio"], "", 1,
            "растут давление сгорания и нагрузки на детали", "снижается экономичность"),
     Reason("peak", "Наибольшее давление цикла", "p_z",
-           ("cyc_p_z", "gas_max_pressure_mpa"), *_of_cycle("combustion.p_z"), "МПа", 2, "",
+           ("cyc_p_z", "gas_max_pressure_mpa"), RANGES["combustion.p_z"], "МПа", 2,
            "растут нагрузки на шатун, шейки и подшипники",
            "диаграмма соответствует малой нагрузке"),
     Reason("efficiency", "Механический КПД", r"\eta_{\mathrm{м}}",
-           ("cyc_eta_m", "regime_mechanical_efficiency"), *_of_cycle("effective.eta_m"), "", 2, "",
+           ("cyc_eta_m", "regime_mechanical_efficiency"), RANGES["effective.eta_m"], "", 2,
            "потери на трение приняты малыми", "потери на трение приняты большими"),
     Reason("piston_mass", "Удельная масса поршневой группы",
            r"m_{\mathrm{п}}/F_{\mathrm{п}}", ("masses_piston_group_kg/F_piston",),
-           PISTON["aluminium", "petrol"], PISTON["aluminium", "diesel"], "кг/м²", 1, "табл. 4",
+           RANGES["piston_mass"], "кг/м²", 1,
            _HEAVY, _LIGHT, by_size=True),
     Reason("rod_mass", "Удельная масса шатуна", r"m_{\mathrm{ш}}/F_{\mathrm{п}}",
-           ("masses_rod_kg/F_piston",), ROD["petrol"], ROD["diesel"], "кг/м²", 1, "табл. 4",
+           ("masses_rod_kg/F_piston",), RANGES["rod_mass"], "кг/м²", 1,
            _HEAVY, _LIGHT, by_size=True),
     Reason("throw_mass", "Удельная масса колена", r"m_{\mathrm{к}}/F_{\mathrm{п}}",
-           ("m_k/F_piston",), THROW["steel", "petrol"], THROW["steel", "diesel"], "кг/м²", 1,
-           "табл. 4",
+           ("m_k/F_piston",), RANGES["throw_mass"], "кг/м²", 1,
            "растёт центробежная сила, нужны тяжёлые противовесы",
            "колено легче обычного, его прочность следует проверить отдельно", by_size=True,
            one_rod=True),
     Reason("rod_share", "Доля массы шатуна у пальца", r"m_1/m_{\mathrm{ш}}",
-           ("m_1/masses_rod_kg",), SHARE, SHARE, "", 3, "п. 2.2",
+           ("m_1/masses_rod_kg",), RANGES["rod_share"], "", 3,
            "растут возвратно-поступательно движущиеся массы", "растут вращающиеся массы"),
     Reason("pin", "Отношение диаметра шатунной шейки к диаметру цилиндра", r"d_{\mathrm{ш.ш}}/D",
-           (f"crankshaft_pin_diameter_mm/{_BORE}",), (0.45, 0.7), (0.55, 0.8), "", 2, "", *_SHAFT),
+           (f"crankshaft_pin_diameter_mm/{_BORE}",), RANGES["pin"], "", 2, *_SHAFT),
     Reason("main", "Отношение диаметра коренной шейки к диаметру цилиндра", r"d_{\mathrm{к.ш}}/D",
-           (f"crankshaft_main_diameter_mm/{_BORE}",), (0.5, 0.85), (0.6, 0.95), "", 2, "", *_SHAFT),
+           (f"crankshaft_main_diameter_mm/{_BORE}",), RANGES["main"], "", 2, *_SHAFT),
     Reason("pin_length", "Отношение длины шейки под шатуном к её диаметру",
            r"l_{\mathrm{ш.ш}}/d_{\mathrm{ш.ш}}",
            (f"crankshaft_pin_length_mm/{RODS}/crankshaft_pin_diameter_mm",),
-           (0.35, 0.65), (0.4, 0.7), "", 2, "",
+           RANGES["pin_length"], "", 2,
            "растут длина вала и его прогиб", "растёт давление на подшипник, плёнка тоньше"),
     Reason("pin_pressure", "Среднее давление на шатунный подшипник", r"q_{\mathrm{ср}}",
-           ("q_pin_mean",), (4, 16), (4, 16), "МПа", 2, "",
+           ("q_pin_mean",), RANGES["pin_pressure"], "МПа", 2,
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("pin_peak", "Наибольшее давление на шатунный подшипник", r"q_{\max}",
-           ("q_pin_max",), (7, 30), (10, 50), "МПа", 2, "",
+           ("q_pin_max",), RANGES["pin_peak"], "МПа", 2,
            "нужен более прочный слой вкладыша или большая шейка", "подшипник нагружен слабо"),
     Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
-           ("value_oil_orbit*oil_hcr_um",), (1, 6), (1, 10), "мкм", 2, "",
+           ("value_oil_orbit*oil_hcr_um",), RANGES["film"], "мкм", 2,
            "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша",
            required=(FILM_REQUIRED,)),
 )  # fmt: skip

@@ -18,7 +18,8 @@ from typing import Any
 import tomlkit
 
 from kshm.engine.masses import Estimate
-from kshm.mechanics.masses import PISTON, ROD, THROW, area_masses
+from kshm.mechanics.masses import area_masses
+from kshm.ranges import PISTON_MASSES, ROD_MASSES, THROW_MASSES
 from reports.inputs.load import load_mapping
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.reasons import with_spans
@@ -238,9 +239,9 @@ def table_masses(
     piston, rod, throw = (
         f"таблица 4: {span_text(low, high)} кг/м², принято {value:.0f}{larger}"
         for (low, high), value in (
-            (PISTON["aluminium", kind], near.piston),
-            (ROD[kind], near.rod),
-            (THROW["steel", kind], near.throw),
+            (PISTON_MASSES["aluminium", kind], near.piston),
+            (ROD_MASSES[kind], near.rod),
+            (THROW_MASSES["steel", kind], near.throw),
         )
     )
     notes = {
@@ -253,11 +254,13 @@ def table_masses(
         f"{SHAFTS[layout, kind].counterweights:.0%}".replace("%", " %"),
     }
     masses = {
-        "piston_group_kg": _inside(near.piston * area, PISTON["aluminium", kind], near.piston),
-        "rod_kg": _inside(near.rod * area, ROD[kind], near.rod),
+        "piston_group_kg": _inside(
+            near.piston * area, PISTON_MASSES["aluminium", kind], near.piston
+        ),
+        "rod_kg": _inside(near.rod * area, ROD_MASSES[kind], near.rod),
         "rod_small_end_share": share,
     }
-    throw_span = THROW["steel", kind]
+    throw_span = THROW_MASSES["steel", kind]
     return masses, ThrowMasses(
         _inside(pin * area, throw_span, near.throw),
         _inside(web * area, throw_span, near.throw),

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from kshm.chain.solve import ChainArrays, solve_batch
-from kshm.defaults import PART_SHARES
 from kshm.engine.engine import Engine
 from kshm.nomenclature.quantity import quantity
+from kshm.ranges import PART_SHARES
 from kshm.results.case import Case
 from kshm.results.strength import strength_results
 from reports.inputs.sections.input_file import InputFile

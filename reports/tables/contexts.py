@@ -11,11 +11,16 @@ from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.defaults import FINE_STEP
-from kshm.engine.engine import USUAL_SMALL_END_SHARE
 from kshm.mechanics.journals import PLANES
-from kshm.mechanics.masses import BORES, PISTON, ROD, STROKE_BORE, THROW
-from reports.inputs.checks.bands import LAMBDA
-from reports.inputs.reasons import reason_of
+from kshm.ranges import (
+    MASSES_BORES,
+    MASSES_STROKE_BORE,
+    PISTON_MASSES,
+    RANGES,
+    ROD_MASSES,
+    THROW_MASSES,
+    hull,
+)
 from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
 from reports.inputs.solve_input import MOST_POWER_ERROR
@@ -34,15 +39,14 @@ from reports.tables.strength_members import strength_names
 from reports.tables.torsion_members import torsion_names
 
 Bounds = tuple[float, float]
-USUAL_SHARE = (
-    f"доля массы шатуна на поршневом пальце {'…'.join(map(number_text, USUAL_SMALL_END_SHARE))}"
-)
+_SHARE = RANGES["rod_share"].of()
+USUAL_SHARE = f"доля массы шатуна на поршневом пальце {'…'.join(map(number_text, _SHARE))}"
 _CANCELLED = 1e-6  # of a vector sum of unit vectors
 
 
 def is_usual_share(name: str) -> str:
     """Expression that tells whether the share of that name is usual, its ends included."""
-    low, high = USUAL_SMALL_END_SHARE
+    low, high = _SHARE
     return f"round({name}, 6) >= {low:g} and round({name}, 6) <= {high:g}"
 
 
@@ -117,8 +121,8 @@ def _summary(scope: Scope) -> dict[str, Any]:
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
         "power_gap": MOST_POWER_ERROR,
-        "lam_limits": LAMBDA.span,
-        "lam_usual": reason_of("lam").span(""),
+        "lam_limits": RANGES["lam"].doubtful[""],
+        "lam_usual": RANGES["lam"].of(),
         **_surfaces(scope),
     }
 
@@ -139,9 +143,13 @@ def _table_4(scope: Scope) -> dict[str, Any]:
     fuels = ("petrol", "diesel") if kind is None else (kind,)
     names: dict[str, Any] = {
         "usual": Table4(
-            _widest(PISTON[material, fuel] for material in ("aluminium", "iron") for fuel in fuels),
-            _widest(ROD[fuel] for fuel in fuels),
-            _widest(THROW[shaft, fuel] for shaft in ("steel", "iron") for fuel in fuels),
+            hull(
+                PISTON_MASSES[material, fuel]
+                for material in ("aluminium", "iron")
+                for fuel in fuels
+            ),
+            hull(ROD_MASSES[fuel] for fuel in fuels),
+            hull(THROW_MASSES[shaft, fuel] for shaft in ("steel", "iron") for fuel in fuels),
         ),
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
@@ -152,16 +160,13 @@ def _table_4(scope: Scope) -> dict[str, Any]:
         return names
     fuel, material, shaft = estimate.fuel, estimate.piston_material, estimate.shaft
     return names | {
-        "estimate": Table4(PISTON[material, fuel], ROD[fuel], THROW[shaft, fuel]),
-        "bores_mm": tuple(map(MM.from_si, BORES[fuel])),
-        "stroke_bore": STROKE_BORE,
+        "estimate": Table4(
+            PISTON_MASSES[material, fuel], ROD_MASSES[fuel], THROW_MASSES[shaft, fuel]
+        ),
+        "bores_mm": tuple(map(MM.from_si, MASSES_BORES[fuel])),
+        "stroke_bore": MASSES_STROKE_BORE,
         "pin_share": PIN_SHARE,
     }
-
-
-def _widest(bounds: Iterable[Bounds]) -> Bounds:
-    lows, highs = zip(*bounds, strict=True)
-    return min(lows), max(highs)
 
 
 def _cylinders(scope: Scope) -> dict[str, Any]:

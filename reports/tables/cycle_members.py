@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kshm.cycle.inputs import usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS
+from kshm.ranges import cycle_ranges
 from reports.inputs.sections.gas import CycleSection
 from reports.inputs.sections.input_file import DesignGeometrySection, InputFile
 
@@ -97,9 +97,8 @@ def ranges_of(section: CycleSection) -> Iterator[CycleRange]:
     """Usual ranges of a cycle of this kind."""
     titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
     titles |= {f"inputs.{q.key}": q for q in INPUTS}
-    for key, usual in usual_ranges(section.kind, boosted=is_boosted(section)).items():
+    for key, (low, high), source in cycle_ranges(section.kind, boosted=is_boosted(section)):
         about = titles[key]
         unit = f", {about.unit}" if about.unit else ""
         note = f"{about.title} {about.symbol.replace('_', '')}{unit}"
-        source = usual.reference or UNCHECKED
-        yield CycleRange(_RANGE_NAMES[key], usual.low, usual.high, note, source)
+        yield CycleRange(_RANGE_NAMES[key], low, high, note, source or UNCHECKED)

@@ -13,14 +13,13 @@ from kshm.defaults import (
     EYE_SHARE,
     GROOVE_SHARE,
     IRON_EXPANSION,
-    PART_SHARES,
     PISTON_SHARE,
     SIZES_C,
     TURN_SHARE,
-    Span,
 )
 from kshm.mechanics.strength import EYE_M0, EYE_N0, RING, TORSION, Points
 from kshm.nomenclature.quantity import quantity
+from kshm.ranges import PART_SHARES, RANGES
 from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
 from reports.shared.russian import short
@@ -33,26 +32,26 @@ _NAMES = {"pin": "dп", "ring_radial": "t", "eye_outer": "dг", "eye_length": "l
 _WALL, _PIN_WALL = "увеличить толщину стенки головки поршня", "увеличить толщину стенки пальца"
 _PIN_SIZES = "увеличить диаметр пальца или толщину его стенки"
 _GAP = "уменьшить разность зазоров замка"
-# Of pistons of aluminium, and of iron where those differ; from memory of Kolchin and Demidov.
-_USUAL: tuple[tuple[str, str, Span, Span | None, str], ...] = (
-    ("st_crown_MPa", "Напряжение в днище поршня", (20, 150), (40, 200), "увеличить толщину днища"),
-    ("st_press_MPa", "Напряжение сжатия поршня по канавке", (0, 40), (0, 80), _WALL),
-    ("st_pull_MPa", "Напряжение разрыва поршня по канавке", (0, 10), (0, 20), _WALL),
-    ("st_land_MPa", "Напряжение перемычки", (0, 40), (0, 80), "увеличить высоту перемычки"),
-    ("st_q1_MPa", "Давление юбки на цилиндр", (0, 1), None, "удлинить юбку"),
-    ("st_q2_MPa", "Давление поршня на цилиндр", (0, 0.7), None, "увеличить высоту поршня"),
-    ("st_ring_MPa", "Давление кольца на цилиндр", (0.1, 0.4), None, _GAP),
-    ("st_ring_work_MPa", "Напряжение кольца в работе", (200, 450), None, _GAP),
-    ("st_pin_eye_MPa", "Давление пальца на втулку", (15, 60), None,
+# Results held to a usual range, and what brings one back into it.
+_STRESSES: tuple[tuple[str, str, str], ...] = (
+    ("st_crown_MPa", "Напряжение в днище поршня", "увеличить толщину днища"),
+    ("st_press_MPa", "Напряжение сжатия поршня по канавке", _WALL),
+    ("st_pull_MPa", "Напряжение разрыва поршня по канавке", _WALL),
+    ("st_land_MPa", "Напряжение перемычки", "увеличить высоту перемычки"),
+    ("st_q1_MPa", "Давление юбки на цилиндр", "удлинить юбку"),
+    ("st_q2_MPa", "Давление поршня на цилиндр", "увеличить высоту поршня"),
+    ("st_ring_MPa", "Давление кольца на цилиндр", _GAP),
+    ("st_ring_work_MPa", "Напряжение кольца в работе", _GAP),
+    ("st_pin_eye_MPa", "Давление пальца на втулку",
      "удлинить втулку шатуна или увеличить диаметр пальца"),
-    ("st_pin_boss_MPa", "Давление пальца на бобышки", (10, 50), None,
+    ("st_pin_boss_MPa", "Давление пальца на бобышки",
      "удлинить палец или увеличить его диаметр"),
-    ("st_pin_bend_MPa", "Напряжение изгиба пальца", (80, 250), None, _PIN_SIZES),
-    ("st_pin_shear_MPa", "Напряжение среза пальца", (50, 250), None, _PIN_SIZES),
-    ("st_oval_mm", "Овализация пальца", (0, 0.05), None, _PIN_WALL),
-    ("st_oval_in0_MPa", "Напряжение овализации пальца", (-350, 350), None, _PIN_WALL),
-    ("st_bush_in_MPa", "Напряжение запрессовки втулки", (0, 150), None, "уменьшить натяг втулки"),
-    ("st_cap_MPa", "Напряжение крышки шатуна", (0, 300), None,
+    ("st_pin_bend_MPa", "Напряжение изгиба пальца", _PIN_SIZES),
+    ("st_pin_shear_MPa", "Напряжение среза пальца", _PIN_SIZES),
+    ("st_oval_mm", "Овализация пальца", _PIN_WALL),
+    ("st_oval_in0_MPa", "Напряжение овализации пальца", _PIN_WALL),
+    ("st_bush_in_MPa", "Напряжение запрессовки втулки", "уменьшить натяг втулки"),
+    ("st_cap_MPa", "Напряжение крышки шатуна",
      "увеличить длину нижней головки или расстояние между болтами"),
 )  # fmt: skip
 
@@ -148,8 +147,7 @@ class UsualStress:
 
 def usual_stresses(section: StrengthSection) -> tuple[UsualStress, ...]:
     """Usual ranges of the results for the materials of an engine."""
-    iron = section.piston_material == "iron"
     return tuple(
-        UsualStress(key, title, *(of_iron if iron and of_iron else span), mend)
-        for key, title, span, of_iron, mend in _USUAL
+        UsualStress(key, title, *RANGES[key].of(section.piston_material), mend)
+        for key, title, mend in _STRESSES
     )

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from kshm.cycle.cycle import cycle
-from kshm.cycle.inputs import RANGES, usual_ranges
 from kshm.nomenclature.dizdn_listing import EXTRA, INPUTS, OUTPUTS, value_of
+from kshm.ranges import cycle_ranges
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.cycle import cycle_run
 from reports.inputs.to_si.engine import engine_and_cycle
@@ -147,17 +147,12 @@ def test_speed_law_by_adaptability() -> None:
     assert derived[1].derived and derived[2].derived
 
 
-def test_every_range_says_where_it_comes_from():
-    for key, table in RANGES.items():
-        assert table, key
-        for usual in table.values():
-            assert usual.low <= usual.high
-            assert usual.source in ("memory", "web")
-            assert (usual.reference == "") == (usual.source == "memory")
+def paths_of(engine) -> list[str]:
+    return [path for path, *_ in cycle_ranges(engine.kind, boosted=engine.boost is not None)]
 
 
 def test_every_engine_has_its_ranges(engine):
-    ranges = usual_ranges(engine.kind, boosted=engine.boost is not None)
+    ranges = paths_of(engine)
     assert len(ranges) >= 12
     result = cycle(engine)
     assert all(isinstance(value_of(result, key), float | int) for key in ranges)
@@ -170,7 +165,7 @@ def test_units_are_those_of_the_listing(diesel):
 
 
 def test_boosted_petrol_is_not_measured_by_columns_of_the_natural_one(engines):
-    keys = usual_ranges(engines["turbo_petrol"].kind, boosted=True)
+    keys = paths_of(engines["turbo_petrol"])
     assert "compression.p_c" not in keys
     assert "expansion.n_2" in keys
 

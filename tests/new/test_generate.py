@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from kshm import solve
 from kshm.mechanics.balance import rod_places
-from kshm.mechanics.masses import THROW
+from kshm.ranges import THROW_MASSES
 from reports.cli import main
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text, load_toml
@@ -308,7 +308,7 @@ def test_an_engine_with_a_spark_is_not_said_to_burn_petrol():
 @pytest.mark.parametrize("kind", ["petrol", "diesel"])
 def test_masses_of_a_throw_are_within_the_table_they_are_taken_from(kind):
     """Four digits of the pin and of the webs made 200.003 kg/m² of 200."""
-    low, high = THROW["steel", kind]
+    low, high = THROW_MASSES["steel", kind]
     for tenths in range(500, 1500, 7):
         bore = tenths / 10
         shaft = table_masses("inline", kind, bore, bore)[1]

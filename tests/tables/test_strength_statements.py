@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from kshm.chain.solve import solve_batch
-from kshm.defaults import PART_SHARES
+from kshm.ranges import PART_SHARES
 from reports.exports.numbers import export_tables, json_text
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text

@@ -75,7 +75,7 @@ class Judged:
     @property
     def place(self) -> str:
         """Where the span is from; that of a large bore is no longer the printed one."""
-        span = self.reason.petrol[0], self.reason.diesel[0]
+        span = [low for low, _ in self.reason.ranges.usual.values()]
         grown = ", с ростом D" if self.reason.by_size and self.low not in span else ""
         return f"{self.reason.place}{grown}" or "принято"
 

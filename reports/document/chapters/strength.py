@@ -7,7 +7,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from kshm.defaults import PART_SHARES
+from kshm.ranges import PART_SHARES
 from reports.document.chapters.chapter import Chapter
 from reports.document.figures.parts import parts_sketch
 from reports.document.page.blocks import (

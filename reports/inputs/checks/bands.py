@@ -1,4 +1,4 @@
-"""Usual ranges of engine data, by the kind of engine that a file states.
+"""Doubtful values of engine data, by the kind of engine that a file states.
 
 No range spans a factor of ten: a value in it, ten times larger or smaller, is outside.
 What is known by heart and was not checked against a book says so in its source.
@@ -6,9 +6,10 @@ What is known by heart and was not checked against a book says so in its source.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from kshm.engine import engine
+from kshm.ranges import RANGES
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.units import span_text
 
@@ -19,6 +20,7 @@ PIN_DIAMETERS = ("pin_diameter_mm", "pin_diameters_mm")
 PIN_LENGTHS = ("pin_length_mm", "pin_lengths_mm")
 MAIN_DIAMETERS = ("main_diameter_mm", "main_diameters_mm")
 LARGE_BORE_MM = 250.0
+_AREA_MASS = {"source": TABLE_4, "unit": "кг/м²"}
 # A point of the diagram stands out from both its neighbours by these factors: from near
 # ones and from those further than so many degrees.
 LONE_POINT, LONE_POINT_FAR, NEAR_DEG = 2.5, 4.0, 30.0
@@ -67,6 +69,19 @@ class Band:
         return replace(self, low=self.low * times, high=self.high * times, source=source)
 
 
+def _doubtful(
+    quantity: str, key: str, base: str, words: str, kind: str = "", **more: str | bool
+) -> Band:
+    """Band of a quantity whose ranges the solver states; of all kinds, or of ``kind``."""
+    return Band(key, base, words, *RANGES[quantity].doubtful[kind], kind=kind, **more)  # type: ignore[arg-type]
+
+
+def _by_kind(quantity: str, key: str, base: str, words: str, **more: str | bool) -> Iterator[Band]:
+    """Bands of a quantity, one for each kind that has its own."""
+    for kind in RANGES[quantity].doubtful:
+        yield _doubtful(quantity, key, base, words, kind, **more)
+
+
 def _arm(key: str, words: str, low: float, high: float) -> Band:
     return Band(f"crankshaft.arms.{key}", "D", f"{words}/D", low, high, zero=True)
 
@@ -85,10 +100,11 @@ def _cycle(key: str, words: str, low: float, high: float, unit: str = "", kind: 
     return Band(f"cycle.{key}", "", words, low, high, unit=unit, kind=kind)
 
 
-DIESEL = Band("geometry.compression_ratio", "", "ε", 11.5, 26, kind="diesel")
+_RATIO = "compression_ratio", "geometry.compression_ratio", "", "ε"
+DIESEL = _doubtful(*_RATIO, "diesel")
 BANDS: tuple[Band, ...] = (
-    *(Band(f"crankshaft.{key}", "D", "d_шш/D", 0.3, 0.95) for key in PIN_DIAMETERS),
-    *(Band(f"crankshaft.{key}", "D", "d_кш/D", 0.3, 1.15) for key in MAIN_DIAMETERS),
+    *(_doubtful("pin", f"crankshaft.{key}", "D", "d_шш/D") for key in PIN_DIAMETERS),
+    *(_doubtful("main", f"crankshaft.{key}", "D", "d_кш/D") for key in MAIN_DIAMETERS),
     _arm("l1_mm", "l_1", 0.065, 0.64),
     _arm("l2_mm", "l_2", 0.065, 0.64),
     _arm("l3_mm", "l_3", 0.04, 0.39),
@@ -99,39 +115,39 @@ BANDS: tuple[Band, ...] = (
     _arm("right_web_mm", "h_П", 0.06, 0.59),
     Band("crankshaft.nose_arm_mm", "D", "l_p1/D", 0.25, 2.45, zero=True),
     Band("crankshaft.rear_arm_mm", "D", "l_p2/D", 0.25, 2.45, zero=True),
-    _mass("masses.piston_group_kg", "m_п", 64, 500, TABLE_4),
-    _mass("masses.piston_group_kg", "m_п", 64, 280, TABLE_4, kind="petrol"),
-    _mass("masses.piston_group_kg", "m_п", 110, 500, TABLE_4, kind="diesel"),
-    _mass("masses.rod_kg", "m_ш", 64, 500, TABLE_4),
-    _mass("masses.rod_kg", "m_ш", 64, 280, TABLE_4, kind="petrol"),
-    _mass("masses.rod_kg", "m_ш", 130, 500, TABLE_4, kind="diesel"),
-    _mass("masses.reciprocating_kg", "m_j", 80, 650, TABLE_4),
+    *_by_kind("piston_mass", "masses.piston_group_kg", "F", "m_п/F_п", **_AREA_MASS),
+    *_by_kind("rod_mass", "masses.rod_kg", "F", "m_ш/F_п", **_AREA_MASS),
+    *(
+        _doubtful("reciprocating_mass", key, "F", f"{symbol}/F_п", **_AREA_MASS)
+        for key, symbol in (
+            ("masses.reciprocating_kg", "m_j"),
+            ("articulated.reciprocating_kg", "m_jп"),
+        )
+    ),
     _mass("masses.rod_big_end_kg", "m_2", 46, 400, TABLE_4),
     _mass("crankshaft.pin_mass_kg", "m_ш.ш", 35, 340),
     _mass("crankshaft.webs.mass_kg", "m_щ", 26, 255, zero=True),
     _mass("crankshaft.webs.counterweight_kg", "m_пр", 48, 470, zero=True),
     _mass("crankshaft.nose_mass_kg", "m_вп1", 18, 175, zero=True),
     _mass("crankshaft.rear_mass_kg", "m_вп2", 18, 175, zero=True),
-    _mass("articulated.reciprocating_kg", "m_jп", 80, 650, TABLE_4),
     _mass("articulated.big_end_kg", "m_2п", 40, 390, zero=True),
     Band("articulated.rod_length_mm", "L", "L_п/L", 0.4, 1.3),
     Band("articulated.radius_mm", "r", "ρ_п/r", 0.4, 2.5, zero=True),
     Band("masses.small_end_radius_mm", "D", "r_1/D", 0.07, 0.36, zero=True),
     Band("masses.swing_edges_mm", "L", "l_ш3/L", 0.7, 1.7),
-    Band("masses.estimate_piston_kg_per_m2", "", "m'_п", 64, 500, TABLE_4, "кг/м²"),
-    Band("masses.estimate_rod_kg_per_m2", "", "m'_ш", 64, 500, TABLE_4, "кг/м²"),
-    Band("masses.estimate_throw_kg_per_m2", "", "m'_к", 90, 800, TABLE_4, "кг/м²"),
+    *(
+        _doubtful(f"{part}_mass", f"masses.estimate_{part}_kg_per_m2", "", symbol, **_AREA_MASS)
+        for part, symbol in (("piston", "m'_п"), ("rod", "m'_ш"), ("throw", "m'_к"))
+    ),
     Band("masses.estimate_pin_share", "", "m_шш/m_к", 0.2, 0.8),
-    Band("geometry.compression_ratio", "", "ε", 5, 26),
-    Band("geometry.compression_ratio", "", "ε", 5, 15.5, kind="petrol"),
-    DIESEL,
-    Band("geometry.crank_offset_mm", "r", "e_в/r", 0.026, 0.25, zero=True),
+    *_by_kind(*_RATIO),
+    _doubtful("offset", "geometry.crank_offset_mm", "r", "e_в/r", zero=True),
     Band("geometry.pin_offset_mm", "D", "e_п/D", 0.003, 0.029, zero=True),
     Band("regime.fullness", "", "φ_п", 0.85, 1),
     Band("gas.ambient_pressure_mpa", "", "p_0", 0.05, 0.2, unit="МПа"),
     Band("gas.intake_pressure_mpa", "", "p_a", 0.05, 0.49, unit="МПа"),
-    Band("gas.compression_exponent", "", "n_1", 1.2, 1.45),
-    Band("gas.expansion_exponent", "", "n_2", 1.1, 1.4),
+    _doubtful("compression.n_1", "gas.compression_exponent", "", "n_1"),
+    _doubtful("expansion.n_2", "gas.expansion_exponent", "", "n_2"),
     Band("gas.preexpansion_ratio", "", "ρ", 1, 2.5),
     Band("gas.injection_advance_deg", "", "θ_оп", 4.6, 45, unit="°"),
     Band("gas.ignition_delay_deg", "", "Δφ_з", 2.5, 24, unit="°", zero=True),
@@ -149,24 +165,23 @@ BANDS: tuple[Band, ...] = (
     _share("suppression", "ψ", 0.11, 1.05, zero=True),
     Band("balance.shaft_radius_mm", "r", "e_б/r", 0.15, 1.45),
     _share("irregularity", "[δх]", 0.0025, 0.024),
-    _share("rod_small_end_share", "m_1/m_ш", 0.15, 0.4),
+    _doubtful("rod_share", "balance.rod_small_end_share", "", "m_1/m_ш"),
     _share("rod_mass_factor", "k_ш", 0.5, 1.3),
     _share("web_width_share", "b/D", 0.5, 2),
     _share("web_thickness_share", "h/D", 0.06, 0.5),
     Band("reference.lambdas", "", "λ", 0.1, 0.5),
-    _cycle("excess_air", "α", 0.75, 1.5, kind="petrol"),
-    _cycle("excess_air", "α", 1.15, 4, kind="diesel"),
+    *_by_kind("inputs.excess_air", "cycle.excess_air", "", "α"),
     _cycle("ambient_temperature_k", "T_0", 250, 325, "К"),
-    _cycle("charge_heating_k", "ΔT", -15, 45, "К"),
-    _cycle("residual_temperature_k", "T_r", 600, 1250, "К"),
+    _doubtful("inputs.charge_heating", "cycle.charge_heating_k", "", "ΔT", unit="К"),
+    _doubtful("inputs.t_residual", "cycle.residual_temperature_k", "", "T_r", unit="К"),
     _cycle("intake_factor", "C_a", 0.7, 1.05),
     _cycle("exhaust_factor", "C_r", 0.7, 1.4),
-    _cycle("recharge", "φ_доз", 1, 1.15),
-    _cycle("scavenging", "φ_оч", 0.7, 1),
-    _cycle("max_pressure_mpa", "p_z", 4, 25, "МПа"),
-    _cycle("xi_z", "ξ_z", 0.65, 0.97),
-    _cycle("xi_b", "ξ_b", 0.75, 0.97),
-    _cycle("fullness", "φ_д", 0.88, 0.99),
+    _doubtful("inputs.recharge", "cycle.recharge", "", "φ_доз"),
+    _doubtful("inputs.scavenging", "cycle.scavenging", "", "φ_оч"),
+    _doubtful("combustion.p_z", "cycle.max_pressure_mpa", "", "p_z", "diesel", unit="МПа"),
+    _doubtful("inputs.xi_z", "cycle.xi_z", "", "ξ_z"),
+    _doubtful("inputs.xi_b", "cycle.xi_b", "", "ξ_b"),
+    _doubtful("inputs.fullness", "cycle.fullness", "", "φ_д"),
     _cycle("h2_co_ratio", "K_H2", 0.3, 0.6),
     _cycle("friction_a_mpa", "A", 0.02, 0.19, "МПа"),
     _cycle("friction_b_mpa_s_m", "B", 0.004, 0.039, "МПа·с/м"),
@@ -178,7 +193,7 @@ BANDS: tuple[Band, ...] = (
     _cycle("turbine_outlet_ratio", "π_вых", 1, 1.2),
     _cycle("exhaust_heat_kj_kg_k", "c_pг", 1, 1.3, "кДж/(кг·К)"),
     _cycle("adaptability", "K", 1.02, 1.6),
-    _cycle("stroke_bore", "S/D", 0.6, 1.6),
+    _doubtful("stroke_bore", "cycle.stroke_bore", "", "S/D"),
     _cycle("size_step_mm", "Δ", 0.5, 4.9, "мм"),
     Band("cycle.torque_speed_rpm", "n", "n_M/n", 0.3, 0.95),
     Band("cycle.idle_speed_rpm", "n", "n_х/n", 0.08, 0.5),
@@ -219,31 +234,31 @@ BANDS: tuple[Band, ...] = (
 )
 
 # Values that follow from more than one key; `plausibility` says from which.
-SIZES = Band("geometry", "", "S/D", 0.6, 1.55)
-LAMBDA = Band("geometry.lambda", "", "λ", 0.15, 0.45)
-OFFSET = Band("geometry.crank_offset_mm", "", "e/r", 0.05, 0.2)
+SIZES = _doubtful("stroke_bore", "geometry", "", "S/D")
+LAMBDA = _doubtful("lam", "geometry.lambda", "", "λ")
+OFFSET = Band("geometry.crank_offset_mm", "", "e/r", *RANGES["offset"].of())
 SMALL_END = Band(
-    "masses.rod_small_end_share", "", "m_1/m_ш", *engine.USUAL_SMALL_END_SHARE, "Гоц, п. 2.2"
+    "masses.rod_small_end_share", "", "m_1/m_ш", *RANGES["rod_share"].of(), "Гоц, п. 2.2"
 )
 ROD_INERTIA = Band("masses.rod_inertia_kg_m2", "", "I_ш/(m_ш·l²)", 0.05, 0.45)
-LARGE_SIZES = Band("geometry", "", "S/D", *engine.STROKE_TO_BORE)  # crosshead engines
-SPEED = Band(
-    "regime.speed_rpm", "", "средняя скорость поршня Sn/30", *engine.MEAN_SPEED, unit="м/с"
+LARGE_SIZES = Band("geometry", "", "S/D", *RANGES["stroke_bore"].doubtful["crosshead"])
+SPEED = _doubtful(
+    "piston_speed", "regime.speed_rpm", "", "средняя скорость поршня Sn/30", unit="м/с"
 )
 LOWER_SPEED = Band("regimes.speed_rpm", "", "частота вращения к номинальной", 0.12, 1.19)
-PIN_LENGTH = Band("crankshaft.pin_length_mm", "", "l_шш/d_шш под шатуном", 0.25, 1.2)
+PIN_LENGTH = _doubtful("pin_length", "crankshaft.pin_length_mm", "", "l_шш/d_шш под шатуном")
 MAIN_LENGTH = Band("crankshaft.main_lengths_mm", "", "l_к.ш/d_к.ш", 0.2, 1.6)
 MAIN_TO_PIN = Band("crankshaft.main_diameter_mm", "", "d_кш/d_шш", 0.97, 1.75)
 REDUCED_WEB = Band("crankshaft.webs.centre_mm", "F", "m_щ·ρ/r/F_п", 26, 255, unit="кг/м²")
-EFFICIENCY = Band("regime.mechanical_efficiency", "", "η_м", 0.5, 0.96)
+EFFICIENCY = _doubtful("effective.eta_m", "regime.mechanical_efficiency", "", "η_м")
 RESIDUAL = Band("gas.residual_pressure_mpa", "", "p_r/p_a", 0.5, 4)
 RISE = Band("gas.max_pressure_mpa", "", "p_z/p_c", 0.6, 5.5)
 POWER = Band("regime.indicated_power_kw", "", "N_i к работе диаграммы", 0.4, 2.5)
 MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 3.5, unit="МПа")
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
-POINTS = Band("gas.points", "", "наибольшее давление", *engine.PEAK_PRESSURE, unit="МПа")
+POINTS = _doubtful("combustion.p_z", "gas.points", "", "наибольшее давление", unit="МПа")
 LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
-TRACE_COMPRESSION = Band("gas.points", "", "показатель сжатия по точкам", 1.2, 1.45)
+TRACE_COMPRESSION = _doubtful("compression.n_1", "gas.points", "", "показатель сжатия по точкам")
 TRACE_EXPANSION = Band("gas.points", "", "показатель расширения по точкам", 1.0, 1.6)
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")
 THROW_STIFFNESS = Band("torsion.throws_nm_rad", "", "c к гладкому валу коренных шеек", 0.26, 2.5)

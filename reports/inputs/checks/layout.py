@@ -8,6 +8,7 @@ from itertools import accumulate, combinations
 
 from kshm.engine.arrangement import Arrangement, pin_counts, rods_beside, side_reach, throw_angle
 from kshm.engine.crankshaft import places
+from kshm.ranges import RANGES
 from reports.inputs.checks.bands import OFFSET
 from reports.inputs.fields import Path
 from reports.inputs.findings import Finding, Keys, ValidValues, in_lines, radius_and_rod
@@ -16,13 +17,13 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.units import number_text
 
 ANGLE_TOLERANCE_DEG = 0.01
-USUAL_OFFSET = 0.25  # k = e/r; the book names 0.05…0.20
 # Fillets and rounded sizes of real shafts make main journals up to 13 % longer than the arms
 # leave; a crankpin stands between two webs.
 _MOST_OVER, _MOST_OVER_PIN = 1.25, 1.02
 # A pin's length that is told of one rod: the arms leave the rest of the rods their room, and
 # what a rod would have of it over the diameter is less than a shaft has.
-_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, 0.35
+_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, RANGES["pin_length"].of()[0]
+_MOST_OFFSET = RANGES["offset"].doubtful[""][1]
 _SAME_AXIS = 1e-6  # [rad]
 Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
 
@@ -218,7 +219,7 @@ def _offset(values: ValidValues) -> Iterator[Finding]:
         )
         hint = "задайте радиус кривошипа crank_radius_mm"
         yield Finding(("geometry", "stroke_mm"), what, hint, warning=True)
-    if abs(offset) > USUAL_OFFSET * radius:
+    if abs(offset) > _MOST_OFFSET * radius:
         what = f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
         yield Finding(path, what, OFFSET.usual, warning=True)
 

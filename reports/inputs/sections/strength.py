@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm.defaults import PART_SHARES
 from kshm.engine.strength import PartStrength
+from kshm.ranges import PART_SHARES
 from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 

@@ -166,10 +166,10 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
     # The C library gives freed arrays back to the system and takes them again page by page,
     # which costs more than the arithmetic; once a great block was freed, it keeps them.
     np.empty(KEPT_BYTES, np.uint8)
-    rest = iter(engines)
-    while first := list(islice(rest, 1)):
+    remaining = iter(engines)
+    while first := list(islice(remaining, 1)):
         count = size or chunk_size(first[0])
-        yield solve_batch([*first, *islice(rest, count - 1)])
+        yield solve_batch([*first, *islice(remaining, count - 1)])
 
 
 def chunk_size(engine: Engine) -> int:
@@ -202,7 +202,7 @@ def _in_cylinders(batch: Batch, phi: Array) -> tuple[Columns, Hung | None]:
     p_gas = p - batch.p_ambient
     p_sum = p_gas + p_inertia
     rod = forces.decompose(p_sum, at)
-    own = {
+    by_name = {
         "displacement": displacement, "volume_ratio": ratio,
         "p": p, "p_gas": p_gas, "p_inertia": p_inertia, "p_sum": p_sum,
         "N": rod.N, "S": rod.S, "K": rod.K, "T": rod.T,
@@ -218,18 +218,18 @@ def _in_cylinders(batch: Batch, phi: Array) -> tuple[Columns, Hung | None]:
             "N": hung.N, "S": hung.S, "K": hung.on_pin.K, "T": hung.on_pin.T,
         }  # fmt: skip
         for name, values in theirs.items():
-            own[name] = np.array(own[name])
-            own[name][:, batch.articulated.cylinders] = values
-    return own, hung
+            by_name[name] = np.array(by_name[name])
+            by_name[name][:, batch.articulated.cylinders] = values
+    return by_name, hung
 
 
 def _hung(batch: Batch, phi: Array) -> Hung | None:
     rods = batch.articulated
     if rods is None:
         return None
-    own = phi[:, rods.cylinders]
+    phases = phi[:, rods.cylinders]
     return hang(
-        rods, own, batch.eps, lambda ratio, volume: _pressure(batch, own, ratio, volume),
+        rods, phases, batch.eps, lambda ratio, volume: _pressure(batch, phases, ratio, volume),
         batch.p_ambient, batch.omega, batch.area,
     )  # fmt: skip
 

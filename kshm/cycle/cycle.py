@@ -281,7 +281,7 @@ class CycleRun:
 
 def run_cycle(
     inputs: CycleInputs,
-    wanted: Wanted | None,
+    target: Wanted | None,
     law: Leiderman,
     *,
     omega_torque: float | None = None,
@@ -291,7 +291,7 @@ def run_cycle(
 
     Args:
         inputs: the engine and the regime.
-        wanted: power and S/D of the design mode; None when bore and stroke are given.
+        target: power and S/D of the design mode; None when bore and stroke are given.
         law: coefficients of the external speed characteristic.
         omega_torque: speed of maximum torque [rad/s], when given.
         omega_idle: idle speed [rad/s], when given.
@@ -300,15 +300,15 @@ def run_cycle(
         CycleError: no cycle follows from the inputs.
     """
     sizes = None
-    if wanted is None:
+    if target is None:
         result = cycle(inputs)
     else:
         sizes = design(
             inputs,
-            wanted.power,
-            wanted.stroke_bore,
-            step=wanted.step,
-            rounding=wanted.rounding,
+            target.power,
+            target.stroke_bore,
+            step=target.step,
+            rounding=target.rounding,
         )
         result = sizes.cycle
     figures = result.effective

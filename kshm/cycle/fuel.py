@@ -47,8 +47,8 @@ class CycleError(ValueError):
 
     def __init__(self, key: str, field: str, **numbers: float) -> None:
         """Keep the remark; the text of the error is for developers."""
-        shown = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
-        super().__init__(f"{field}: {key}" + (f" ({shown})" if shown else ""))
+        listed = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
+        super().__init__(f"{field}: {key}" + (f" ({listed})" if listed else ""))
         self.remark = Remark(key, field, numbers)
 
 

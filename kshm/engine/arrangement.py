@@ -137,24 +137,28 @@ def hung(arrangement: Arrangement) -> tuple[int, ...]:
 
 def pins(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:
     """Cylinders (from 0) on every crankpin, the pins counted from the nose."""
-    places = sorted({(c.throw, c.pin) for c in arrangement})
+    pairs = sorted({(c.throw, c.pin) for c in arrangement})
     return tuple(
-        tuple(i for i, c in enumerate(arrangement) if (c.throw, c.pin) == pin) for pin in places
+        tuple(i for i, c in enumerate(arrangement) if (c.throw, c.pin) == pin) for pin in pairs
     )
 
 
 def pin_counts(arrangement: Arrangement) -> tuple[int, ...]:
     """Crankpins of every throw from the nose: more than one, in series, where they are split."""
-    places = {(c.throw, c.pin) for c in arrangement}
+    pairs = {(c.throw, c.pin) for c in arrangement}
     return tuple(
-        sum(throw == number for throw, _ in places) for number in range(len(throws(arrangement)))
+        sum(throw == number for throw, _ in pairs) for number in range(len(throws(arrangement)))
     )
 
 
 def rods_beside(arrangement: Arrangement, cylinder: int) -> int:
     """Rods side by side on a cylinder's (from 0) crankpin; articulated rods take none of it."""
-    own = arrangement[cylinder]
-    return sum(c.master is None for c in arrangement if (c.throw, c.pin) == (own.throw, own.pin))
+    cylinder_at = arrangement[cylinder]
+    return sum(
+        c.master is None
+        for c in arrangement
+        if (c.throw, c.pin) == (cylinder_at.throw, cylinder_at.pin)
+    )
 
 
 def throws(arrangement: Arrangement) -> tuple[tuple[int, ...], ...]:

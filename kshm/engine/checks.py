@@ -68,12 +68,12 @@ def takes_kinds(function: Callable[Arguments, Made]) -> Callable[Arguments, Made
     names = tuple(signature(function).parameters)
 
     @wraps(function)
-    def checked(*args: Arguments.args, **given: Arguments.kwargs) -> Made:
+    def checked(*args: Arguments.args, **keywords: Arguments.kwargs) -> Made:
         kinds = _hints(function)
-        for name, value in (*zip(names, args, strict=False), *given.items()):
+        for name, value in (*zip(names, args, strict=False), *keywords.items()):
             if name in kinds:  # of unknown names Python tells itself
                 check_kind(name, value, kinds[name])
-        return function(*args, **given)
+        return function(*args, **keywords)
 
     return checked
 
@@ -85,9 +85,9 @@ def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
         ValueError: with the name, the kind and the beginning of the value.
     """
     if not _fits(value, kind):
-        shown = " ".join(repr(value).split())
-        shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 1] + "…"
-        raise ValueError(f"{name} must be {_words(kind)}, not {shown}")
+        printed = " ".join(repr(value).split())
+        printed = printed if len(printed) <= _SHOWN else printed[: _SHOWN - 1] + "…"
+        raise ValueError(f"{name} must be {_words(kind)}, not {printed}")
 
 
 def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401

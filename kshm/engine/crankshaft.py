@@ -145,7 +145,7 @@ class Crankshaft:
         check_numbers(self, POSITIVE, *sizes)
         throws = len(self.throws)
         for name in sizes:
-            count, wanted = len(getattr(self, name)), throws + name.startswith("main")
+            count, required = len(getattr(self, name)), throws + name.startswith("main")
             kind = "main journal more" if name.startswith("main") else "crankpin each"
             text = f"{throws} throws need a {kind}, not {count}: {name}"
-            refuse((count != wanted, text))
+            refuse((count != required, text))

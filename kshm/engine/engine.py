@@ -228,21 +228,21 @@ class Engine:
         )
 
     def _check_layout(self) -> None:
-        places, throws = self.arrangement, len(self.crankshaft.throws)
+        arrangement, throws = self.arrangement, len(self.crankshaft.throws)
         refuse(
             (self.cylinders < 1, "an engine has a cylinder"),
             (
-                len(places) != self.cylinders,
-                f"{len(places)} places need as many firing offsets, not {self.cylinders}",
+                len(arrangement) != self.cylinders,
+                f"{len(arrangement)} places need as many firing offsets, not {self.cylinders}",
             ),
             (
-                {cylinder.throw for cylinder in places} != set(range(throws)),
+                {cylinder.throw for cylinder in arrangement} != set(range(throws)),
                 f"the rods of {self.cylinders} cylinders stand on other throws than the {throws}",
             ),
         )
 
     def _check_articulated(self) -> None:
-        places, hanging = self.arrangement, hung(self.arrangement)
+        arrangement, hanging = self.arrangement, hung(self.arrangement)
         refuse(
             (
                 len(self.articulated) != len(hanging),
@@ -250,11 +250,13 @@ class Engine:
             )
         )
         for i, rod in zip(hanging, self.articulated, strict=True):
-            number, own = places[i].master or 0, places[i]
-            master = places[number] if 0 <= number < self.cylinders else own
+            number, hanging_one = arrangement[i].master or 0, arrangement[i]
+            master = arrangement[number] if 0 <= number < self.cylinders else hanging_one
             refuse(
                 (
-                    master is own or master.master is not None or master.throw != own.throw,
+                    master is hanging_one
+                    or master.master is not None
+                    or master.throw != hanging_one.throw,
                     "a master rod must be one of a cylinder on the same throw whose rod hangs "
                     f"on no other: cylinder {i + 1}",
                 )
@@ -262,7 +264,7 @@ class Engine:
             size = self.geometry
             reach = side_reach(
                 size.crank_radius, size.rod_length, size.offset, rod.radius, rod.angle,
-                own.axis - master.axis,
+                hanging_one.axis - master.axis,
             )  # fmt: skip
             refuse(
                 (
@@ -311,9 +313,9 @@ def implausible(engine: Engine) -> Iterator[str]:
         mass = engine.masses.reciprocating / size.piston_area
         label = "reciprocating mass over the piston's area"
         tests.append((label, " kg/m²", mass, _RECIPROCATING, "kilograms and millimetres"))
-    for what, unit, value, (low, high), given in tests:
+    for quantity, unit, value, (low, high), units in tests:
         if not low <= value <= high:
-            yield f"{what} is {value:.3g}{unit}, usually {low:g} … {high:g}: are they {given}?"
+            yield f"{quantity} is {value:.3g}{unit}, usually {low:g} … {high:g}: are they {units}?"
     last = max(engine.firing_offsets)
     # A cycle is 4π: taken for degrees it is still less than any real offset.
     if 0 < math.degrees(last) <= 4 * math.pi:

@@ -122,7 +122,7 @@ class PartStrength:
         sizes = {"bore": bore, "crankpin": crankpin}
         for key, (base, petrol, diesel) in PART_SHARES.items():
             low, high = diesel if self.kind == "diesel" else petrol
-            given: float | None = getattr(self, key)
+            size: float | None = getattr(self, key)
             usual = round((low + high) / 2, _ROUNDED) * sizes[base]
-            sizes[key] = usual if given is None else given
+            sizes[key] = usual if size is None else size
         return sizes

@@ -254,7 +254,7 @@ class Given(TypedDict, total=False):
     name: str
 
 
-def in_line(**given: Unpack[Given]) -> Engine:
+def in_line(**data: Unpack[Given]) -> Engine:
     """An in-line engine with a central mechanism, of what ``assemble`` takes.
 
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
@@ -275,7 +275,7 @@ def in_line(**given: Unpack[Given]) -> Engine:
     >>> engine.cylinders
     4
     """
-    return assemble(**given)
+    return assemble(**data)
 
 
 @takes_kinds
@@ -419,9 +419,9 @@ def assemble(
     return engine
 
 
-def _sizes(given: Sizes, count: int) -> tuple[float, ...]:
+def _sizes(sizes: Sizes, count: int) -> tuple[float, ...]:
     """Sizes of ``count`` journals [m]."""
-    each = (given,) * count if isinstance(given, int | float) else tuple(given)
+    each = (sizes,) * count if isinstance(sizes, int | float) else tuple(sizes)
     return tuple(size * _MM for size in each)
 
 

@@ -50,8 +50,8 @@ def throw_starts(engine: Engine) -> Array:
     """Places of the main journals [m], shape (journals,), Gots figure 35."""
     lengths = [throw.length for throw in engine.crankshaft.throws]
     ends = np.concatenate([[0.0], np.cumsum(lengths)])
-    places: Array = ends - ends[-1] / 2
-    return places
+    positions: Array = ends - ends[-1] / 2
+    return positions
 
 
 def is_balanced_by_orders(engine: Engine) -> bool:
@@ -162,10 +162,10 @@ def _masses(engine: Engine, *, counterweights: bool) -> list[tuple[float, float,
     masses = [(m_2, a, z) for a, z in zip(angles, rod_places(engine), strict=True)]
     groups = throws(engine.arrangement)
     for throw, start, rods in zip(shaft.throws, starts[:-1], groups, strict=True):
-        places = throw.places
+        positions = throw.places
         # Each rod's part of a split pin has an equal share of the pin's mass.
-        masses += [(throw.pin_mass / len(rods), angles[i], start + places.pin) for i in rods]
-        webs = ((throw.left_web, places.left_web), (throw.right_web, places.right_web))
+        masses += [(throw.pin_mass / len(rods), angles[i], start + positions.pin) for i in rods]
+        webs = ((throw.left_web, positions.left_web), (throw.right_web, positions.right_web))
         for web, at in webs:
             # A web's angle runs against rotation, a counterweight's with it from "opposite".
             masses.append((web.mass, throw.angle - web.angle, start + at))

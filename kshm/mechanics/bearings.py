@@ -67,9 +67,9 @@ class Film:
         """
         e = eccentricity
         square = e * e
-        rest = 1 - square
-        root = np.sqrt(np.pi**2 * rest + 16 * square)
-        number: Array = self.scale * e * root * (1 - e) / (rest * rest * (self.a2 + e))
+        complement = 1 - square
+        root = np.sqrt(np.pi**2 * complement + 16 * square)
+        number: Array = self.scale * e * root * (1 - e) / (complement * complement * (self.a2 + e))
         return number
 
     def attitude(self, eccentricity: Array) -> Array:

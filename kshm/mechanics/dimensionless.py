@@ -58,8 +58,8 @@ def angle_small(s: Array, lam: Array) -> Array:
 def angle_exact(s: Array, lam: Array) -> Array:
     """Crank angle [rad] at 0 ≤ s ≤ 2, elementwise: half angle of Segal's triangle (1.17)."""
     rod = 1 / lam
-    near, far = s * (2 * rod - s), (2 - s) * (2 * rod + 2 - s)
-    return 2 * np.arctan2(np.sqrt(near), np.sqrt(far))
+    closer, far = s * (2 * rod - s), (2 - s) * (2 * rod + 2 - s)
+    return 2 * np.arctan2(np.sqrt(closer), np.sqrt(far))
 
 
 def min_acceleration_two_term(lam: float) -> tuple[float, float]:

@@ -209,10 +209,10 @@ def middle_slope(before: Array, after: Array, left: Array, right: Array) -> Arra
     return np.where(same, mean, 0.0)
 
 
-def end_slope(wanted: Array, chord: Array) -> Array:
+def end_slope(slope: Array, chord: Array) -> Array:
     """A given slope [Pa/rad] at an end, within 0 and three chords, elementwise, Fritsch-Butland."""
     low, high = np.minimum(0.0, 3 * chord), np.maximum(0.0, 3 * chord)
-    return np.clip(wanted, low, high)
+    return np.clip(slope, low, high)
 
 
 def periodic_nodes(x: Array, y: Array) -> Nodes:

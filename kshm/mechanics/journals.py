@@ -65,13 +65,13 @@ class Rods:
             total[:, throw] += values[:, rod]
         return total
 
-    def shares(self, places: Places[Array]) -> Array:
+    def shares(self, positions: Places[Array]) -> Array:
         """Share [-] of each rod's load on its throw's right support, by statics, Gots (50)-(53).
 
         Shape (engines, cylinders); it may lie outside 0…1.
         """
         on_throws = [
-            (places.rod_at(position) / places.length)[:, throw]
+            (positions.rod_at(position) / positions.length)[:, throw]
             for throw, position in zip(self.throw, self.positions, strict=True)
         ]
         return np.stack(on_throws, axis=1)
@@ -105,10 +105,10 @@ def own_loads(throws: ThrowArrays, unit: Array, pin_up: Array, pin_ahead: Array)
         pin_up: share of the pin's mass that stands along the crank [-], as ``throws``.
         pin_ahead: share that stands a quarter turn ahead, with a split pin.
     """
-    places = throws.places
+    positions = throws.places
     pin = throws.pin_mass * unit
-    loads = [Load(places.pin, -pin * pin_ahead, pin * pin_up)]
-    for side, where in enumerate((places.left_web, places.right_web)):
+    loads = [Load(positions.pin, -pin * pin_ahead, pin * pin_up)]
+    for side, where in enumerate((positions.left_web, positions.right_web)):
         web, angle = throws.web_mass[..., side] * unit, throws.web_angle[..., side]
         loads.append(Load(where, web * np.sin(angle), web * np.cos(angle)))
         # A counterweight stands opposite the crank, turned on in the direction of rotation:
@@ -165,7 +165,7 @@ def centrifugal_reactions(throws: ThrowArrays, unit: Array, rods: Rods) -> tuple
     """
     count = throws.angle.shape[1]
     up, ahead = np.cos(rods.turn), np.sin(rods.turn)
-    own = [*own_loads(throws, unit, *pin_directions(rods, count)), *end_loads(throws, unit)]
+    loads = [*own_loads(throws, unit, *pin_directions(rods, count)), *end_loads(throws, unit)]
     left = np.zeros((*throws.angle.shape, 2))
     right = np.zeros_like(left)
     share = rods.shares(throws.places)
@@ -173,7 +173,7 @@ def centrifugal_reactions(throws: ThrowArrays, unit: Array, rods: Rods) -> tuple
         force = rods.mass * part
         right[..., axis] -= rods.summed(share * force, count) * unit
         left[..., axis] -= rods.summed((1 - share) * force, count) * unit
-        for load in own:
+        for load in loads:
             size, at = load[1 + axis], load.position / throws.places.length
             right[..., axis] -= at * size
             left[..., axis] -= (1 - at) * size
@@ -294,10 +294,10 @@ def load_terms(loads: Iterable[Load], length: Array, shape: tuple[int, ...]) -> 
     """
     right, left = np.zeros((*shape, 2)), np.zeros((*shape, 2))
     for load in loads:
-        rest = length - load.position
+        right_span = length - load.position
         for axis, force in enumerate((load.left, load.up)):
             right[..., axis] += force * load.position * (length**2 - load.position**2) / length
-            left[..., axis] += force * rest * (length**2 - rest**2) / length
+            left[..., axis] += force * right_span * (length**2 - right_span**2) / length
     return right, left
 
 
@@ -320,11 +320,11 @@ def support_moments(spans: Array, right: Array, left: Array, ends: Array) -> Arr
         return moments
     matrix = np.diag(2 * (spans[:-1] + spans[1:]))
     matrix += np.diag(spans[1:-1], 1) + np.diag(spans[1:-1], -1)
-    known = -(right[:-1] + left[1:])
-    known[0] -= spans[0] * ends[0]
-    known[-1] -= spans[-1] * ends[1]
-    flat = known.reshape(count - 1, -1)
-    moments[1:-1] = np.linalg.solve(matrix, flat).reshape(known.shape)
+    outer = -(right[:-1] + left[1:])
+    outer[0] -= spans[0] * ends[0]
+    outer[-1] -= spans[-1] * ends[1]
+    flat = outer.reshape(count - 1, -1)
+    moments[1:-1] = np.linalg.solve(matrix, flat).reshape(outer.shape)
     return moments
 
 

@@ -65,8 +65,8 @@ def rotating_mass(engine: Engine) -> float:
     Rods on one pin count each; an articulated rod hangs on its master and does not.
     """
     _, big_end = point_masses(engine.masses, engine.geometry.rod_length)
-    places = engine.arrangement
-    rods = sum(places[i].master is None for i in throws_of(places)[0])
+    arrangement = engine.arrangement
+    rods = sum(arrangement[i].master is None for i in throws_of(arrangement)[0])
     return throw_mass(engine.crankshaft.throws[0]) + rods * big_end
 
 
@@ -137,7 +137,10 @@ def area_masses(estimate: Estimate, bore: float, stroke: float) -> AreaMasses:
         (estimate.throw_area_mass, THROW_MASSES[estimate.shaft, fuel], size),
     )
     return AreaMasses(
-        *(low + (high - low) * at if own is None else own for own, (low, high), at in table)
+        *(
+            low + (high - low) * at if stated is None else stated
+            for stated, (low, high), at in table
+        )
     )
 
 
@@ -211,7 +214,7 @@ def rod_estimate(rod: RodSizes) -> RodEstimate:
     )
     mass = sum(part[0] for part in ends)
     centre = sum(part[0] * part[1] for part in ends) / mass
-    inertia = sum(own + m * (position - centre) ** 2 for m, position, own in ends)
+    inertia = sum(central + m * (position - centre) ** 2 for m, position, central in ends)
     return RodEstimate(mass, centre, inertia, r, big)
 
 

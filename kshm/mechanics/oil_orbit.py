@@ -58,13 +58,13 @@ def squeeze_force(eccentricity: Array, direction: Array, width: float) -> Comple
         width: b = B/D [-].
     """
     e = eccentricity
-    near = np.sqrt(np.sqrt((1 - e) / (1 + e)))  # how much closer the lines stand in the gap
-    first = 2 * np.arctan2(np.cos(direction / 2), -near * np.sin(direction / 2))
+    closeness = np.sqrt(np.sqrt((1 - e) / (1 + e)))  # how much closer the lines stand in the gap
+    first = 2 * np.arctan2(np.cos(direction / 2), -closeness * np.sin(direction / 2))
     step = 2 * np.pi / _AROUND
     # The first line stands opposite to the velocity, where there is no pressure.
     half = (first + step * np.arange(1, _AROUND)[:, None]) / 2
-    theta, length = _line(half, near, step)
-    between, across = _line(np.vstack([half - step / 4, half[-1:] + step / 4]), near, step)
+    theta, length = _line(half, closeness, step)
+    between, across = _line(np.vstack([half - step / 4, half[-1:] + step / 4]), closeness, step)
     flux = (1 - e * np.cos(between)) ** 3 / across
     source = 12 * np.cos(theta - direction) * length
     drain = (1 - e * np.cos(theta)) ** 3 * length
@@ -73,10 +73,10 @@ def squeeze_force(eccentricity: Array, direction: Array, width: float) -> Comple
     return force
 
 
-def _line(half: Array, near: Array, step: float) -> tuple[Array, Array]:
+def _line(half: Array, closeness: Array, step: float) -> tuple[Array, Array]:
     """Angles θ [rad] of the lines along the axis, and the length of the step there."""
-    sine, cosine = near * np.sin(half), np.cos(half)
-    length: Array = step * near / (sine**2 + cosine**2)
+    sine, cosine = closeness * np.sin(half), np.cos(half)
+    length: Array = step * closeness / (sine**2 + cosine**2)
     return 2 * np.arctan2(sine, cosine), length
 
 
@@ -165,8 +165,8 @@ class MobilityMap:
         j = np.clip(column.astype(int), 0, _COLUMNS - 2)
         corner = self.first + i * (_COLUMNS + 2) + j
         around = _AROUND_CORNER.reshape(4, 4, *(1,) * corner.ndim)
-        near = self.tables.take(corner + around)
-        part = (near * _weights(column - j)).sum(axis=1)
+        corners = self.tables.take(corner + around)
+        part = (corners * _weights(column - j)).sum(axis=1)
         value: Complex = (part * _weights(row - i)).sum(axis=0)
         return value
 
@@ -353,8 +353,8 @@ class _Run:
         """One step of every bearing: centre, slope there, error over the tolerance."""
         room = np.maximum(1 - np.abs(centre), 1e-6)
         tiny, nudge = 1e-6 * room, 1e-4 * step + 1e-12
-        near = np.stack((centre + tiny, centre + 1j * tiny, centre))
-        in_x, in_y, in_time = self.slope(np.stack((at, at, at + nudge)), near) - slope
+        probes = np.stack((centre + tiny, centre + 1j * tiny, centre))
+        in_x, in_y, in_time = self.slope(np.stack((at, at, at + nudge)), probes) - slope
         by_x, by_y, drift = in_x / tiny, in_y / tiny, step * _D * in_time / nudge
         reach = step * _D
         a, b = 1 - reach * by_x.real, -reach * by_y.real
@@ -373,9 +373,9 @@ class _Run:
         end = self.slope(at + step, new)
         third = solved(end - _E * (second - middle) - 2 * (first - slope) + drift)
         wrong = np.abs(step / 6 * (first - 2 * second + third))
-        rest = 1 - np.abs(new)
-        error = wrong / (_TOLERANCE * np.maximum(np.minimum(rest, room), 1e-3))
-        return new, end, np.where(np.isfinite(error) & (rest > _TOUCHES), error, 1e3)
+        gap = 1 - np.abs(new)
+        error = wrong / (_TOLERANCE * np.maximum(np.minimum(gap, room), 1e-3))
+        return new, end, np.where(np.isfinite(error) & (gap > _TOUCHES), error, 1e3)
 
     def _on_grid(self, points: list[tuple[Array, Complex, Complex]]) -> Complex:
         """Centres at the angles of the grid between the points of the steps, Hermite's cubic."""

@@ -37,8 +37,8 @@ def between(x: float | Array, points: Points) -> Array:
 
     Beyond the ends it is that of the end.
     """
-    known, values = np.array(points).T
-    return np.asarray(np.interp(x, known, values))
+    abscissas, values = np.array(points).T
+    return np.asarray(np.interp(x, abscissas, values))
 
 
 def land_stresses(pressure: float, bore: float, land: float) -> tuple[float, float, float]:
@@ -236,8 +236,8 @@ def i_section(height: float, width: float, web: float, flange: float) -> tuple[f
     """Area [m²], J across the height and J across the width [m⁴] of an I-section."""
     inside = height - 2 * flange
     area = 2 * width * flange + web * inside
-    apart = (height - flange) / 2  # of a flange from the middle, Steiner
-    tall = web * inside**3 / 12 + 2 * (width * flange**3 / 12 + width * flange * apart**2)
+    arm = (height - flange) / 2  # of a flange from the middle, Steiner
+    tall = web * inside**3 / 12 + 2 * (width * flange**3 / 12 + width * flange * arm**2)
     wide = inside * web**3 / 12 + 2 * flange * width**3 / 12
     return area, tall, wide
 

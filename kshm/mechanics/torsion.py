@@ -453,19 +453,19 @@ def _solved(
 ) -> Complex:
     """Elimination down the train and back up, shape (masses, speeds, orders)."""
     square, count = omega**2, len(inertias)
-    own: list[Complex] = []
+    roots: list[Complex] = []
     angles = np.array(load, dtype=complex)
     for k in range(count):
         diagonal = ground[k] - square * inertias[k] + 1j * omega * damping[k]
         diagonal = diagonal + (springs[k] if k < count - 1 else 0)
         if k:
-            share = springs[k - 1] / own[k - 1]
+            share = springs[k - 1] / roots[k - 1]
             diagonal = diagonal + springs[k - 1] - springs[k - 1] * share
             angles[k] += share * angles[k - 1]
-        own.append(diagonal)
-    angles[-1] /= own[-1]
+        roots.append(diagonal)
+    angles[-1] /= roots[-1]
     for k in range(count - 2, -1, -1):
-        angles[k] = (angles[k] + springs[k] * angles[k + 1]) / own[k]
+        angles[k] = (angles[k] + springs[k] * angles[k + 1]) / roots[k]
     return angles
 
 
@@ -477,10 +477,10 @@ def sum_in_time(amplitudes: Complex, orders: Array, step: float) -> Array:
         orders: ν per turn, multiples of ``step``.
         step: least order of the cycle: ½ of four strokes, 1 of two.
     """
-    places = np.rint(orders / step).astype(int)
-    samples = _SAMPLES * int(places.max())
+    indices = np.rint(orders / step).astype(int)
+    samples = _SAMPLES * int(indices.max())
     spectrum = np.zeros((*amplitudes.shape[:-1], samples // 2 + 1), dtype=complex)
-    spectrum[..., places] = amplitudes * (samples / 2)
+    spectrum[..., indices] = amplitudes * (samples / 2)
     greatest: Array = np.abs(np.fft.irfft(spectrum, samples)).max(axis=-1)
     return greatest
 

@@ -42,8 +42,8 @@ _MASSES: tuple[Row, ...] = (
 _REFERENCE: tuple[Row, ...] = (
     ("ref_lambda#", r"\lambda_{#}", "", "значение при λ № #", 3),
     ("lambda_value", r"\lambda", "", "отношение радиуса кривошипа к длине шатуна", 4),
-    *((f"{letter}{order}_rel", rf"{letter}_{{{order}}}/{tex}", "", f"{what}{words}, в долях {over}", 4)
-      for letter, what, over, tex in (("s", "перемещение поршня", "r", "r"), ("v", "скорость поршня", "rω", r"r\omega"), ("j", "ускорение поршня", "rω²", r"r\omega^2"))
+    *((f"{letter}{order}_rel", rf"{letter}_{{{order}}}/{tex}", "", f"{title}{words}, в долях {over}", 4)
+      for letter, title, over, tex in (("s", "перемещение поршня", "r", "r"), ("v", "скорость поршня", "rω", r"r\omega"), ("j", "ускорение поршня", "rω²", r"r\omega^2"))
       for order, words in (("1", " первого порядка"), ("2", " второго порядка"), ("", ""))),
     ("omega_rod_rel", r"\omega_{\mathrm{ш}}/\omega", "", "угловая скорость шатуна, в долях ω", 4),
     ("omega_rod_near_rel", r"\omega'_{\mathrm{ш}}/\omega", "", "угловая скорость шатуна приближённо, в долях ω", 4),
@@ -52,8 +52,8 @@ _REFERENCE: tuple[Row, ...] = (
     ("vmax_rel", r"v_{\max}/r\omega", "", "наибольшая скорость поршня к окружной скорости шейки", 4),
     ("v1_ratio", r"v_{1\max}/c_m", "", "наибольшая скорость первого порядка к средней", 4),
     *((f"Pj{n}_kN", f"P_{{j{n}}}", "kN", f"сила инерции {word} порядка", 3) for n, word in ((1, "первого"), (2, "второго"))),
-    *((f"{key}_{axis}_kN", tex.format(axis), "kN", f"{what}, {side}", 3)
-      for key, tex, what in (("C1", "C_{{{}}}", "вектор первого порядка"), ("C2", r"\lambda C_{{{}}}", "вектор второго порядка"),
+    *((f"{key}_{axis}_kN", tex.format(axis), "kN", f"{title}, {side}", 3)
+      for key, tex, title in (("C1", "C_{{{}}}", "вектор первого порядка"), ("C2", r"\lambda C_{{{}}}", "вектор второго порядка"),
                              ("rose1", r"P_{{j1\,{}}}", "полярная кривая первого порядка"), ("rose2", r"P_{{j2\,{}}}", "полярная кривая второго порядка"))
       for axis, side in (("x", "поперёк оси цилиндра"), ("y", "вдоль оси цилиндра"))),
     ("C_vector", "C", "kN", "длина вектора сил инерции первого порядка", 3),
@@ -88,8 +88,8 @@ _DIAGRAM: tuple[Row, ...] = (
 )  # fmt: skip
 
 _REGIMES: tuple[Row, ...] = (
-    *((f"{name}_{way}", tex.replace("}", rf"\,\{way}}}"), "MPa", f"{word} {what}", 3)
-      for name, tex, what in (("Pg", "p'_{г}", "удельная сила давления газов"), ("Pj", "p'_{j}", "удельная сила инерции"),
+    *((f"{name}_{way}", tex.replace("}", rf"\,\{way}}}"), "MPa", f"{word} {title}", 3)
+      for name, tex, title in (("Pg", "p'_{г}", "удельная сила давления газов"), ("Pj", "p'_{j}", "удельная сила инерции"),
                               ("Ps", "p'_{s}", "удельная суммарная сила"))
       for way, word in (("max", "наибольшая"), ("min", "наименьшая"))),
     ("governs", "", "", "определяющий режим", TEXT),

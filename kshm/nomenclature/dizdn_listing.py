@@ -31,8 +31,8 @@ def _own(
     key: str, title: str, symbol: str, unit: str, decimals: int, code: str = ""
 ) -> ListedNumber:
     """A number that the tables have not; ``unit`` is a key of ``UNITS``."""
-    about = UNITS[unit]
-    return ListedNumber(key, code, title, symbol, about.label, about.si, decimals)
+    unit_of = UNITS[unit]
+    return ListedNumber(key, code, title, symbol, unit_of.label, unit_of.si, decimals)
 
 
 def _title(name: str) -> str:

@@ -141,14 +141,14 @@ def quantity(key: str, small: int = 0) -> Quantity:
     >>> quantity("N_MPa").si
     1000000.0
     """
-    about = _quantity(key)
-    exact = small * _POWERS.get(about.unit, 0) / _FIFTHS
+    base = _quantity(key)
+    exact = small * _POWERS.get(base.unit, 0) / _FIFTHS
     more = math.ceil(exact) if small > 0 else round(exact)
-    digits = replace(about.digits, measured=bool(about.unit))
+    digits = replace(base.digits, measured=bool(base.unit))
     if digits.kind == "fixed":
         decimals = digits.decimals + more
         digits = replace(digits, decimals=max(0, decimals), zeros=max(0, -decimals))
-    return replace(about, digits=digits)
+    return replace(base, digits=digits)
 
 
 def _quantity(key: str) -> Quantity:

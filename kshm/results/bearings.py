@@ -65,10 +65,12 @@ def safety_results(case: Case, inputs: Bearings) -> Results:
     else:
         pins, tables = _bent_pins(case, inputs, factors)
     weakest = first_number(-pins["safe_pin_n{}"])
-    own = {key: float(pins[row][int(weakest) - 1]) for key, row in _WEAKEST.items() if row in pins}
+    weakest_values = {
+        key: float(pins[row][int(weakest) - 1]) for key, row in _WEAKEST.items() if row in pins
+    }
     least = {key: float(pins[row].min()) for key, row in _LEAST.items() if row in pins}
     scalars = _mains(case, inputs, factors) | _numbered(pins, 1)
-    return tables, factors | scalars | own | least | {"safe_pin_weakest": float(weakest)}
+    return tables, factors | scalars | weakest_values | least | {"safe_pin_weakest": float(weakest)}
 
 
 def _numbered(rows: Mapping[str, Array], first: int) -> Scalars:
@@ -181,15 +183,15 @@ def _class_rule(
     s, diameters = inputs.strength, np.array(case.engine.crankshaft.pin_diameters)
     radius = np.full_like(diameters, inputs.hole / 2)
     shapes = s.hole_bending, s.hole_torsion
-    given: dict[str, Array] = {}
+    sizes: dict[str, Array] = {}
     if where == "fillet":
         radius = np.full_like(diameters, s.fillet) if s.fillet else FILLET_SHARE * diameters
         shapes = s.fillet_bending, s.fillet_torsion
-        given = {"safe_fillet{}_mm": radius}
+        sizes = {"safe_fillet{}_mm": radius}
     bend, turn = (concentration(shape, s.sensitivity) for shape in shapes)
     strength = class_strength(np.array(s.tensile), diameters, radius, s.making)
     equal = np.hypot(bend * bent.amplitude, np.sqrt(3) * turn * turned.swing.amplitude)
-    return given | {
+    return sizes | {
         f"safe_class_{where}{{}}_MPa": strength,
         f"safe_equal_{where}{{}}_MPa": equal,
         f"safe_Q_{where}{{}}": strength / equal,
@@ -398,9 +400,9 @@ class BearingStudy:
         slip, oil = self.case.engine.omega * np.abs(self.ahead), self.steady.viscosity
         power = arrays.friction(e.T, across.T, oil, slip.T).T[:, :-1]
         flow = arrays.flow(e.T, oil, self.inputs.oil.pressure).T[:, :-1]
-        places = 2 * np.pi / _PLACES * np.arange(_PLACES)
-        thick = 1 - e[:, None, :-1] * np.cos(places[:, None] - journal[:, None, :-1])
-        best = places[thick.min(axis=2).argmax(axis=1)]
+        angles = 2 * np.pi / _PLACES * np.arange(_PLACES)
+        thick = 1 - e[:, None, :-1] * np.cos(angles[:, None] - journal[:, None, :-1])
+        best = angles[thick.min(axis=2).argmax(axis=1)]
         mark = [
             scalars[f"oil_F{n}_N"] + scalars[f"oil_kmax{n}_MPa"] / UNITS["MPa"].si
             + 100 * scalars[f"oil_chi{n}"] + 1000 * scalars[f"oil_visc{n}_mPas"]

@@ -85,9 +85,9 @@ def least_loaded(sums: Array) -> tuple[Array, Array]:
     count = sums.shape[-1]
     least = sums.min(axis=-1, keepdims=True)
     tied = sums < least + RAY_TIE
-    places = np.arange(2 * count + 1)  # two turns: an arc may pass the first ray
-    broken = np.where(tied[..., places % count], -1, places)
-    arcs = (places - np.maximum.accumulate(broken, axis=-1))[..., count:]  # ending at each ray
+    rays = np.arange(2 * count + 1)  # two turns: an arc may pass the first ray
+    broken = np.where(tied[..., rays % count], -1, rays)
+    arcs = (rays - np.maximum.accumulate(broken, axis=-1))[..., count:]  # ending at each ray
     ray = (arcs.argmax(axis=-1) - arcs.max(axis=-1) // 2) % count + 1
     return ray.astype(float), np.mod(ray_angles(count)[ray - 1] + np.pi, 2 * np.pi)
 

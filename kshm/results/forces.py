@@ -88,11 +88,11 @@ def _torques(raw: ChainArrays, at: Index) -> Columns:
 def _crankpin(raw: ChainArrays, at: Index, pin: int) -> Columns:
     batch = raw.batch
     engine = batch.engines[0]
-    own = [raw.K[at, i] for i in pins(engine.arrangement)[pin]]
+    loads = [raw.K[at, i] for i in pins(engine.arrangement)[pin]]
     side, up = raw.pin_side[at, pin], raw.pin_up[at, pin]
     columns = {
         "T_MPa": side,
-        "K_MPa": np.sum(own, axis=0),
+        "K_MPa": np.sum(loads, axis=0),
         "Krod_MPa": -up,
         "Rpin_MPa": raw.pin_load[at, pin],
         "psi_deg": direction(side, -up),
@@ -100,8 +100,8 @@ def _crankpin(raw: ChainArrays, at: Index, pin: int) -> Columns:
     if has_single_rods(engine):
         unit = batch.r[at, 0] * batch.omega[at, 0] ** 2
         throws = batch.throws
-        own = (throws.pin_mass + throws.web_mass.sum(axis=-1))[at, pin, None]
-        throw = own * unit / batch.area[at, 0]
+        loads = (throws.pin_mass + throws.web_mass.sum(axis=-1))[at, pin, None]
+        throw = loads * unit / batch.area[at, 0]
         columns |= {"Ksum_MPa": -up - throw, "Rthrow_MPa": raw.throw_load[at, pin]}
     return columns
 
@@ -262,8 +262,8 @@ def bending_forces(case: Case, number: int) -> tuple[Array, Array, float]:
     throw = engine.crankshaft.throws[number]
     unit = engine.geometry.crank_radius * engine.omega**2 / engine.geometry.piston_area
     carried = raw.batch.pin_mass[index, list(throws(engine.arrangement)[number]), 0].sum()
-    own = throw.pin_mass + throw.left_web.mass + throw.right_web.mass
-    inward: Array = raw.throw_K[index, number] - (carried + own) * unit
+    mass = throw.pin_mass + throw.left_web.mass + throw.right_web.mass
+    inward: Array = raw.throw_K[index, number] - (carried + mass) * unit
     lever = engine.geometry.piston_area * throw.length / 4
     return inward, raw.throw_T[index, number], lever
 
@@ -272,8 +272,8 @@ def oil_hole(case: Case, pin: int) -> float:
     """Angle of a pin's oil hole from the crank against rotation [rad]: given, or by the wear."""
     if case.engine.oil_hole is not None:
         return case.engine.oil_hole
-    shown = min(pin, len(shown_pins(case.engine)) - 1)  # pins of one wear have one hole
-    return float(least_loaded(case.raw.pin_wear[case.index, shown])[1])
+    printed = min(pin, len(shown_pins(case.engine)) - 1)  # pins of one wear have one hole
+    return float(least_loaded(case.raw.pin_wear[case.index, printed])[1])
 
 
 def _applies(engine: Engine) -> bool:

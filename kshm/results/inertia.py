@@ -17,45 +17,49 @@ from kshm.results.case import Case
 
 def rod_mass_scalars(engine: Engine) -> Scalars:
     """Masses over the piston area, the rod by two and three masses, how they were found."""
-    given, geometry = engine.masses, engine.geometry
+    rod, geometry = engine.masses, engine.geometry
     area = geometry.piston_area
     scalars = {"area_throw": masses.throw_mass(engine.crankshaft.throws[0]) / area}
-    if not isinstance(given, RodMasses):
+    if not isinstance(rod, RodMasses):
         return scalars
     length = geometry.rod_length
-    two = masses.two_mass_inertia(given.rod, given.centre, length)
+    two = masses.two_mass_inertia(rod.rod, rod.centre, length)
     scalars |= {
-        "area_piston": given.piston_group / area,
-        "area_rod": given.rod / area,
-        "rod_l1": given.centre,
-        "rod_share": 1 - given.centre / length,
+        "area_piston": rod.piston_group / area,
+        "area_rod": rod.rod / area,
+        "rod_l1": rod.centre,
+        "rod_share": 1 - rod.centre / length,
         "I_two": two,
     }
-    if given.inertia is not None:
-        three = masses.three_masses(given.rod, given.centre, length, given.inertia)
+    if rod.inertia is not None:
+        three = masses.three_masses(rod.rod, rod.centre, length, rod.inertia)
         scalars |= {
-            "I_sh": given.inertia,
+            "I_sh": rod.inertia,
             **{f"m{number}_three": mass for number, mass in enumerate(three, 1)},
-            "m3_share": three[2] / given.rod,
-            "dI_two": two / given.inertia - 1,
+            "m3_share": three[2] / rod.rod,
+            "dI_two": two / rod.inertia - 1,
         }
-    if isinstance(given.basis, Swinging):
-        scalars |= _swinging_scalars(given.basis)
-    elif isinstance(given.basis, Estimate):
-        near = masses.area_masses(given.basis, geometry.bore, 2 * geometry.crank_radius)
-        scalars |= {"est_piston": near.piston, "est_rod": near.rod, "est_throw": near.throw}
+    if isinstance(rod.basis, Swinging):
+        scalars |= _swinging_scalars(rod.basis)
+    elif isinstance(rod.basis, Estimate):
+        estimate = masses.area_masses(rod.basis, geometry.bore, 2 * geometry.crank_radius)
+        scalars |= {
+            "est_piston": estimate.piston,
+            "est_rod": estimate.rod,
+            "est_throw": estimate.throw,
+        }
     return scalars
 
 
 def _swinging_scalars(data: Swinging) -> Scalars:
     arm = masses.swung_centre(data) + data.bore_radius
-    rest = data.distance - arm
+    far_arm = data.distance - arm
     return {
         "T_small": 1 / data.swings_small,
         "T_big": 1 / data.swings_big,
         "I_A": masses.pendulum_inertia(data.mass, arm, data.swings_small),
-        "I_C": masses.pendulum_inertia(data.mass, rest, data.swings_big),
-        "rod_l2": rest,
+        "I_C": masses.pendulum_inertia(data.mass, far_arm, data.swings_big),
+        "rod_l2": far_arm,
     }
 
 
@@ -79,9 +83,9 @@ def inertia_results(case: Case) -> Results:
     fine = inertia.excess_work(*case.fine_torque)
     flywheel = inertia.flywheel_inertia(fine, mean, engine.omega, delta)
     omega = inertia.speed(gas_work, whole + flywheel, engine.omega)
-    near = reduced.approximate(phi, parts)
-    error = near / exact - 1
-    approximation = {"I_approx_kgm2": near, "I_error": error} if central else {}
+    approximate = reduced.approximate(phi, parts)
+    error = approximate / exact - 1
+    approximation = {"I_approx_kgm2": approximate, "I_error": error} if central else {}
     table = {
         "phi_deg": phi, "I_rod_kgm2": rod, "I_piston_kgm2": piston, "I_exact_kgm2": exact,
         **approximation, "I_engine_kgm2": whole,

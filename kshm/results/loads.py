@@ -42,8 +42,8 @@ class Engines:
         if hung is None:
             strokes = self.stroke * self.first.cylinders
         else:
-            own = self.first.cylinders - hung.stroke.shape[1]
-            strokes = self.stroke * own + hung.stroke[self.at, :, 0].sum(axis=1)
+            main_cylinders = self.first.cylinders - hung.stroke.shape[1]
+            strokes = self.stroke * main_cylinders + hung.stroke[self.at, :, 0].sum(axis=1)
         return self.area * strokes
 
 
@@ -107,8 +107,8 @@ def _torque(of: Engines) -> Numbers:
         "T_mean": mean / lever,
     }
     if all(engine.indicated_power is not None for engine in of.engines):
-        given = of.each(lambda e: e.indicated_power)
-        reference = given / (of.omega * lever * of.each(lambda e: e.fullness))
+        power = of.each(lambda e: e.indicated_power)
+        reference = power / (of.omega * lever * of.each(lambda e: e.fullness))
         scalars["T_ref"] = reference
         scalars["T_error"] = scalars["T_mean"] / reference - 1
     return scalars

@@ -166,15 +166,17 @@ def two_term_errors(case: Case) -> Results:
     area = geometry.piston_area
     exact = kinematics.exact_motion(phi, r, lam, omega, k)
     parts = kinematics.two_term_motion(phi, r, lam, omega, k)
-    near = {letter: first + second + offset for letter, (first, second, offset) in parts.items()}
+    approximate = {
+        letter: first + second + offset for letter, (first, second, offset) in parts.items()
+    }
     mass = case.inertia_unit / float(r * omega**2)
-    for curves in (exact, near):
+    for curves in (exact, approximate):
         curves["Pj"] = -mass * curves["j"] / area
     table, whole = {"phi_deg": phi}, {}
     for (letter, values), unit in zip(exact.items(), (*UNITS, "MPa"), strict=True):
         table[f"e{letter}_exact_{unit}"] = values
-        table[f"e{letter}_two_{unit}"] = near[letter]
-        table[f"e{letter}_{unit}"] = near[letter] - values
+        table[f"e{letter}_two_{unit}"] = approximate[letter]
+        table[f"e{letter}_{unit}"] = approximate[letter] - values
         whole[f"e{letter}_{unit}"] = float(np.abs(values).max())
     beta = kinematics.rod_angle(phi, lam, k)
     tangential = table["ePj_MPa"] * (np.sin(phi) + np.cos(phi) * np.tan(beta))
@@ -208,26 +210,26 @@ def segal_results(case: Case) -> Results:
         scalars[f"d{letter}_max"], scalars[f"alpha_d{letter}_deg"] = first_extreme(
             np.abs(error), fine
         )
-    given = np.arange(1.0, 20.0) * 0.1
+    path = np.arange(1.0, 20.0) * 0.1
     angles = {
-        "quadratic": dimensionless.angle_two_term(given, lam),
-        "small": dimensionless.angle_small(given, lam),
-        "exact": dimensionless.angle_exact(given, lam),
+        "quadratic": dimensionless.angle_two_term(path, lam),
+        "small": dimensionless.angle_small(path, lam),
+        "exact": dimensionless.angle_exact(path, lam),
     }
-    inverse = {"s_given": given, **{f"alpha_{name}_deg": each for name, each in angles.items()}}
+    inverse = {"s_given": path, **{f"alpha_{name}_deg": each for name, each in angles.items()}}
     for name in ("quadratic", "small"):
         inverse[f"dalpha_{name}_deg"] = angles[name] - angles["exact"]
     return {"segal_errors": errors, "segal_inverse": inverse}, scalars | _extremes(lam)
 
 
 def _extremes(lam: Array) -> Scalars:
-    places = np.array([0.0, np.pi / 2, np.pi])
-    exact, near = dimensionless.exact(places, lam), dimensionless.two_term(places, lam)
+    angles = np.array([0.0, np.pi / 2, np.pi])
+    exact, approximate = dimensionless.exact(angles, lam), dimensionless.two_term(angles, lam)
     two_angle, two_value = dimensionless.min_acceleration_two_term(float(lam))
     angle, value = dimensionless.min_acceleration(float(lam))
     return {
-        "s_error_quarter": float(near.s[1] / exact.s[1] - 1),
-        "j_error_quarter": float(near.j[1] / exact.j[1] - 1),
+        "s_error_quarter": float(approximate.s[1] / exact.s[1] - 1),
+        "j_error_quarter": float(approximate.j[1] / exact.j[1] - 1),
         "j_rel_tdc": float(exact.j[0]),
         "j_rel_bdc": float(exact.j[2]),
         "j_rel_quarter": float(exact.j[1]),

@@ -103,8 +103,8 @@ class ResultGroup:
         """
         names = NAMES[self._group]
         if name not in names:
-            known = ", ".join(names)
-            raise AttributeError(f"no result {self._group}.{name}; there are: {known}")
+            listed = ", ".join(names)
+            raise AttributeError(f"no result {self._group}.{name}; there are: {listed}")
         key = names[name]
         if "#" in key:
             return tuple(self._numbered(key))

@@ -236,10 +236,10 @@ class Solution:
         tables: dict[str, Mapping[str, Array | list[str]]] = {**self.columns, **reference_tables()}
         for name, columns in tables.items():
             frame = pd.DataFrame(columns)
-            known = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
-            about = {key: quantity(key) for key in known}
-            frame.attrs["units"] = {key: each.unit_label for key, each in about.items()}
-            frame.attrs["symbols"] = {key: each.symbol for key, each in about.items()}
-            frame.attrs["titles"] = {key: each.title for key, each in about.items()}
+            keys = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
+            quantities = {key: quantity(key) for key in keys}
+            frame.attrs["units"] = {key: each.unit_label for key, each in quantities.items()}
+            frame.attrs["symbols"] = {key: each.symbol for key, each in quantities.items()}
+            frame.attrs["titles"] = {key: each.title for key, each in quantities.items()}
             frames[name] = frame
         return frames

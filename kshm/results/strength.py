@@ -68,9 +68,9 @@ class _Study:
         """Piston with its pin, the rest of the reciprocating mass, the cap, m_j and m_2 [kg]."""
         engine, batch, index = self.case.engine, self.case.raw.batch, self.case.index
         moving, turning = (float(mass[index, 0, 0]) for mass in (batch.m_j, batch.m_2))
-        given, masses = self.inputs.piston, engine.masses
+        stated, masses = self.inputs.piston, engine.masses
         usual = masses.piston_group if isinstance(masses, RodMasses) else PISTON_SHARE * moving
-        piston = usual if given is None else given
+        piston = usual if stated is None else stated
         return {
             "piston": piston, "rod": moving - piston, "cap": CAP_SHARE * turning,
             "moving": moving, "turning": turning,
@@ -132,8 +132,8 @@ class _Study:
 
     def size_scalars(self) -> Scalars:
         """Sizes, given or usual."""
-        given = self.sizes.items()
-        return {f"st_{key}_mm": size for key, size in given if key not in ("bore", "crankpin")}
+        sizes = self.sizes.items()
+        return {f"st_{key}_mm": size for key, size in sizes if key not in ("bore", "crankpin")}
 
     @cached_property
     def inner(self) -> float:
@@ -169,15 +169,15 @@ class _Study:
 
     def _plays(self) -> Scalars:
         """Hot plays of head and skirt [m]: the cylinder's bore less the piston's diameter."""
-        given, bore = self.inputs, self.sizes["bore"]
-        iron = given.piston_material == "iron"
+        inputs, bore = self.inputs, self.sizes["bore"]
+        iron = inputs.piston_material == "iron"
         piston = IRON_EXPANSION if iron else ALUMINIUM_EXPANSION
-        cylinder = bore * (1 + IRON_EXPANSION * (given.cylinder_temperature - SIZES_C))
+        cylinder = bore * (1 + IRON_EXPANSION * (inputs.cylinder_temperature - SIZES_C))
         return {
             f"st_hot_{part}_mm": cylinder - bore * (1 - play) * (1 + piston * (warm - SIZES_C))
             for part, play, warm in (
-                ("head", given.head_play, given.head_temperature),
-                ("skirt", given.skirt_play, given.skirt_temperature),
+                ("head", inputs.head_play, inputs.head_temperature),
+                ("skirt", inputs.skirt_play, inputs.skirt_temperature),
             )
         }
 
@@ -198,11 +198,11 @@ class _Study:
 
     def pin_scalars(self) -> Scalars:
         """Pressures, bending, shear and ovality of the piston pin."""
-        size, given = self.sizes, self.inputs
-        swing = given.pin_share * self.swing(self.masses["piston"], self.omega)
-        force = self.gas + (swing if given.pin_form == "plus" else -swing)
-        pin = Pin(force, size["pin"], size["pin_bore"], size["pin_length"], given.pin_modulus)
-        oval = pin.oval_stresses(curved=given.oval_form == "curved")
+        size, inputs = self.sizes, self.inputs
+        swing = inputs.pin_share * self.swing(self.masses["piston"], self.omega)
+        force = self.gas + (swing if inputs.pin_form == "plus" else -swing)
+        pin = Pin(force, size["pin"], size["pin_bore"], size["pin_length"], inputs.pin_modulus)
+        oval = pin.oval_stresses(curved=inputs.oval_form == "curved")
         names = ("out0", "in0", "out90", "in90")
         return {
             "st_alpha": pin.alpha,
@@ -223,13 +223,13 @@ class _Study:
 
     def _bush(self) -> Scalars:
         """Pressure of the bush in the eye and the hoop stress of the eye outside and inside."""
-        given, steel = self.inputs, self.inputs.rod_material
+        inputs, steel = self.inputs, self.inputs.rod_material
         radii = self.sizes["pin"] / 2, self.eye_bore / 2, self.sizes["eye_outer"] / 2
-        grown = self.eye_bore * (BUSH_EXPANSION - steel.expansion) * given.bush_warming
-        moduli = given.bush_modulus, steel.modulus
-        pressure = parts.fit_pressure(given.bush_fit + max(0.0, grown), radii, moduli)
+        grown = self.eye_bore * (BUSH_EXPANSION - steel.expansion) * inputs.bush_warming
+        moduli = inputs.bush_modulus, steel.modulus
+        pressure = parts.fit_pressure(inputs.bush_fit + max(0.0, grown), radii, moduli)
         inside, outside = parts.hoop_stresses(pressure, *radii[1:])
-        gap = given.bush_fit + max(0.0, grown)
+        gap = inputs.bush_fit + max(0.0, grown)
         bush, common, eye = radii
         return {
             "st_bush_gap_mm": gap, "st_bush_MPa": pressure,
@@ -240,24 +240,24 @@ class _Study:
 
     def eye(self) -> Scalars:
         """Section I-I, bush, bending of the eye when it is drawn and pressed, safety."""
-        size, given, mass = self.sizes, self.inputs, self.masses
+        size, inputs, mass = self.sizes, self.inputs, self.masses
         wall, radius = (size["eye_outer"] - self.eye_bore) / 2, self._eye_radius
         pulled = self.swing(mass["piston"] + EYE_SHARE * mass["rod"], self.fastest)
         top, bush = pulled / (2 * wall * size["eye_length"]), self._bush()
-        stiff, soft = wall * given.rod_material.modulus, size["bush_wall"] * given.bush_modulus
+        stiff, soft = wall * inputs.rod_material.modulus, size["bush_wall"] * inputs.bush_modulus
         share = stiff / (stiff + soft)
         drawn_by = self.swing(mass["piston"], self.fastest)
         pressed_by = self.gas - self.swing(mass["piston"], self.omega)
         scalars, stresses = Scalars(), []
         for name, force, drawn in (("draw", drawn_by, True), ("squeeze", pressed_by, False)):
-            at_top = parts.eye_top(force, radius, float(np.degrees(given.embedding)), drawn=drawn)
-            at = parts.eye_section(at_top, force, radius, given.embedding, drawn=drawn)
+            at_top = parts.eye_top(force, radius, float(np.degrees(inputs.embedding)), drawn=drawn)
+            at = parts.eye_section(at_top, force, radius, inputs.embedding, drawn=drawn)
             stress = parts.outer_fibre(at, radius, wall, size["eye_length"], share)
             stresses.append(stress + bush["st_bush_out_MPa"])
             scalars |= {f"st_{name}_N0": at_top.force, f"st_{name}_M0": at_top.moment,
                         f"st_{name}_N": at.force, f"st_{name}_M": at.moment,
                         f"st_{name}_MPa": stress}  # fmt: skip
-        turned = parts.eye_section(SectionLoad(0.0, 0.0), 1.0, 1.0, given.embedding, drawn=False)
+        turned = parts.eye_section(SectionLoad(0.0, 0.0), 1.0, 1.0, inputs.embedding, drawn=False)
         return bush | scalars | {
             "st_squeeze_P_N": pressed_by, "st_squeeze_J": turned.force,
             "st_eye_bore_mm": self.eye_bore, "st_eye_wall_mm": wall, "st_eye_mean_mm": radius,
@@ -331,11 +331,11 @@ class _Study:
 
     def cap(self) -> Scalars:
         """Cap of the big end with its shell."""
-        size, apart = self.sizes, self.sizes["bolts_apart"]
-        wall = (apart - size["crankpin"]) / 2 - size["shell"]
+        size, distance = self.sizes, self.sizes["bolts_apart"]
+        wall = (distance - size["crankpin"]) / 2 - size["shell"]
         modulus, stiffness = size["cap_length"] * wall**2 / 6, (size["shell"] / wall) ** 3
         area = size["cap_length"] * (wall + size["shell"])
-        bent = 0.023 * apart / ((1 + stiffness) * modulus)
+        bent = 0.023 * distance / ((1 + stiffness) * modulus)
         return {
             "st_cap_wall_mm": wall, "st_cap_W": modulus, "st_cap_J": stiffness,
             "st_cap_cm2": area, "st_cap_MPa": self.tearing * (bent + 0.4 / area),
@@ -343,11 +343,11 @@ class _Study:
 
     def bolts(self) -> Scalars:
         """A bolt of the big end: tightened, and loaded by a share of its force."""
-        given, core = self.inputs, self.sizes["bolt"] - 1.4 * self.inputs.bolt_pitch
-        each = self.tearing / given.bolts
-        preload = given.bolt_preload * each
-        shared = 1.0 if given.bolt_form == "each" else given.bolts
-        most = preload + given.bolt_share * each / shared
+        inputs, core = self.inputs, self.sizes["bolt"] - 1.4 * self.inputs.bolt_pitch
+        each = self.tearing / inputs.bolts
+        preload = inputs.bolt_preload * each
+        shared = 1.0 if inputs.bolt_form == "each" else inputs.bolts
+        most = preload + inputs.bolt_share * each / shared
         area = np.pi / 4 * core**2
         return {
             "st_bolt_core_mm": core, "st_bolt_preload_N": preload, "st_bolt_load_N": most,
@@ -390,24 +390,24 @@ class _Study:
 
     def _weights(self, throw: int) -> float:
         """Reaction of the left support along the crank to a throw's counterweights [N]."""
-        engine, place = self.case.engine, self.case.engine.crankshaft.throws[throw]
-        unit, length = engine.geometry.crank_radius * engine.omega**2, place.places.length
-        webs = ((place.left_web, place.places.left_web), (place.right_web, place.places.right_web))
+        engine, crank = self.case.engine, self.case.engine.crankshaft.throws[throw]
+        unit, length = engine.geometry.crank_radius * engine.omega**2, crank.places.length
+        webs = ((crank.left_web, crank.places.left_web), (crank.right_web, crank.places.right_web))
         return sum(
             web.counterweight_mass * unit * cos(web.counterweight_angle) * (1 - at / length)
             for web, at in webs
         )
 
     def _web_safety(self, number: int, tau: Array, sigma: Array) -> Scalars:
-        steel, given = self.inputs.web_material, self.inputs
+        steel, inputs = self.inputs.web_material, self.inputs
         scalars, safeties = Scalars(), []
         for way, stress, limit in (
             ("tau", tau, TURN_SHARE * steel.bending), ("sig", sigma, steel.bending),
         ):  # fmt: skip
             most, least = float(stress.max()), float(stress.min())
             cycle = StressCycle.of(most, least)
-            worn = given.web_concentration * cycle.amplitude
-            safeties.append(limit / (worn + given.mean_factor * abs(cycle.mean)))
+            worn = inputs.web_concentration * cycle.amplitude
+            safeties.append(limit / (worn + inputs.mean_factor * abs(cycle.mean)))
             scalars |= {f"st_web_{way}_max{number}_MPa": most,
                         f"st_web_{way}_min{number}_MPa": least,
                         f"st_web_n_{way}{number}": safeties[-1]}  # fmt: skip

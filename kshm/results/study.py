@@ -99,10 +99,10 @@ def sweep(
 def _engines(
     engine: Engine, names: Sequence[str], rows: Sequence[Sequence[float]]
 ) -> Iterator[Engine]:
-    places = [_place(engine, name) for name in names]
+    paths = [_place(engine, name) for name in names]
     for row in rows:
         revised = engine
-        for (path, factor), value in zip(places, row, strict=True):
+        for (path, factor), value in zip(paths, row, strict=True):
             revised = _with(revised, path, value * factor)
         yield revised
 
@@ -112,8 +112,10 @@ def _place(engine: Engine, name: str) -> tuple[tuple[str, ...], float]:
     path, unit = VARIED.get(name, (name, ""))
     part: Any = engine
     for step in path.split("."):
-        known = {field.name for field in fields(part)} if is_dataclass(part) else set()
-        refuse((step not in known, f"nothing to vary under {name!r}; names: {', '.join(VARIED)}"))
+        fields_of = {field.name for field in fields(part)} if is_dataclass(part) else set()
+        refuse(
+            (step not in fields_of, f"nothing to vary under {name!r}; names: {', '.join(VARIED)}")
+        )
         part = getattr(part, step)
     number = isinstance(part, int | float) and not isinstance(part, bool) and math.isfinite(part)
     refuse((not number, f"{name} is no number of this engine"))
@@ -122,5 +124,5 @@ def _place(engine: Engine, name: str) -> tuple[tuple[str, ...], float]:
 
 def _with(part: Any, path: Sequence[str], value: float) -> Any:  # noqa: ANN401
     """A copy of a dataclass with another number at a path."""
-    first, *rest = path
-    return replace(part, **{first: _with(getattr(part, first), rest, value) if rest else value})
+    first, *tail = path
+    return replace(part, **{first: _with(getattr(part, first), tail, value) if tail else value})

@@ -74,14 +74,16 @@ class TorsionStudy:
         if hung(engine.arrangement):
             return share
         work = inertia.excess_work(*self.case.fine_torque)
-        own = float(inertia.of_engine(self.case.raw.phi, engine)[:-1].mean())
-        wanted = engine.balancing.irregularity
-        return inertia.flywheel_inertia(work, own, engine.omega, wanted) or share
+        inertia_of_engine = float(inertia.of_engine(self.case.raw.phi, engine)[:-1].mean())
+        irregularity = engine.balancing.irregularity
+        return (
+            inertia.flywheel_inertia(work, inertia_of_engine, engine.omega, irregularity) or share
+        )
 
     @property
     def _throws(self) -> Array:
-        given = self.inputs.throws
-        return torsion.throw_inertias(self.case.engine) if given is None else np.array(given)
+        throws = self.inputs.throws
+        return torsion.throw_inertias(self.case.engine) if throws is None else np.array(throws)
 
     @cached_property
     def other_flywheel(self) -> float:
@@ -175,8 +177,8 @@ class TorsionStudy:
         tuned = inputs.damper == "tuned"
         spring = (inputs.damper_stiffness or ring * (kappa * omega) ** 2) if tuned else 0.0
         best = 2 * (zeta if tuned else torsion.best_viscous(share)) * ring * omega
-        given = inputs.damper_damping
-        return Damper(ring, spring, best if given is None else given)
+        damping = inputs.damper_damping
+        return Damper(ring, spring, best if damping is None else damping)
 
     def excitation(self, speeds: Array) -> Complex:
         """Harmonics of the torques at the masses [N·m], shape (masses, speeds, orders)."""
@@ -254,13 +256,13 @@ def _forms(study: TorsionStudy) -> Columns:
     """Train and forms."""
     train, modes = study.train, study.modes
     count = len(train.inertias)
-    places = np.nan_to_num(torsion.nodes(modes.forms))
+    nodes = np.nan_to_num(torsion.nodes(modes.forms))
     return {
         "tor_mass": np.arange(1.0, count + 1),
         "tor_J_kgm2": train.inertias,
         "tor_c_Nm_rad": np.append(train.stiffnesses, train.right),
         **{f"tor_theta{m}": modes.forms[m - 1] for m in study.numbers},
-        **{f"tor_node{m}": np.append(0.0, places[m - 1]) for m in study.numbers},
+        **{f"tor_node{m}": np.append(0.0, nodes[m - 1]) for m in study.numbers},
     }
 
 
@@ -273,10 +275,10 @@ def _critical(study: TorsionStudy) -> tuple[Columns, Scalars]:
     cylinders = forms[:, [of_throw.get(cylinder.throw, -1) for cylinder in engine.arrangement]]
     sums = torsion.phase_sums(cylinders, np.array(engine.firing_offsets), study.orders)
     speeds = modes.omega[:, None] / study.orders
-    gas, own = (
+    gas, inertial = (
         analyse(torque[0], engine.period, study.orders) for torque in (study.gas, study.inertia)
     )
-    torque = _joined(gas, own, *study.at_speed(speeds))
+    torque = _joined(gas, inertial, *study.at_speed(speeds))
     resistance = torsion.energy_resistance(train, modes, study.damping, study.inputs.loss_factor)
     with np.errstate(divide="ignore", invalid="ignore"):
         turned = np.where(resistance[:, None] > 0, torque * sums / resistance[:, None], 0.0)
@@ -292,10 +294,10 @@ def _critical(study: TorsionStudy) -> tuple[Columns, Scalars]:
     return table, _worst(study, inside, speeds)
 
 
-def _joined(gas: Harmonics, own: Harmonics, gas_factor: Array, own_factor: Array) -> Array:
+def _joined(gas: Harmonics, inertial: Harmonics, gas_factor: Array, own_factor: Array) -> Array:
     """Amplitude of the torque of a cylinder [N·m] at the factors of the speed."""
-    cosine = gas.cosine * gas_factor + own.cosine * own_factor
-    sine = gas.sine * gas_factor + own.sine * own_factor
+    cosine = gas.cosine * gas_factor + inertial.cosine * own_factor
+    sine = gas.sine * gas_factor + inertial.sine * own_factor
     amplitude: Array = np.hypot(cosine, sine)
     return amplitude
 

@@ -80,17 +80,17 @@ def issue(
 def _issued_lines(folder: Path, done: Result) -> list[str]:
     """How many are issued of how many lines with a name, who is new, who has left."""
     books, former = done.register.books, done.register.former
-    told = [f"{folder}: выдано вариантов: {len(books)}, строк с именем в списке: "
+    lines = [f"{folder}: выдано вариантов: {len(books)}, строк с именем в списке: "
             f"{len(books) + len(done.left)}"]  # fmt: skip
-    told += [f"{_LEFT}: {line}" for line in done.left]
+    lines += [f"{_LEFT}: {line}" for line in done.left]
     if done.kept:
         names = ", ".join(f"{book.number} ({book.student.full})" for book in books[done.kept :])
-        told.append(f"Прежние книги, варианты и идентификаторы сохранены: {done.kept}; "
+        lines.append(f"Прежние книги, варианты и идентификаторы сохранены: {done.kept}; "
                     f"новые варианты: {names or 'нет'}")  # fmt: skip
     if former:
         names = ", ".join(f"{book.number} ({book.student.full})" for book in former)
-        told.append(f"Нет в списке, варианты оставлены за ними: {names}")
-    return told
+        lines.append(f"Нет в списке, варианты оставлены за ними: {names}")
+    return lines
 
 
 def _try_rubric(source: Path, samples: Path, rubric: Path | None, ranges: Path | None) -> int:
@@ -99,8 +99,8 @@ def _try_rubric(source: Path, samples: Path, rubric: Path | None, ranges: Path |
 
     tried = try_rubric(source, samples, rubric_file=rubric, ranges_file=ranges)
     for one in tried:
-        points, wanted = short(one.points, 4), short(one.sample.points, 4)
-        said = "как задано" if one.is_as_expected else f"а задано {wanted}"
+        points, required = short(one.points, 4), short(one.sample.points, 4)
+        said = "как задано" if one.is_as_expected else f"а задано {required}"
         click.echo(f"{one.sample.name}: {points} — {said}")
     unlike = sum(not one.is_as_expected for one in tried)
     if unlike:

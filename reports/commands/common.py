@@ -131,8 +131,8 @@ def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
     from reports.inputs.solve_input import power_problems, solution_remarks
     from reports.shared.standing import Notice, Severity
 
-    power, own = power_problems(loaded.model), failed_own_checks(loaded.model)
-    lines = [*(each.line() for each in power), *(each.line() for each in own)]
+    power, failed = power_problems(loaded.model), failed_own_checks(loaded.model)
+    lines = [*(each.line() for each in power), *(each.line() for each in failed)]
     remarks = [Notice(Severity.WARNING, line) for line in lines]
     remarks += solution_remarks(loaded.model)
     for remark in remarks:
@@ -224,15 +224,15 @@ def _meant(error: click.ClickException, context: click.Context | None) -> Iterab
         yield from (f"{option.opts[-1]} {option.make_metavar(context)}" for option in several)
         return
     if isinstance(error, click.NoSuchOption):
-        wrong, known = error.option_name, [*(error.possibilities or ())]
+        wrong, possible = error.option_name, [*(error.possibilities or ())]
     elif isinstance(command, click.Group):
         match = re.search(_ERRORS[0][0], error.format_message())
-        wrong, known = match[1] if match else "", [*command.commands]
+        wrong, possible = match[1] if match else "", [*command.commands]
     else:
         return
-    near = difflib.get_close_matches(wrong.lower(), known, n=1, cutoff=0.5)
-    if near:
-        yield f"возможно, {near[0]}"
+    similar = difflib.get_close_matches(wrong.lower(), possible, n=1, cutoff=0.5)
+    if similar:
+        yield f"возможно, {similar[0]}"
 
 
 def error_text(error: click.ClickException) -> str:

@@ -62,7 +62,7 @@ def new(
     output: Path | None,
     base: Path | None,
     book: Path | None,
-    **wanted: Any,  # noqa: ANN401
+    **options: Any,  # noqa: ANN401
 ) -> int:
     """Дать файл исходных данных с пояснениями.
 
@@ -73,11 +73,11 @@ def new(
     from reports.commands.new_engine import new_book, new_text
     from reports.shared.files import is_stream, write_text
 
-    given = None if base is None else (str(base), lambda: load(base).model)
+    base_model = None if base is None else (str(base), lambda: load(base).model)
     if book is None:
-        text = new_text(given, **wanted)
+        text = new_text(base_model, **options)
     else:
-        text, output = new_book(book, [*wanted.values(), base, output]), book
+        text, output = new_book(book, [*options.values(), base, output]), book
     if output is None:
         click.echo(text, nl=False)
         return DONE
@@ -150,8 +150,8 @@ def check(source: Path, as_json: bool) -> int:
     if source.suffix.lower() == ".book":
         from reports.exports.book_trial import check_alone
 
-        for about in check_alone(source):
-            click.echo(about)
+        for remark in check_alone(source):
+            click.echo(remark)
         return DONE
     if source.suffix.lower() == ".zip":
         from reports.grading.reading.selfcheck import findings_in_archive
@@ -170,8 +170,8 @@ def check(source: Path, as_json: bool) -> int:
             from reports.exports.own_books import failed_own_checks
             from reports.inputs.solve_input import power_problems
 
-            own = (Problem("", each.line()) for each in failed_own_checks(loaded.model))
-            warnings = (*warnings, *power_problems(loaded.model), *own)
+            failed = (Problem("", each.line()) for each in failed_own_checks(loaded.model))
+            warnings = (*warnings, *power_problems(loaded.model), *failed)
     except InputError as error:
         if not as_json:
             raise
@@ -258,8 +258,8 @@ def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -
     wordless = folder is not None or target is not None
     if not wordless:
         small = smallness_of(loaded.model)
-        known = {key: (quantity(key, small), each) for key, each in solution.scalars.items()}
-        _print_summary({**known, **theirs.scalars})
+        quantities = {key: (quantity(key, small), each) for key, each in solution.scalars.items()}
+        _print_summary({**quantities, **theirs.scalars})
     tell_solved(loaded, aside=wordless)
     return DONE
 
@@ -267,12 +267,12 @@ def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -
 def _print_summary(scalars: Mapping[str, tuple[Quantity, float | str]]) -> None:
     from reports.shared.russian import written
 
-    for key, (about, value) in scalars.items():
+    for key, (measure, value) in scalars.items():
         if key.startswith("throw"):
             continue
-        text = value if isinstance(value, str) else written(value, about.digits)
-        gap = "" if about.unit_label == "°" else " "
-        click.echo(f"{about.title}: {about.symbol} = {text}{gap}{about.unit_label}".rstrip())
+        text = value if isinstance(value, str) else written(value, measure.digits)
+        gap = "" if measure.unit_label == "°" else " "
+        click.echo(f"{measure.title}: {measure.symbol} = {text}{gap}{measure.unit_label}".rstrip())
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)

@@ -42,7 +42,7 @@ def new_text(
     sample: str | None,
     cylinders: int | None,
     strength: bool = False,
-    **wanted: Any,  # noqa: ANN401
+    **options: Any,  # noqa: ANN401
 ) -> str:
     """The file of a sample, of an own engine, or of an alternative to ``base``.
 
@@ -51,13 +51,13 @@ def new_text(
         sample: Value of --sample, which does not go with the other two.
         cylinders: Value of --cylinders.
         strength: Value of --strength, for an own engine.
-        wanted: ``layout``, ``strokes``, ``kind`` and the numbers of a task; None is not given.
+        options: ``layout``, ``strokes``, ``kind`` and the numbers of a task; None is not given.
 
     Raises:
         KshmError: the options do not go together, or there is no such engine.
     """
     if cylinders is None and base is None:
-        extra = [key for key, value in wanted.items() if value is not None]
+        extra = [key for key, value in options.items() if value is not None]
         extra += ["strength"] * strength
         if extra:
             raise KshmError(f"{_option(extra[0])}: ключ для своего двигателя; добавьте --cylinders")
@@ -70,20 +70,20 @@ def new_text(
     if cylinders is None:
         raise KshmError("--from: не указано число цилиндров варианта; добавьте --cylinders")
     for key in _NUMBERS:
-        value = wanted.get(key)
+        value = options.get(key)
         if value is not None and not (math.isfinite(value) and value > 0):
             raise KshmError(f"{_option(key)}: значение должно быть больше нуля")
     if base is not None and strength:
         raise KshmError("--strength: у варианта раздел тот же, что в основе; уберите ключ")
     if base is not None:
-        return _alternative(base, cylinders, wanted)
+        return _alternative(base, cylinders, options)
     from reports.new.generate import file_text, generate_engine
 
-    if wanted.get("rod_mm") is not None and wanted.get("lambda_") is not None:
+    if options.get("rod_mm") is not None and options.get("lambda_") is not None:
         raise KshmError("--rod и --lambda вместе не нужны; оставьте один из ключей")
-    kinds = {key: wanted[key] for key in ("layout", "kind") if wanted.get(key) is not None}
-    numbers: dict[str, Any] = {key: wanted.get(key) for key in _NUMBERS}
-    strokes = int(wanted.get("strokes") or 4)
+    kinds = {key: options[key] for key in ("layout", "kind") if options.get(key) is not None}
+    numbers: dict[str, Any] = {key: options.get(key) for key in _NUMBERS}
+    strokes = int(options.get("strokes") or 4)
     return file_text(
         generate_engine(cylinders, **kinds, strokes=strokes, strength=strength, **numbers)
     )
@@ -93,27 +93,27 @@ def _option(key: str) -> str:
     return "--" + key.partition("_")[0]
 
 
-def _alternative(base: Base, cylinders: int, wanted: Mapping[str, Any]) -> str:
+def _alternative(base: Base, cylinders: int, options: Mapping[str, Any]) -> str:
     from reports.new.generate import file_text
     from reports.new.scale_engine import alternative
     from reports.shared.russian import comma
 
     for key in ("strokes", "kind"):
-        if wanted[key] is not None:
+        if options[key] is not None:
             raise KshmError(f"{_option(key)}: у варианта они те же, что в {base[0]}; уберите ключ")
     for key in _NUMBERS[2:]:
-        if wanted.get(key) is not None:
-            what = f"у варианта следует из {base[0]} по подобию"
-            raise KshmError(f"{_option(key)}: {what}; уберите ключ или правьте файл")
+        if options.get(key) is not None:
+            problem = f"у варианта следует из {base[0]} по подобию"
+            raise KshmError(f"{_option(key)}: {problem}; уберите ключ или правьте файл")
     model = base[1]()
-    speed, power, ratio, cause = wanted["speed_rpm"], wanted["power_kw"], 1.0, ""
+    speed, power, ratio, cause = options["speed_rpm"], options["power_kw"], 1.0, ""
     if power is not None:
         old = _power_kw(model)
         faster = 1.0 if speed is None else speed / model.regime.speed_rpm
         ratio = power / old / faster
         cause = comma(f"Мощность {power:g} кВт вместо {old:.4g} кВт при прежнем p_e")
     scaled = alternative(
-        model, cylinders, layout=wanted["layout"], speed_rpm=speed, displacement=ratio, cause=cause
+        model, cylinders, layout=options["layout"], speed_rpm=speed, displacement=ratio, cause=cause
     )
     if power is not None and model.cycle is None:
         regime = model.regime

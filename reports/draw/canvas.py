@@ -172,9 +172,9 @@ class Canvas:
         """A circle."""
         self.items.append(Circle(centre, radius, layer, **more))  # type: ignore[arg-type]
 
-    def words(self, place: Point, text: str, height: float = 3.5, **more: object) -> Words:
+    def words(self, point: Point, text: str, height: float = 3.5, **more: object) -> Words:
         """A line of text."""
-        line = Words(place, text, height, **more)  # type: ignore[arg-type]
+        line = Words(point, text, height, **more)  # type: ignore[arg-type]
         if text:
             self.items.append(line)
         return line
@@ -195,11 +195,11 @@ class Canvas:
         return not any(isinstance(i, Words) and overlap(wide, i.box) for i in self.items)
 
     def words_where_free(
-        self, places: Iterable[Point], text: str, height: float = 3.5, within: Box | None = None,
+        self, points: Iterable[Point], text: str, height: float = 3.5, within: Box | None = None,
         *, crossed: bool = True, **more: object,
     ) -> bool:  # fmt: skip
         """Add a text at the first free place, preferably uncrossed; tell whether one was free."""
-        candidates = (Words(anchor, text, height, **more) for anchor in places)  # type: ignore[arg-type]
+        candidates = (Words(anchor, text, height, **more) for anchor in points)  # type: ignore[arg-type]
         free = [
             words
             for words in candidates
@@ -290,10 +290,10 @@ def _within(start: Point, end: Point, words: Words, gap: float) -> tuple[float, 
 def interrupted(items: Sequence[Item]) -> list[Item]:
     """Axes and thin straight lines broken where a text stands on them, ГОСТ 2.307."""
     texts = [item for item in items if isinstance(item, Words)]
-    shown: list[Item] = []
+    visible: list[Item] = []
     for item in items:
         if not isinstance(item, Line) or item.layer not in (AXES, THIN) or len(item.points) != 2:
-            shown.append(item)
+            visible.append(item)
             continue
         start, end = item.points
         gaps = sorted(filter(None, (_within(start, end, words, 0.5) for words in texts)))
@@ -304,9 +304,9 @@ def interrupted(items: Sequence[Item]) -> list[Item]:
                     (start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
                     for t in (at, low)
                 )
-                shown.append(replace(item, points=between))
+                visible.append(replace(item, points=between))
             at = max(at, high)
-    return shown
+    return visible
 
 
 def polar(centre: Point, radius: float, angle: float) -> Point:

@@ -222,12 +222,12 @@ def stroke_advance(char: str) -> float:
 def strokes_of(text: str, height: float) -> list[tuple[tuple[float, float], ...]]:
     """Slanted strokes of a line of text from its left end on the base line [mm]."""
     scale, lean, left = height / _UNITS, math.tan(math.radians(SLANT)), 0.0
-    shown = []
+    strokes = []
     for char in text:
         for stroke in glyphs().get(char, ()):
-            shown.append(tuple((scale * (left + x + lean * y), scale * y) for x, y in stroke))
+            strokes.append(tuple((scale * (left + x + lean * y), scale * y) for x, y in stroke))
         left += stroke_advance(char)
-    return shown
+    return strokes
 
 
 def is_drawn(text: str) -> bool:

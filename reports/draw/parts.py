@@ -51,15 +51,15 @@ def along(
     shares = (0.5, 0.4, 0.6, 0.3, 0.7)
     middles = [(start[0] + s * (end[0] - start[0]), start[1] + s * (end[1] - start[1]))
                for s in shares]  # fmt: skip
-    places = [(x + up[0] * gap * letters, y + up[1] * gap * letters)
+    points = [(x + up[0] * gap * letters, y + up[1] * gap * letters)
               for gap in (0.5, -1.6, 1.6, -2.8) for x, y in middles]  # fmt: skip
     if not heads:  # there is no dimension line to stand beside: the line goes on as its words
         beyond = length + 1.6 * letters + width_of(text, letters) / 2
         for far in (beyond, -beyond):  # past its end, or past the circle on the other side
-            places.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
+            points.append((start[0] + far * unit[0] - 0.4 * letters * up[0],
                            start[1] + far * unit[1] - 0.4 * letters * up[1]))  # fmt: skip
     label = canvas.words_where_free(
-        places, text, letters, align=0.5, angle=round(turn, 3), name=size
+        points, text, letters, align=0.5, angle=round(turn, 3), name=size
     )
     if heads and label:
         canvas.dimension(start, end, cast(Words, canvas.items[-1]))
@@ -76,8 +76,8 @@ def across(
     text = f"Ø{number(value)}"
     middle, wide = (low + high) / 2, width_of(text, letters)
     if wide < high - low:
-        places = [(x - 0.5 * letters, middle)]
-        if canvas.words_where_free(places, text, letters, align=0.5, angle=90.0, name=SIZE):
+        points = [(x - 0.5 * letters, middle)]
+        if canvas.words_where_free(points, text, letters, align=0.5, angle=90.0, name=SIZE):
             canvas.dimension((x, low), (x, high), cast(Words, canvas.items[-1]))
             return
     above = [(x, high + (1 + 1.6 * n) * letters) for n in range(6)]
@@ -173,9 +173,9 @@ def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0
     end = right + right_web + l6
     room = _MOST_WEB * min(l1, l2), _MOST_WEB * min(l5, l6)
     usual = [min(scale * h or 1.0, most) for h, most in zip(throw.usual, room, strict=True)]
-    shown = [left_web or usual[0], right_web or usual[1]]
-    faces = [(l1 if left_web else l1 - shown[0] / 2, shown[0]),
-             (right if right_web else right - shown[1] / 2, shown[1])]  # fmt: skip
+    thickness = [left_web or usual[0], right_web or usual[1]]
+    faces = [(l1 if left_web else l1 - thickness[0] / 2, thickness[0]),
+             (right if right_web else right - thickness[1] / 2, thickness[1])]  # fmt: skip
     low = 0.0
     for (face, thick), main, heavy in zip(faces, mains, throw.weights, strict=True):
         foot = -(main / 2 + 0.8 * r) if heavy else -_ROUND * main

@@ -83,10 +83,10 @@ def svg_element(body: str, extent: str, size: tuple[float, float], width_mm: flo
 def _runs(items: Iterable[Item], left: float, high: float) -> Iterable[str]:
     """Items as elements; lines of equal looks follow one another in one path."""
     paths: dict[str, list[str]] = {}
-    rest: list[str] = []
+    remaining: list[str] = []
     for item in items:
         if isinstance(item, Words):
-            rest.append(_words(item, left, high))
+            remaining.append(_words(item, left, high))
             continue
         if isinstance(item, Dimension):
             continue
@@ -100,7 +100,7 @@ def _runs(items: Iterable[Item], left: float, high: float) -> Iterable[str]:
         )
         paths.setdefault(looks, []).append(_path(item, left, high))
     yield from (f'<path d="{"".join(parts)}"{looks}/>' for looks, parts in paths.items())
-    yield from rest
+    yield from remaining
 
 
 def _path(item: Line | Circle, left: float, high: float) -> str:
@@ -200,8 +200,8 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
         space = document.modelspace()
         aligns = {0.0: TextEntityAlignment.LEFT, 0.5: TextEntityAlignment.CENTER,
                   1.0: TextEntityAlignment.RIGHT}  # fmt: skip
-        shown = list(items)
-        for item in shown:
+        drawn = list(items)
+        for item in drawn:
             looks: dict[str, object] = {"layer": item.layer.name}
             if isinstance(item, Line | Words) and item.name == SIZE:
                 continue  # of a dimension, which is an entity of its own
@@ -219,7 +219,7 @@ def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
                     _dxf_text(space, part, align, looks)
             if isinstance(item, Line | Circle) and item.filled:
                 _dxf_fill(space, item)
-        left, low, right, high = bounds(shown)
+        left, low, right, high = bounds(drawn)
         corners = (left, low, 0), (right, high, 0)
         space.reset_extents(*corners)
         # What begins at the origin is not carried over to the header by writing.
@@ -240,8 +240,8 @@ def _dashes(document: object, item: Line) -> dict[str, object]:
     """Attributes of a dashed polyline."""
     if not (item.dash or item.layer.dash):
         return {}
-    own = {"linetype": _linetype(document, item.dash)} if item.dash else {}
-    return {"flags": _PLINEGEN, **own}
+    attributes = {"linetype": _linetype(document, item.dash)} if item.dash else {}
+    return {"flags": _PLINEGEN, **attributes}
 
 
 def _dxf_fill(space: object, item: Line | Circle) -> None:

@@ -15,70 +15,70 @@ _CALLED = {TABLE: "таблица", FIGURE: "рисунок"}
 _ODD_MARK = re.compile("⟦[^⟧]*⟧?")
 
 
-def lines_of(own: Own) -> Iterator[tuple[str, str, BookLine]]:
+def lines_of(reading: Own) -> Iterator[tuple[str, str, BookLine]]:
     """Kinds and texts of the lines of all chapters, with their places."""
-    for chapter in own.model.chapters:
+    for chapter in reading.model.chapters:
         for line in chapter.lines:
             yield line.kind, line.text.strip(), BookLine(line.book, line.number, line.text)
 
 
-def kinds_of(own: Own, key: str) -> list[str]:
+def kinds_of(reading: Own, key: str) -> list[str]:
     """Whether a name is that of a figure, of a table or of both; the first one is shown."""
-    kinds = [FIGURE] if key in own.model.charts_by_id else []
-    return kinds + [TABLE] * any(block.id == key for block in own.model.blocks)
+    kinds = [FIGURE] if key in reading.model.charts_by_id else []
+    return kinds + [TABLE] * any(block.id == key for block in reading.model.blocks)
 
 
-def unknown_in_chapters(own: Own) -> Iterator[BookError]:
+def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
     """What chapters name and the model has not."""
-    model = own.model
-    for kind, text, line in lines_of(own):
-        if kind == "show" and not kinds_of(own, text):
-            yield own.fault(line, f"показывать нечего: нет «{text}»",
+    model = reading.model
+    for kind, text, line in lines_of(reading):
+        if kind == "show" and not kinds_of(reading, text):
+            yield reading.fault(line, f"показывать нечего: нет «{text}»",
                             "назовите список, таблицу, сетку или диаграмму", text)  # fmt: skip
         if kind == "formula" and getattr(model.nodes.get(text), "expr", None) is None:
-            yield own.fault(line, f"формулы «{text}» нет",
+            yield reading.fault(line, f"формулы «{text}» нет",
                             "назовите величину или ТАБЛИЦА.СТОЛБЕЦ", text)  # fmt: skip
         for word, key in MARK.findall(text):
             if word not in KINDS and key not in model.scalars and key not in model.fields:
-                yield own.fault(
+                yield reading.fault(
                     line, f"в тексте нет «{key}»", "назовите величину или исходное", key
                 )
-            if word in KINDS and KINDS[word] not in kinds_of(own, key):
-                yield _of_another_kind(own, line, word, key)
+            if word in KINDS and KINDS[word] not in kinds_of(reading, key):
+                yield _of_another_kind(reading, line, word, key)
         odd = _ODD_MARK.search(MARK.sub("", text))
         if odd is not None:
-            yield own.fault(line, f"«{odd[0].strip('⟦⟧')}» не разобрано",
+            yield reading.fault(line, f"«{odd[0].strip('⟦⟧')}» не разобрано",
                             'пишите {{ val("ИМЯ") }}')  # fmt: skip
 
 
-def _of_another_kind(own: Own, line: BookLine, word: str, key: str) -> BookError:
-    kinds = kinds_of(own, key)
+def _of_another_kind(reading: Own, line: BookLine, word: str, key: str) -> BookError:
+    kinds = kinds_of(reading, key)
     if not kinds:
-        what, mend = f"в тексте нет «{key}»", f"назовите то, что глава показывает: show {key}"
+        problem, mend = f"в тексте нет «{key}»", f"назовите то, что глава показывает: show {key}"
     else:
         other = next(each for each, of in KINDS.items() if of in kinds)
-        what, mend = f"«{key}» — {_CALLED[kinds[0]]}", f'пишите {{{{ {other}("{key}") }}}}'
-    return own.fault(line, what, mend, f'{word}("{key}")')
+        problem, mend = f"«{key}» — {_CALLED[kinds[0]]}", f'пишите {{{{ {other}("{key}") }}}}'
+    return reading.fault(line, problem, mend, f'{word}("{key}")')
 
 
-def shown(own: Own) -> Iterator[BookError]:
+def shown(reading: Own) -> Iterator[BookError]:
     """What chapters show twice, cannot show, or refer to without showing it."""
     once: dict[str, dict[str, int]] = {"show": {}, "formula": {}}
-    for kind, key, line in lines_of(own):
+    for kind, key, line in lines_of(reading):
         if kind not in once:
             continue
         if key in once[kind]:
             mend = f"оставьте одно {kind} (есть на строке {once[kind][key]})"
-            yield own.fault(line, f"«{key}» показано дважды", mend, key)
+            yield reading.fault(line, f"«{key}» показано дважды", mend, key)
         once[kind].setdefault(key, line.number)
-        chart = own.model.charts_by_id.get(key) if kind == "show" else None
+        chart = reading.model.charts_by_id.get(key) if kind == "show" else None
         if chart is not None and not chart.drawn_by("report"):
-            yield own.fault(line, f"у диаграммы «{key}» нет кривых для записки",
+            yield reading.fault(line, f"у диаграммы «{key}» нет кривых для записки",
                             "уберите workbook у одной из них", key)  # fmt: skip
-    theirs = own.places.blocks.keys() | own.places.charts.keys()
-    for _, text, line in lines_of(own):
+    theirs = reading.places.blocks.keys() | reading.places.charts.keys()
+    for _, text, line in lines_of(reading):
         for word, key in MARK.findall(text):
-            is_shown = key in once["show"] and kinds_of(own, key)[:1] == [KINDS.get(word)]
+            is_shown = key in once["show"] and kinds_of(reading, key)[:1] == [KINDS.get(word)]
             if word in KINDS and key in theirs and not is_shown:
-                yield own.fault(line, f"«{key}» в записке не показано",
+                yield reading.fault(line, f"«{key}» в записке не показано",
                                 f"допишите строку show {key}", f'{word}("{key}")')  # fmt: skip

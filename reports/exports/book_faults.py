@@ -53,10 +53,12 @@ class Own:
     places: BookPlaces
     shelf: Shelf
 
-    def fault(self, line: BookLine | None, what: str, hint: str, fragment: str = "") -> BookError:
+    def fault(
+        self, line: BookLine | None, problem: str, hint: str, fragment: str = ""
+    ) -> BookError:
         """A mistake on a line; on the first one of the books where none is known."""
         at = line or BookLine(f"{self.shelf.names[0]}.book", 1, "")
-        return at_fragment(at, self.shelf, what, hint, fragment)
+        return at_fragment(at, self.shelf, problem, hint, fragment)
 
     def formulas(self) -> Iterator[tuple[str, str, BookLine]]:
         """Nodes of the books with their formulas and lines."""
@@ -75,57 +77,65 @@ def short_of(key: str) -> str:
     return _PREFIX.sub("", key.rpartition(".")[2])
 
 
-def repeated(own: Own) -> Iterator[BookError]:
+def repeated(reading: Own) -> Iterator[BookError]:
     """Names that stand for two things, which no workbook tells apart."""
-    seen: dict[str, str] = {field.name.casefold(): field.name for field in own.model.inputs}
+    seen: dict[str, str] = {field.name.casefold(): field.name for field in reading.model.inputs}
     ids: set[str] = set()
     told: set[tuple[BookLine, str]] = set()  # the value and the verdict of a check are one
-    for block in own.model.blocks:
+    for block in reading.model.blocks:
         if block.id in ids:
-            yield own.fault(own.places.line_of(block.id), f"блок «{block.id}» есть дважды",
+            yield reading.fault(reading.places.line_of(block.id), f"блок «{block.id}» есть дважды",
                             "назовите его иначе", block.id)  # fmt: skip
         ids.add(block.id)
         for key, _ in nodes_in(block):
-            line = own.places.nodes.get(key)
+            line = reading.places.nodes.get(key)
             if (line, short_of(key)) in told:
                 continue
             if key.casefold() in seen and line is not None:
                 told.add((line, short_of(key)))
                 name, other = short_of(key), short_of(seen[key.casefold()])
-                what = f"имя проверки «{name}» занято" if name != key else f"имя «{key}» занято"
+                problem = f"имя проверки «{name}» занято" if name != key else f"имя «{key}» занято"
                 more = f" («{other}»)" if other != name else ""
-                yield own.fault(line, what + more, "назовите иначе", name)
+                yield reading.fault(line, problem + more, "назовите иначе", name)
             elif line is not None and "." not in key and _CELL_LIKE.fullmatch(key):
-                yield own.fault(line, f"имя «{key}» похоже на адрес ячейки Excel",
+                yield reading.fault(line, f"имя «{key}» похоже на адрес ячейки Excel",
                                 "добавьте знак подчёркивания", key)  # fmt: skip
             seen.setdefault(key.casefold(), key)
-    charts = Counter(chart.id for chart in own.model.charts)
-    for name, lines in own.places.charts.items():
+    charts = Counter(chart.id for chart in reading.model.charts)
+    for name, lines in reading.places.charts.items():
         if charts[name] > 1:
-            yield own.fault(lines[0], f"диаграмма «{name}» есть дважды", "назовите её иначе", name)
+            yield reading.fault(
+                lines[0], f"диаграмма «{name}» есть дважды", "назовите её иначе", name
+            )
 
 
-def sheets(own: Own) -> Iterator[BookError]:
+def sheets(reading: Own) -> Iterator[BookError]:
     """Sheets that the workbook has already, and those of which no one says where they stand."""
-    contents = contents_of(own.shelf)
-    theirs = {block.sheet for block in own.model.blocks if block.id not in own.places.blocks}
-    theirs |= {title for title, line in _sheet_lines(own.shelf, house=True)}
-    known = {title.casefold() for title in (*theirs, *_TAKEN_SHEETS)}
-    known |= {diagrams_of(chapter).casefold() for chapter in contents.chapters}
-    for title, line in _sheet_lines(own.shelf, house=False):
-        if title.casefold() in known:
-            yield own.fault(line, f"лист «{title}» есть у программы", "назовите лист иначе", title)
-    for block in own.model.blocks:
-        lines = own.places.blocks.get(block.id)
-        if not lines or block.sheet.casefold() in known:
+    contents = contents_of(reading.shelf)
+    theirs = {
+        block.sheet for block in reading.model.blocks if block.id not in reading.places.blocks
+    }
+    theirs |= {title for title, line in _sheet_lines(reading.shelf, house=True)}
+    titles = {title.casefold() for title in (*theirs, *_TAKEN_SHEETS)}
+    titles |= {diagrams_of(chapter).casefold() for chapter in contents.chapters}
+    for title, line in _sheet_lines(reading.shelf, house=False):
+        if title.casefold() in titles:
+            yield reading.fault(
+                line, f"лист «{title}» есть у программы", "назовите лист иначе", title
+            )
+    for block in reading.model.blocks:
+        lines = reading.places.blocks.get(block.id)
+        if not lines or block.sheet.casefold() in titles:
             continue
-        known.add(block.sheet.casefold())
+        titles.add(block.sheet.casefold())
         try:
             place_of(block.sheet, contents)
         except LookupError:
-            what = f"лист «{block.sheet}» не назван" if block.sheet else "лист не назван"
+            problem = f"лист «{block.sheet}» не назван" if block.sheet else "лист не назван"
             form = "пишите sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"
-            yield own.fault(lines[0], f"{what}: где стоять блоку «{block.id}»", form, block.id)
+            yield reading.fault(
+                lines[0], f"{problem}: где стоять блоку «{block.id}»", form, block.id
+            )
 
 
 def _sheet_lines(shelf: Shelf, *, house: bool) -> Iterator[tuple[str, BookLine]]:
@@ -138,76 +148,80 @@ def _sheet_lines(shelf: Shelf, *, house: bool) -> Iterator[tuple[str, BookLine]]
                     yield sheet["title"].strip(), BookLine(f"{name}.book", number, line)
 
 
-def symbols(own: Own) -> Iterator[BookError]:
+def symbols(reading: Own) -> Iterator[BookError]:
     """Quantities with the symbol of the mechanism's own, which every chapter means by it."""
-    sizes = [block for block in own.model.blocks if block.id == _SIZES]
-    known = {node.quantity.symbol: (key, node.quantity.title)
+    sizes = [block for block in reading.model.blocks if block.id == _SIZES]
+    quantities = {node.quantity.symbol: (key, node.quantity.title)
              for block in sizes for key, node in nodes_in(block)}  # fmt: skip
-    known |= {item.symbol: (item.name, item.title) for item in own.model.inputs
+    quantities |= {item.symbol: (item.name, item.title) for item in reading.model.inputs
               if item.path[0] == _SIZES}  # fmt: skip
-    for name, text in own.shelf.own:
-        for key, about in quantities_of(((name, text),)).items():
-            if about.symbol in known:
-                other, title = known[about.symbol]
-                line = BookLine(f"{_stem(own.shelf, name)}.book", line_of_quantity(text, key), "")
-                yield own.fault(line, f"обозначение «{about.symbol}» уже у «{other}» ({title})",
-                                "дайте своей величине другое", about.tex)  # fmt: skip
+    for name, text in reading.shelf.own:
+        for key, quantity in quantities_of(((name, text),)).items():
+            if quantity.symbol in quantities:
+                other, title = quantities[quantity.symbol]
+                line = BookLine(
+                    f"{_stem(reading.shelf, name)}.book", line_of_quantity(text, key), ""
+                )
+                yield reading.fault(
+                    line, f"обозначение «{quantity.symbol}» уже у «{other}» ({title})",
+                    "дайте своей величине другое", quantity.tex,
+                )  # fmt: skip
 
 
 def _stem(shelf: Shelf, name: str) -> str:
-    return next(stem for stem, (given, _) in zip(shelf.names, shelf.own, strict=True)
-                if given == name)  # fmt: skip
+    return next(stem for stem, (full_name, _) in zip(shelf.names, shelf.own, strict=True)
+                if full_name == name)  # fmt: skip
 
 
-def odd_words(own: Own) -> Iterator[BookError]:
+def odd_words(reading: Own) -> Iterator[BookError]:
     """Texts that a spreadsheet takes for a formula or a page for a tag."""
-    for block in own.model.blocks:
+    for block in reading.model.blocks:
         nodes = dict(nodes_in(block))
-        if block.id not in own.places.blocks:
+        if block.id not in reading.places.blocks:
             continue
         texts = [block.title, block.note, *(node.source for node in nodes.values())]
         texts += [getattr(node, "note", "") for node in nodes.values()]
         texts += block.labels if isinstance(block, Grid) else ()
-        yield from _odd(own, block.id, texts)
-    for chart in own.model.charts:
-        if chart.id in own.places.charts:
+        yield from _odd(reading, block.id, texts)
+    for chart in reading.model.charts:
+        if chart.id in reading.places.charts:
             texts = [chart.title, chart.caption, chart.x_title, chart.y_title, chart.group,
                      chart.panel, *(series.name for series in chart.series)]  # fmt: skip
-            yield from _odd(own, chart.id, texts)
-    for chapter in own.model.chapters:
-        yield from _odd(own, f"text {chapter.title}", [chapter.title])
+            yield from _odd(reading, chart.id, texts)
+    for chapter in reading.model.chapters:
+        yield from _odd(reading, f"text {chapter.title}", [chapter.title])
         for line in chapter.lines:
             at = BookLine(line.book, line.number, line.text)
-            yield from _odd(own, at, [line.text])
+            yield from _odd(reading, at, [line.text])
 
 
-def _odd(own: Own, at: str | BookLine, texts: list[str]) -> Iterator[BookError]:
+def _odd(reading: Own, at: str | BookLine, texts: list[str]) -> Iterator[BookError]:
     for text in texts:
         tag = re.search(r"<\s*[A-Za-z/!]|&#|javascript:", text)
         if tag or (len(text) > 1 and text.startswith(_STARTS_FORMULA)):
-            line = own.places.line_of(at, text) if isinstance(at, str) else at
-            yield own.fault(line, f"текст «{one_line(text, 40)}» похож на формулу или код",
+            line = reading.places.line_of(at, text) if isinstance(at, str) else at
+            yield reading.fault(line, f"текст «{one_line(text, 40)}» похож на формулу или код",
                             "оставьте обычные слова", tag[0] if tag else text)  # fmt: skip
 
 
-def unknown_in_charts(own: Own) -> Iterator[BookError]:
+def unknown_in_charts(reading: Own) -> Iterator[BookError]:
     """What charts name and the model has not, and curves whose ends do not meet."""
-    model = own.model
+    model = reading.model
     known = model.nodes.keys() | model.grid_runs.keys()
     for chart in model.charts:
-        if chart.id not in own.places.charts:
+        if chart.id not in reading.places.charts:
             continue
         names = {name for series in chart.series for name in (series.x, series.y)}
         unknown = sorted(names - known) + sorted({*chart.levels} - _single(model))
         unknown += [chart.hole] if chart.hole and chart.hole not in model.scalars else []
         unknown += [each for key in chart.contact if (each := key.lstrip("-")) not in known]
         for name in unknown:
-            yield own.fault(own.places.line_of(chart.id, name),
+            yield reading.fault(reading.places.line_of(chart.id, name),
                             f"диаграмма «{chart.id}»: нет «{name}»",
                             "назовите столбец ТАБЛИЦА.КЛЮЧ", name)  # fmt: skip
         for series in chart.series if not unknown else ():
             if _length(model, series.x) != _length(model, series.y):
-                yield own.fault(own.places.line_of(chart.id, series.y),
+                yield reading.fault(reading.places.line_of(chart.id, series.y),
                                 f"у «{series.x}» и «{series.y}» разное число значений",
                                 "возьмите столбцы одной таблицы", series.y)  # fmt: skip
 
@@ -224,33 +238,34 @@ def _length(model: Model, name: str) -> int:
     return len(table.rows) if table is not None else 0
 
 
-def unknown_names(own: Own) -> Iterator[BookError]:
+def unknown_names(reading: Own) -> Iterator[BookError]:
     """Names that formulas do not know, and circles."""
-    yield from book_faults(own.model, own.places.nodes, own.shelf)
+    yield from book_faults(reading.model, reading.places.nodes, reading.shelf)
 
 
-def unfit(own: Own) -> Iterator[BookError]:
+def unfit(reading: Own) -> Iterator[BookError]:
     """Formulas that no cell takes, and books of too many cells."""
-    nodes = own.places.nodes
-    cells = sum(len(table.rows) for table in own.model.tables.values() for column in table.columns
+    nodes = reading.places.nodes
+    tables = reading.model.tables
+    cells = sum(len(table.rows) for table in tables.values() for column in table.columns
                 if f"{table.id}.{column.key}" in nodes)  # fmt: skip
     if cells + len(nodes) > MOST_CELLS:
-        largest = max((own.model.tables[key] for key in own.places.blocks
-                       if key in own.model.tables), key=lambda table: len(table.rows))  # fmt: skip
-        yield own.fault(own.places.line_of(largest.id), f"ячеек больше {MOST_CELLS}",
-                        "уменьшите таблицы", largest.id)  # fmt: skip
+        largest = max((tables[key] for key in reading.places.blocks if key in tables),
+                      key=lambda table: len(table.rows))  # fmt: skip
+        yield reading.fault(reading.places.line_of(largest.id), f"ячеек больше {MOST_CELLS}",
+                            "уменьшите таблицы", largest.id)  # fmt: skip
         return
-    layout = Layout.of(own.model)
-    for key, expr, line in own.formulas():
+    layout = Layout.of(reading.model)
+    for key, expr, line in reading.formulas():
         name = short_of(key)
         try:
-            formula = compile_formula(expr, RowReferences(layout, own.table_of(key)))
+            formula = compile_formula(expr, RowReferences(layout, reading.table_of(key)))
         except Exception as error:
-            yield own.fault(line, f"формула «{name}» не для ячейки: {cause_of(error)}",
+            yield reading.fault(line, f"формула «{name}» не для ячейки: {cause_of(error)}",
                             "проверьте, где имя столбца, а где число", name)  # fmt: skip
             continue
         if len(formula) > MOST_FORMULA or _nested(parse(expr)) > MOST_NESTED:
-            yield own.fault(line, f"формула «{name}» для ячейки Excel велика",
+            yield reading.fault(line, f"формула «{name}» для ячейки Excel велика",
                             "разделите её на несколько величин", name)  # fmt: skip
 
 
@@ -260,11 +275,11 @@ def _nested(node: ast.AST) -> int:
     return inner + isinstance(node, ast.Call | ast.IfExp | ast.BoolOp)
 
 
-def infinite(own: Own) -> Iterator[BookError]:
+def infinite(reading: Own) -> Iterator[BookError]:
     """Values that are no numbers."""
-    run = Evaluation(own.model)
-    for key, line in own.places.nodes.items():
-        node, name = own.model.nodes.get(key), short_of(key)
+    run = Evaluation(reading.model)
+    for key, line in reading.places.nodes.items():
+        node, name = reading.model.nodes.get(key), short_of(key)
         if node is None:
             continue
         is_text = False
@@ -276,13 +291,13 @@ def infinite(own: Own) -> Iterator[BookError]:
             else:
                 fine = is_text or bool(np.isfinite(float(value)))
         except Exception as error:
-            yield own.fault(line, f"«{name}» не вычисляется: {cause_of(error)}",
+            yield reading.fault(line, f"«{name}» не вычисляется: {cause_of(error)}",
                             "проверьте формулу и то, от чего она зависит", name)  # fmt: skip
             return
         if is_text and node.of == "check_value":
-            yield own.fault(line, f"«{name}» — текст, а проверяют число",
+            yield reading.fault(line, f"«{name}» — текст, а проверяют число",
                             "назовите величину с числом", name)  # fmt: skip
         if not fine:
-            yield own.fault(line, f"«{name}» — не число",
+            yield reading.fault(line, f"«{name}» — не число",
                             "проверьте деление на нуль, корни и логарифмы", name)  # fmt: skip
             return

@@ -29,24 +29,24 @@ _IN_PLACE_OF = {"max": "col_max", "min": "col_min", "total": "col_sum"}
 _OF_COLUMNS = "col_max, col_min, col_mean, col_sum, col_last"
 
 
-def misread(own: Own) -> Iterator[BookError]:
+def misread(reading: Own) -> Iterator[BookError]:
     """Columns where one number is meant, and rows that do not lie side by side."""
-    for key, expr, line in own.formulas():
-        table = own.table_of(key)
+    for key, expr, line in reading.formulas():
+        table = reading.table_of(key)
         for name, function, whole in _read(parse(expr), "", whole=False):
-            node = node_of(name, "" if table is None else table.id, own.model)
-            other = own.model.tables.get(node.partition(".")[0]) if "." in node else None
-            run = node in own.model.grid_runs or node in own.model.input_runs
+            node = node_of(name, "" if table is None else table.id, reading.model)
+            other = reading.model.tables.get(node.partition(".")[0]) if "." in node else None
+            run = node in reading.model.grid_runs or node in reading.model.input_runs
             if whole and other is None and not run:
-                yield own.fault(line, f"{function} берёт столбец, а «{name}» — одно число",
+                yield reading.fault(line, f"{function} берёт столбец, а «{name}» — одно число",
                                 "назовите столбец ТАБЛИЦА.КЛЮЧ", name)  # fmt: skip
             elif not whole and (run or (other is not None and table is None)):
                 mend = _IN_PLACE_OF.get(function)
                 usual = f"возьмите от него одно число: {_OF_COLUMNS}"
-                yield own.fault(line, f"«{name}» — столбец, а «{short_of(key)}» — одно число",
+                yield reading.fault(line, f"«{name}» — столбец, а «{short_of(key)}» — одно число",
                                 f"пишите {mend}({name})" if mend else usual, name)  # fmt: skip
             elif not whole and table is not None and other is not None and _apart(table, other):
-                yield own.fault(line, f"строки «{name}» ({_rows(other)}) — не строки таблицы "
+                yield reading.fault(line, f"строки «{name}» ({_rows(other)}) — не строки таблицы "
                                 f"«{table.id}» ({_rows(table)})",
                                 "берите столбцы таблицы с теми же строками", name)  # fmt: skip
 
@@ -81,10 +81,10 @@ def _rows(table: TableSpec) -> str:
     return f"{table.rows[0]:g}…{table.rows[-1]:g}, строк {len(table.rows)}" if table.rows else "0"
 
 
-def compared(own: Own) -> Iterator[BookError]:
+def compared(reading: Own) -> Iterator[BookError]:
     """Choices compared with what they never are, in formulas and in statements."""
-    for key, expr, line in own.formulas():
-        table = own.table_of(key)
+    for key, expr, line in reading.formulas():
+        table = reading.table_of(key)
         for node in ast.walk(parse(expr)):
             if not isinstance(node, ast.Compare):
                 continue
@@ -93,13 +93,13 @@ def compared(own: Own) -> Iterator[BookError]:
                 if not (isinstance(text, ast.Constant) and isinstance(text.value, str)):
                     continue
                 name = ast.unparse(other)
-                of = node_of(name, "" if table is None else table.id, own.model)
-                what, mend = _never(own.model, name, of, text.value)
-                if not what and not isinstance(node.ops[0], ast.Eq | ast.NotEq):
-                    what, mend = "тексты не больше и не меньше", "сравнивайте == и !="
-                if what:
-                    yield own.fault(line, what, mend, f'"{text.value}"')
-    yield from _in_statements(own)
+                of = node_of(name, "" if table is None else table.id, reading.model)
+                problem, mend = _never(reading.model, name, of, text.value)
+                if not problem and not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+                    problem, mend = "тексты не больше и не меньше", "сравнивайте == и !="
+                if problem:
+                    yield reading.fault(line, problem, mend, f'"{text.value}"')
+    yield from _in_statements(reading)
 
 
 def _never(model: Model, name: str, node: str, text: str) -> tuple[str, str]:
@@ -135,22 +135,22 @@ def _texts(node: ast.expr) -> set[str]:
     return set()
 
 
-def _in_statements(own: Own) -> Iterator[BookError]:
+def _in_statements(reading: Own) -> Iterator[BookError]:
     """Comparisons of ``value.SECTION.KEY`` with a word that the choice has not."""
-    environment = environment_of(own.shelf)
-    for stem, (_, text) in zip(own.shelf.names, own.shelf.own, strict=True):
+    environment = environment_of(reading.shelf)
+    for stem, (_, text) in zip(reading.shelf.names, reading.shelf.own, strict=True):
         tree: nodes.Template = environment.parse(text)
         for node in tree.find_all(nodes.Compare):
-            path, words = _path(node.expr), _words(own, _path(node.expr))
+            path, words = _path(node.expr), _words(reading, _path(node.expr))
             for each in node.ops if words else ():
                 word = each.expr
                 if not (isinstance(word, nodes.Const) and isinstance(word.value, str)):
                     continue
                 if word.value not in words:
                     line = BookLine(f"{stem}.book", node.lineno, "")
-                    what = f"{'.'.join(path)} не бывает «{one_line(word.value, 40)}»"
+                    problem = f"{'.'.join(path)} не бывает «{one_line(word.value, 40)}»"
                     mend = "в условии — слово выбора: " + ", ".join(words)
-                    yield own.fault(line, what, mend, word.value)
+                    yield reading.fault(line, problem, mend, word.value)
 
 
 def _path(node: nodes.Node) -> tuple[str, ...]:
@@ -162,12 +162,12 @@ def _path(node: nodes.Node) -> tuple[str, ...]:
     return (node.name, *parts) if isinstance(node, nodes.Name) else ()
 
 
-def _words(own: Own, path: tuple[str, ...]) -> list[str]:
+def _words(reading: Own, path: tuple[str, ...]) -> list[str]:
     """Words of the choice at a path of values."""
     match path:
         case ("value", "own", section, key):
-            about = sections_of(own.model.input.books).get(section)
-            models: tuple[Any, ...] = () if about is None else (about.model,)
+            section_model = sections_of(reading.model.input.books).get(section)
+            models: tuple[Any, ...] = () if section_model is None else (section_model.model,)
         case ("value", section, key) if section in SECTIONS:
             models = SECTIONS[section].models
         case _:

@@ -45,57 +45,61 @@ def refuse_unbuilt(model: InputFile, *, whole: bool) -> None:
     """
     if not model.books:
         return
-    own = read_books(model)
-    values = evaluate_model(own.model)
-    for faults in (_unset_symbols(own), _unplaced(own, values), _unmade(own, values, whole=whole)):
+    reading = read_books(model)
+    values = evaluate_model(reading.model)
+    for faults in (
+        _unset_symbols(reading),
+        _unplaced(reading, values),
+        _unmade(reading, values, whole=whole),
+    ):
         problems = [fault.problems[0] for fault in faults]
         if problems:
             raise InputError(problems)
 
 
-def _unset_symbols(own: Own) -> Iterator[BookError]:
+def _unset_symbols(reading: Own) -> Iterator[BookError]:
     """Symbols that are no TeX."""
-    for stem, (_, text) in zip(own.shelf.names, own.shelf.own, strict=True):
-        for key, about in declared(text).quantities.items():
+    for stem, (_, text) in zip(reading.shelf.names, reading.shelf.own, strict=True):
+        for key, quantity in declared(text).quantities.items():
             try:
-                formula(about.tex)
-                omath(about.tex)
+                formula(quantity.tex)
+                omath(quantity.tex)
             except (FormulaImageError, ValueError, KeyError, IndexError):
                 line = BookLine(f"{stem}.book", line_of_quantity(text, key), "")
-                yield own.fault(line, f"обозначение «{about.tex}» не набирается",
-                                "проверьте скобки и команды TeX", about.tex)  # fmt: skip
+                yield reading.fault(line, f"обозначение «{quantity.tex}» не набирается",
+                                "проверьте скобки и команды TeX", quantity.tex)  # fmt: skip
 
 
-def _unplaced(own: Own, values: Values) -> Iterator[BookError]:
+def _unplaced(reading: Own, values: Values) -> Iterator[BookError]:
     """What a chapter shows again or refers to though the report has it nowhere."""
-    report = Report(replace(own.model, chapters=()), values)
+    report = Report(replace(reading.model, chapters=()), values)
     placed, elsewhere = report.names
-    shows = {(of, text) for kind, text, _ in lines_of(own) if kind == "show"
-             for of in kinds_of(own, text)[:1]}  # fmt: skip
-    for kind, text, line in lines_of(own):
-        first = kinds_of(own, text)[:1] if kind == "show" else []
+    shows = {(of, text) for kind, text, _ in lines_of(reading) if kind == "show"
+             for of in kinds_of(reading, text)[:1]}  # fmt: skip
+    for kind, text, line in lines_of(reading):
+        first = kinds_of(reading, text)[:1] if kind == "show" else []
         if any((of, text) in placed for of in first):
             word = next(word for word, of in KINDS.items() if of in first)
-            yield own.fault(line, f"«{text}» уже стоит в записке",
+            yield reading.fault(line, f"«{text}» уже стоит в записке",
                             f'сошлитесь: {{{{ {word}("{text}") }}}}', text)  # fmt: skip
         if kind == "formula" and ("formula", FORMULA + text) in placed:
-            yield own.fault(line, f"формула «{text}» уже стоит в записке",
+            yield reading.fault(line, f"формула «{text}» уже стоит в записке",
                             f'назовите значение: {{{{ eqv("{text}") }}}}', text)  # fmt: skip
         for word, key in MARK.findall(text):
             name = (KINDS.get(word, ""), key)
             if name[0] and name not in shows | placed | elsewhere:
-                yield own.fault(line, f"«{key}» в записке нигде нет",
+                yield reading.fault(line, f"«{key}» в записке нигде нет",
                                 f"допишите строку show {key}", key)  # fmt: skip
 
 
-def _unmade(own: Own, values: Values, *, whole: bool) -> Iterator[BookError]:
+def _unmade(reading: Own, values: Values, *, whole: bool) -> Iterator[BookError]:
     """Documents that are not made."""
-    report = Report(_alone(own.model), values)
+    report = Report(_alone(reading.model), values)
     makers: list[tuple[str, Callable[[], object]]] = [
         ("записка", lambda: report.page("screen")),
     ]
     if whole:
-        short = short_model(own.model)
+        short = short_model(reading.model)
         makers += [("записка Word", lambda: report_docx(report)),
                    ("книга Excel", lambda: workbook_bytes(short, values))]  # fmt: skip
     for name, make in makers:
@@ -107,7 +111,7 @@ def _unmade(own: Own, values: Values, *, whole: bool) -> Iterator[BookError]:
         except KshmError:
             raise
         except Exception as error:
-            yield own.fault(None, f"{name} с этой книгой не складывается: {cause_of(error)}",
+            yield reading.fault(None, f"{name} с этой книгой не складывается: {cause_of(error)}",
                             "уберите последнее, что написали, и проверьте снова")  # fmt: skip
             return
 
@@ -137,9 +141,9 @@ def check_alone(path: Path) -> Iterator[str]:
             if sample == TRIED[0]:
                 raise
             raise InputError([_on_sample(each, sample) for each in error.problems]) from None
-    about = declared(text)
-    inputs = len(about.model.model_fields) if about.model is not None else 0
-    yield f"{path}: ошибок нет; исходных {inputs}, своих величин {len(about.quantities)}"
+    declared_names = declared(text)
+    inputs = len(declared_names.model.model_fields) if declared_names.model is not None else 0
+    yield f"{path}: ошибок нет; исходных {inputs}, своих величин {len(declared_names.quantities)}"
     yield f"Проверено на образцах: {', '.join(TRIED)}"
 
 

@@ -33,7 +33,7 @@ _CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed
 def results(model: Model, solution: Solution) -> Iterator[Data]:
     """The summaries of workbook and report with the numbers of chain and regimes: what is quick."""
     quick = solution.scalars if solution.engine.regimes else solution.chain_scalars
-    own = Evaluation(model)
+    evaluation = Evaluation(model)
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
             values = ((each, solution.scalar(each.key)) for each in block.scalars
@@ -43,7 +43,7 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
                 yield {"id": block.id, "title": block.title, "rows": rows}
     for block in model.blocks:  # of own books, but for their checks
         if isinstance(block, ScalarTable) and block.verdicts is None:
-            rows = [_row(each, own.value(each.key)) for each in block.scalars
+            rows = [_row(each, evaluation.value(each.key)) for each in block.scalars
                     if each.key in model.department]  # fmt: skip
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}

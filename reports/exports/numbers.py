@@ -22,17 +22,17 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def export_tables(
-    solution: Solution, own: OwnNumbers | None = None
+    solution: Solution, extra: OwnNumbers | None = None
 ) -> dict[str, dict[str, list[float | str | None]]]:
     """All tables by id, columns by key; cells that the table leaves blank are None.
 
-    ``own`` are the numbers of own books.
+    ``extra`` are the numbers of own books.
     """
     tables: dict[str, dict[str, list[float | str | None]]] = {}
     by_file: dict[str, Mapping[str, Any]] = {
         **solution.columns, **solution.wear_sums, **reference_tables(),
     }  # fmt: skip
-    for name, theirs in own.tables.items() if own else ():
+    for name, theirs in extra.tables.items() if extra else ():
         by_file[name] = {key: values for key, (_, values) in theirs.items()}
     for name, columns in by_file.items():
         tables[name] = {
@@ -104,7 +104,7 @@ def neutralised(text: str) -> str:
 
 
 def json_text(
-    model: InputFile, solution: Solution, notes: Sequence[str] = (), own: OwnNumbers | None = None
+    model: InputFile, solution: Solution, notes: Sequence[str] = (), extra: OwnNumbers | None = None
 ) -> str:
     """Engine, summary, tables as JSON with symbols, units, titles; notes where there are any."""
     engine = {field.name: field.value for field in iter_fields(model)}
@@ -116,16 +116,16 @@ def json_text(
         for key, value in solution.scalars.items()
     }
     quantities: dict[tuple[str, str], Quantity] = {}
-    for key, (about, value) in own.scalars.items() if own else ():
-        summary[key] = {"value": value, **_described(about)}
-    for name, theirs in own.tables.items() if own else ():
-        quantities |= {(name, key): about for key, (about, _) in theirs.items()}
+    for key, (measure, value) in extra.scalars.items() if extra else ():
+        summary[key] = {"value": value, **_described(measure)}
+    for name, theirs in extra.tables.items() if extra else ():
+        quantities |= {(name, key): measure for key, (measure, _) in theirs.items()}
     tables = {
         name: {
             "columns": [_describe(key, quantities.get((name, key))) for key in columns],
             "rows": [list(row) for row in zip(*columns.values(), strict=True)],
         }
-        for name, columns in export_tables(solution, own).items()
+        for name, columns in export_tables(solution, extra).items()
     }
     data: dict[str, Any] = {"engine": engine, "summary": summary, "tables": tables}
     if notes:
@@ -133,14 +133,14 @@ def json_text(
     return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def _describe(key: str, own: Quantity | None = None) -> dict[str, str]:
+def _describe(key: str, stated: Quantity | None = None) -> dict[str, str]:
     try:
-        known = own or quantity(key)
+        measure = stated or quantity(key)
     except KeyError:
         symbol = key.removeprefix("lambda_")
         return {"key": key, "symbol": symbol, "unit": "", "title": key}
-    return {"key": key, **_described(known)}
+    return {"key": key, **_described(measure)}
 
 
-def _described(about: Quantity) -> dict[str, str]:
-    return {"symbol": about.symbol, "unit": about.unit_label, "title": about.title}
+def _described(described: Quantity) -> dict[str, str]:
+    return {"symbol": described.symbol, "unit": described.unit_label, "title": described.title}

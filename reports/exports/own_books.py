@@ -52,23 +52,23 @@ def read_books(model: InputFile) -> Own:
     Raises:
         InputError: everything that cannot be read.
     """
-    shelf, scope, places = shelf_of(model.books), Scope(model), BookPlaces()
+    shelf, scope, lines = shelf_of(model.books), Scope(model), BookPlaces()
     parts = [name for names in contents_of(shelf).parts.values() for name in names]
     problems: list[Problem] = []
     for name in shelf.names:
         if name in parts:
             try:
-                book_part(name, scope, places)
+                book_part(name, scope, lines)
             except BookError as error:
                 problems += error.problems
         elif not _serves_others(shelf, name):
-            what = "нет строки place: книгу никто не читает"
+            problem = "нет строки place: книгу никто не читает"
             problems += BookError(
-                shelf.called(name), 1, 1, what, "добавьте place after 700"
+                shelf.called(name), 1, 1, problem, "добавьте place after 700"
             ).problems
     if problems:
         raise InputError(problems)
-    return Own(kept_model(model), places, shelf)
+    return Own(kept_model(model), lines, shelf)
 
 
 def _serves_others(shelf: Shelf, name: str) -> bool:
@@ -83,9 +83,9 @@ def _read_faults(model: InputFile) -> Iterator[Problem]:
         yield from error.problems
         return
     for kind in _KINDS:
-        told = [fault.problems[0] for fault in kind(own)]
-        if told:
-            yield from told
+        problems = [fault.problems[0] for fault in kind(own)]
+        if problems:
+            yield from problems
             return
 
 

@@ -98,6 +98,6 @@ def _function(name: str) -> str:
         return f"пишите {row} для чисел или {column}(ТАБЛИЦА.СТОЛБЕЦ) для столбца"
     if word in MEANT:
         return f"пишите {MEANT[word]}"
-    near = difflib.get_close_matches(word, MEANT, n=1, cutoff=0.8)
-    likely = f"возможно, {MEANT[near[0]]}; " if near else ""
+    similar = difflib.get_close_matches(word, MEANT, n=1, cutoff=0.8)
+    likely = f"возможно, {MEANT[similar[0]]}; " if similar else ""
     return f"{likely}функции перечислены в docs/books.md"

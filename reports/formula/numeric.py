@@ -49,8 +49,8 @@ def _fourier(turn: Callable[[Value], Value]) -> Callable[[Value, Value, Value], 
 def _wave(turn: Callable[[Value], Value]) -> Callable[..., Value]:
     """Sum of waves, weighted or not, over all of a run; one order or one per row."""
 
-    def total(*given: Value) -> Value:
-        *weights, degrees, order = given
+    def total(*arguments: Value) -> Value:
+        *weights, degrees, order = arguments
         waves = turn(np.multiply.outer(order, np.radians(degrees)))
         return waves @ np.asarray(weights[0], dtype=float) if weights else waves.sum(axis=-1)
 
@@ -58,8 +58,10 @@ def _wave(turn: Callable[[Value], Value]) -> Callable[..., Value]:
 
 
 def _place(x: Value, points: Value) -> Value:
-    known = np.asarray(points, dtype=float)
-    return np.clip(np.searchsorted(known, x, side="right"), 1, len(known) - 1).astype(float)
+    points_array = np.asarray(points, dtype=float)
+    return np.clip(np.searchsorted(points_array, x, side="right"), 1, len(points_array) - 1).astype(
+        float
+    )
 
 
 def _element(run: Value, number: Value) -> Value:

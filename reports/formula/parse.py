@@ -55,8 +55,8 @@ _COMMA = re.compile(r'^(?:[^"]|"[^"]*")*?(?<![\w.])\d+,\d')  # outside of texts
 class FormulaError(ValueError):
     """An expression is not of the language: the part that is not, and in Russian how to mend it."""
 
-    def __init__(self, what: str, fragment: str = "", mend: str = "") -> None:
-        super().__init__(what)
+    def __init__(self, problem: str, fragment: str = "", mend: str = "") -> None:
+        super().__init__(problem)
         self.fragment, self.mend = fragment, mend
 
 
@@ -73,13 +73,13 @@ def parse(text: str) -> ast.expr:
         FormulaError: a construct or function outside the language.
     """
     if len(text) > MOST_LETTERS:
-        what = f"an expression of more than {MOST_LETTERS} signs"
-        raise FormulaError(what, text[:40], "разделите формулу")
+        problem = f"an expression of more than {MOST_LETTERS} signs"
+        raise FormulaError(problem, text[:40], "разделите формулу")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        what = f"not an expression: {text!r} ({error.msg})"
-        raise FormulaError(what, *mended(text, is_known_function)) from error
+        problem = f"not an expression: {text!r} ({error.msg})"
+        raise FormulaError(problem, *mended(text, is_known_function)) from error
     except (RecursionError, MemoryError, ValueError):
         raise FormulaError("an expression too deep", text, "разделите формулу") from None
     if _COMMA.search(text):
@@ -142,8 +142,8 @@ def _refuse(node: ast.expr, text: str, mend: str = "") -> None:
     fragment = ast.get_source_segment(text.strip(), node) or ""
     if not mend:
         fragment, mend = mended(fragment, is_known_function)
-    what = f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}"
-    raise FormulaError(what, fragment, mend)
+    problem = f"not allowed in an expression: {ast.unparse(node)!r} in {text!r}"
+    raise FormulaError(problem, fragment, mend)
 
 
 def is_condition(text: str) -> bool:

@@ -57,8 +57,8 @@ class _FileRefusal:
     source: str
     file: str
 
-    def refused(self, what: str, hint: str = "", key: str = "gas.file") -> InputError:
-        text = f"{one_line(self.file, 60)}: {what}" if self.file else what
+    def refused(self, problem: str, hint: str = "", key: str = "gas.file") -> InputError:
+        text = f"{one_line(self.file, 60)}: {problem}" if self.file else problem
         return InputError(Problem(f"{self.source}: {key}", text, hint))
 
 
@@ -127,8 +127,11 @@ def _table(
     pressures, average = gas.get("pressure_column", 2), gas.get("average_cycles", False)
     listed = tuple(pressures) if isinstance(pressures, list) else (pressures,)
     if len(listed) != 1 and (average is not True or not listed):
-        what, hint = "столбцов давления несколько", "задайте average_cycles = true или один столбец"
-        raise refusal.refused(what, hint, key="gas.pressure_column")
+        problem, hint = (
+            "столбцов давления несколько",
+            "задайте average_cycles = true или один столбец",
+        )
+        raise refusal.refused(problem, hint, key="gas.pressure_column")
     columns = WantedColumns(
         gas.get("angle_column", 1), listed, frozenset({*UNITS_MPA, *_ALSO, *_ANGLES}),
         refusal.refused,
@@ -141,9 +144,9 @@ def _table(
     turn = (360.0 if period == 720.0 else 0.0) - float(tdc)
     points, notes = _closed(rows, turn, period, (average, speed), refusal)
     _check_lowest(points, rows, unit, called, average is True, refusal)
-    kept = {key: value for key, value in gas.items() if key not in KEYS}
+    others = {key: value for key, value in gas.items() if key not in KEYS}
     points_mpa = [[angle, pressure * unit] for angle, pressure in points]
-    return {"interpolation": "monotone", **kept, "source": "table", "points": points_mpa}, notes
+    return {"interpolation": "monotone", **others, "source": "table", "points": points_mpa}, notes
 
 
 def _with_cycles_beside(rows: Recorded, refusal: _FileRefusal) -> Recorded:
@@ -155,9 +158,9 @@ def _with_cycles_beside(rows: Recorded, refusal: _FileRefusal) -> Recorded:
     columns = [np.array(column) for column in rows.beside]
     count = alike_columns(np.array(rows.pressures[0]), columns)
     if 0 < count < len(columns):
-        what = f"столбцов циклов подряд {count + 1}, а за ними другие числа"
+        problem = f"столбцов циклов подряд {count + 1}, а за ними другие числа"
         hint = "назовите столбцы циклов: pressure_column = [2, 3, 4]"
-        raise refusal.refused(what, hint, key="gas.pressure_column")
+        raise refusal.refused(problem, hint, key="gas.pressure_column")
     return replace(rows, pressures=(*rows.pressures, *rows.beside[:count]))
 
 
@@ -167,10 +170,10 @@ def _unit(given: object, refusal: _FileRefusal) -> float:
     unit = UNITS_MPA.get(_ALSO.get(word, word))
     if unit is None:
         hint = "допустимо: " + ", ".join(UNITS_MPA)
-        what = "не указана единица давления"
+        problem = "не указана единица давления"
         if word:
-            what = f"неизвестная единица давления «{one_line(str(given), 20)}»"
-        raise refusal.refused(what, hint, key="gas.pressure_unit")
+            problem = f"неизвестная единица давления «{one_line(str(given), 20)}»"
+        raise refusal.refused(problem, hint, key="gas.pressure_unit")
     return unit
 
 
@@ -182,8 +185,8 @@ def _check_highest(rows: Recorded, unit: float, called: str, refusal: _FileRefus
     ]
     if bad:
         value = number_text(max(column[bad[0]] for column in rows.pressures))
-        what = f"строка {rows.lines[bad[0]]}: давление {value} {called}{_more(bad)}"
-        raise refusal.refused(what, f"допустимо до {MPA.text(high)}: проверьте pressure_unit")
+        problem = f"строка {rows.lines[bad[0]]}: давление {value} {called}{_more(bad)}"
+        raise refusal.refused(problem, f"допустимо до {MPA.text(high)}: проверьте pressure_unit")
 
 
 def _check_lowest(
@@ -204,17 +207,17 @@ def _check_lowest(
         bad = [i for i, pressure in enumerate(rows.pressures[0]) if pressure * unit < low]
         where, value = f"строка {rows.lines[bad[0]]}", rows.pressures[0][bad[0]]
         pressures = np.array(rows.pressures[0]) * unit
-    what = f"{where}: давление {number_text(float(f'{value:.6g}'))} {called}{_more(bad)}"
+    problem = f"{where}: давление {number_text(float(f'{value:.6g}'))} {called}{_more(bad)}"
     width = max(5, len(pressures) // 72)  # ten degrees of a cycle
     level = np.convolve(pressures, np.full(width, 1 / width), "valid").min()
     if level >= low:
         hint = "похоже на шум датчика: запишите несколько циклов, подряд или в столбцах, и задайте "
-        raise refusal.refused(what, hint + "average_cycles = true: давления будут усреднены")
+        raise refusal.refused(problem, hint + "average_cycles = true: давления будут усреднены")
     if pressures.min() < -ATMOSPHERE_MPA:
         hint = "ниже −1,013 бар не бывает ни абсолютного, ни избыточного давления: проверьте нуль "
-        raise refusal.refused(what, hint + "датчика, столбец и единицу")
+        raise refusal.refused(problem, hint + "датчика, столбец и единицу")
     hint = "нужно абсолютное давление: похоже, в файле избыточное, прибавьте атмосферное"
-    raise refusal.refused(what, hint)
+    raise refusal.refused(problem, hint)
 
 
 def _more(bad: list[int]) -> str:
@@ -276,14 +279,14 @@ def _cycles(
     if not is_several(angles, period):
         return 1, step
     if average is not True:
-        given = number_text(round(spread, 3))
-        what = f"углы занимают {given}°, больше цикла {number_text(period)}°"
+        span = number_text(round(spread, 3))
+        problem = f"углы занимают {span}°, больше цикла {number_text(period)}°"
         hint = "оставьте один цикл или задайте average_cycles = true: давления будут усреднены"
-        raise refusal.refused(what, hint)
+        raise refusal.refused(problem, hint)
     cycles = round((spread + step / 2) / period)
     if cycles < 2 or abs(spread + step / 2 - cycles * period) > step / 2 + 1e-6:
-        what = f"углы занимают {number_text(round(spread / period, 2))} цикла"
-        raise refusal.refused(what, "оставьте целое число циклов")
+        problem = f"углы занимают {number_text(round(spread / period, 2))} цикла"
+        raise refusal.refused(problem, "оставьте целое число циклов")
     return cycles, step
 
 
@@ -293,12 +296,12 @@ def _means(at: Array, pressures: Array, width: float, period: float) -> tuple[Ar
 
     count = round(period / width)
     # Beyond the last middle lies the first one.
-    near = np.where(at >= period - width / 2 - 1e-9, at - period, at)
-    places = np.floor(near / width + 0.5 + 1e-9).astype(int)
-    held = np.bincount(places, minlength=count)
+    wrapped = np.where(at >= period - width / 2 - 1e-9, at - period, at)
+    indices = np.floor(wrapped / width + 0.5 + 1e-9).astype(int)
+    held = np.bincount(indices, minlength=count)
     filled = held > 0
-    means = (np.bincount(places, values, count)[filled] / held[filled]
-             for values in (near, pressures))  # fmt: skip
+    means = (np.bincount(indices, values, count)[filled] / held[filled]
+             for values in (wrapped, pressures))  # fmt: skip
     middle, mean = means
     middle = np.round(middle, 6)
     if middle[0] < 0:
@@ -315,8 +318,8 @@ def _single(at: Array, pressures: Array, refusal: _FileRefusal) -> tuple[Array, 
     means = np.bincount(which, pressures) / held
     off = np.abs(pressures - means[which]) > CLOSING / 2 * pressures.max()
     if off.any():
-        what = f"при {number_text(float(at[off][0]))}° два разных давления"
-        raise refusal.refused(what, "проверьте столбцы и угол ВМТ")
+        problem = f"при {number_text(float(at[off][0]))}° два разных давления"
+        raise refusal.refused(problem, "проверьте столбцы и угол ВМТ")
     return angles, means
 
 
@@ -328,9 +331,9 @@ def _gaps(at: Array, period: float, refusal: _FileRefusal) -> Iterator[str]:
 
     gaps = np.diff(at, append=at[0] + period)
     if gaps.max() > WIDEST_GAP_DEG:
-        what = f"между точками {number_text(round(float(gaps.max()), 6))}°, "
+        problem = f"между точками {number_text(round(float(gaps.max()), 6))}°, "
         hint = f"допустимо до {number_text(WIDEST_GAP_DEG)}°"
-        raise refusal.refused(f"{what}диаграмма не покрывает цикл", hint)
+        raise refusal.refused(f"{problem}диаграмма не покрывает цикл", hint)
     beside = np.maximum(np.roll(gaps, 1), np.roll(gaps, -1))
     for i in np.flatnonzero(gaps > LONE_GAP * beside):
         ends = (number_text(float(angle)) for angle in (at[i], at[i] + gaps[i]))

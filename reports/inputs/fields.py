@@ -133,8 +133,8 @@ def iter_fields(model: InputFile) -> Iterator[Field]:
         if part is None:
             continue
         yield from _fields_of(part, (section.name,), section.title, number=None)
-    for name, about in sections_of(model.books).items():
-        yield from _fields_of(getattr(model.own, name), ("own", name), about.title, number=None)
+    for name, spec in sections_of(model.books).items():
+        yield from _fields_of(getattr(model.own, name), ("own", name), spec.title, number=None)
     for index, regime in enumerate(model.regimes):
         yield from _regime_fields(regime, index)
 
@@ -181,19 +181,19 @@ def set_value(raw: dict[str, Any], path: Path, value: object) -> None:
 
 
 def _fields_of(part: BaseModel, path: Path, section: str, number: int | None) -> Iterator[Field]:
-    for key, about in hints(type(part)).items():
-        value = getattr(part, about.name)
+    for key, spec in hints(type(part)).items():
+        value = getattr(part, spec.name)
         if value is None:
             continue
         here = (*path, key)
         if isinstance(value, tuple):
             list_section = SECTIONS[str(path[0])].lists[key].title
-            yield from _entries(value, about, here, list_section)
+            yield from _entries(value, spec, here, list_section)
             continue
-        meta = about.metas[0]
+        meta = spec.metas[0]
         if number is not None:
             meta = meta.numbered(number)
-        yield _field(here, section, meta, value, about.optional)
+        yield _field(here, section, meta, value, spec.optional)
 
 
 def _regime_fields(regime: RegimeSection, index: int) -> Iterator[Field]:
@@ -219,11 +219,11 @@ def regime_suffix(number: int) -> str:
     return f"_R{number}"
 
 
-def _entries(values: tuple[Any, ...], about: Key, path: Path, section: str) -> Iterator[Field]:
-    metas, optional = about.metas, about.optional
+def _entries(values: tuple[Any, ...], spec: Key, path: Path, section: str) -> Iterator[Field]:
+    metas, optional = spec.metas, spec.optional
     for index, value in enumerate(values):
         here = (*path, index)
-        if about.inner is not None:
+        if spec.inner is not None:
             yield from _fields_of(value, here, section, index + 1)
         elif isinstance(value, tuple):
             for column, (meta, item) in enumerate(zip(metas, value, strict=True)):
@@ -268,24 +268,24 @@ def from_cells(
 
 
 def _table(part: dict[str, Any], model: type[Strictly], path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
-    known = hints(model)
+    specs = hints(model)
     result = {}
     for key, value in part.items():
-        if key not in known:
+        if key not in specs:
             result[key] = value
             continue
-        converted = _value(value, known[key], (*path, key), empty)
+        converted = _value(value, specs[key], (*path, key), empty)
         if converted is not None:
             result[key] = converted
     return result
 
 
-def _value(value: object, about: Key, path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
+def _value(value: object, spec: Key, path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
     if isinstance(value, list | tuple):
-        return [_value(item, about, (*path, index), empty) for index, item in enumerate(value)]
-    if isinstance(value, dict) and about.inner is not None:
-        return _table(value, about.inner, path, empty)
-    text = about.types == {str} and about.metas[0].choices is None
+        return [_value(item, spec, (*path, index), empty) for index, item in enumerate(value)]
+    if isinstance(value, dict) and spec.inner is not None:
+        return _table(value, spec.inner, path, empty)
+    text = spec.types == {str} and spec.metas[0].choices is None
     if value is None:
         if text:
             return ""
@@ -333,14 +333,14 @@ def _titles() -> dict[str, str]:
     """Title by key."""
     titles: dict[str, str] = {}
     for section in SECTIONS.values():
-        titles |= {key: about.title for key, about in section.lists.items()}
+        titles |= {key: spec.title for key, spec in section.lists.items()}
         for model in section.models:
-            for key, about in hints(model).items():
-                for meta in about.metas[:1]:
+            for key, spec in hints(model).items():
+                for meta in spec.metas[:1]:
                     titles.setdefault(key, meta.title.replace(" {n}", ""))
             for _, inner in records(model):
-                for key, about in hints(inner).items():
-                    titles.setdefault(key, about.metas[0].title.partition(": ")[2])
+                for key, spec in hints(inner).items():
+                    titles.setdefault(key, spec.metas[0].title.partition(": ")[2])
     return titles
 
 
@@ -350,8 +350,8 @@ def _labels() -> dict[str, dict[str, str]]:
     labels: dict[str, dict[str, str]] = {}
     for section in SECTIONS.values():
         for model in section.models:
-            for key, about in hints(model).items():
-                for meta in about.metas[:1]:
+            for key, spec in hints(model).items():
+                for meta in spec.metas[:1]:
                     if meta.choices is not None:
                         labels[key] = {**meta.choices, **labels.get(key, {})}
     return labels

@@ -80,13 +80,13 @@ def accepted_keys(entries: Iterable[AcceptedEntry]) -> Keys:
 
 def in_lines(entries: Iterable[Entry], accepted: Keys) -> list[list[Entry]]:
     """Entries grouped by the lines that report them: accepted ones alone, the rest together."""
-    groups, rest = list[list[Entry]](), list[Entry]()
+    groups, others = list[list[Entry]](), list[Entry]()
     for entry in entries:
         if key_text(entry[0]) in accepted:
             groups.append([entry])
         else:
-            rest.append(entry)
-    return [rest, *groups] if rest else groups
+            others.append(entry)
+    return [others, *groups] if others else groups
 
 
 def explained(
@@ -114,24 +114,24 @@ def check_accepted(values: ValidValues) -> Iterator[Finding]:
         if not values.get("report", "books") and (unknown := _unknown(entry.what, ())):
             yield Finding((*path, "what"), *unknown)
         if not entry.reason.strip():
-            what = "причина не названа"
-            yield Finding((*path, "reason"), what, "напишите, почему это верно")
+            problem = "причина не названа"
+            yield Finding((*path, "reason"), problem, "напишите, почему это верно")
 
 
-def check_names(model: InputFile, own: Collection[str]) -> Iterator[Problem]:
-    """Accepted entries that name no check, key or check of own books, whose names are ``own``."""
+def check_names(model: InputFile, names: Collection[str]) -> Iterator[Problem]:
+    """Accepted entries that name no check, key or check of own books, whose names are ``names``."""
     entries = () if model.checks is None else model.checks.accepted
     for index, entry in enumerate(entries):
-        if unknown := _unknown(entry.what, own):
+        if unknown := _unknown(entry.what, names):
             yield Problem(key_text(("checks", "accepted", index, "what")), *unknown)
 
 
-def _unknown(name: str, own: Collection[str]) -> tuple[str, str] | None:
+def _unknown(name: str, names: Collection[str]) -> tuple[str, str] | None:
     """What is said of an accepted entry that names nothing; None of one that does."""
-    if name in own or _known(name):
+    if name in names or _known(name):
         return None
-    likely = likely_word(name, (*CHECKS, *own, *_keys()))
-    hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join((*CHECKS, *own))
+    likely = likely_word(name, (*CHECKS, *names, *_keys()))
+    hint = f"возможно, {likely}" if likely else "проверки: " + ", ".join((*CHECKS, *names))
     return f"нет проверки или ключа {shown(name)}", hint
 
 
@@ -161,9 +161,9 @@ def check_signs(model: InputFile) -> Iterator[Finding]:
         if signs:
             listed = ", ".join(f"{sign} (U+{ord(sign):04X})" for sign in signs[:_MOST])
             more = f" и ещё {len(signs) - _MOST}" if len(signs) > _MOST else ""
-            what = f"в шрифте отчёта нет: {listed}{more}"
+            problem = f"в шрифте отчёта нет: {listed}{more}"
             hint = f"уберите или замените, иначе напечатается {REPLACEMENT}"
-            yield Finding(text.path, what, hint, warning=True)
+            yield Finding(text.path, problem, hint, warning=True)
 
 
 def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
@@ -173,21 +173,21 @@ def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
                       "запишите [[regimes]]")  # fmt: skip
         return
     if len(raw) > MOST_REGIMES:
-        what = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
-        yield Finding(("regimes",), what, "уберите лишние")
+        problem = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
+        yield Finding(("regimes",), problem, "уберите лишние")
         return
     for index, entry in enumerate(raw):
         if not isinstance(entry, dict):
-            what = f"нужен раздел, а задано: {kind(entry)}"
-            yield Finding(("regimes", index), what, "запишите [[regimes]]")
+            problem = f"нужен раздел, а задано: {kind(entry)}"
+            yield Finding(("regimes", index), problem, "запишите [[regimes]]")
         elif "gas" not in entry:
-            what = "у режима нет данных о газах"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+            problem = "у режима нет данных о газах"
+            yield Finding(("regimes", index, "gas"), problem, "добавьте раздел [regimes.gas]")
         elif not isinstance(entry["gas"], dict):
-            what = f"нужен раздел, а задано: {kind(entry['gas'])}"
-            yield Finding(("regimes", index, "gas"), what, "добавьте раздел [regimes.gas]")
+            problem = f"нужен раздел, а задано: {kind(entry['gas'])}"
+            yield Finding(("regimes", index, "gas"), problem, "добавьте раздел [regimes.gas]")
         elif entry["gas"].get("source") == "cycle":
-            what = "расчёт цикла есть только у основного режима"
-            yield Finding(("regimes", index, "gas", "source"), what, "задайте давления")
+            problem = "расчёт цикла есть только у основного режима"
+            yield Finding(("regimes", index, "gas", "source"), problem, "задайте давления")
         else:
             yield index, entry

@@ -57,16 +57,16 @@ def places_of(
     engine: EngineSection, shaft: CrankshaftSection, articulated: ArticulatedSection | None
 ) -> Arrangement:
     """Return the arrangement of the sections of a checked input."""
-    places = arrangement(
+    placement = arrangement(
         engine.layout,
         engine.cylinders,
         shaft.bank_angle_deg,
         shaft.split_pin_deg,
         articulated=articulated is not None,
     )
-    if places is None:
+    if placement is None:
         raise ValueError("the layout has no arrangement")
-    return places
+    return placement
 
 
 def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
@@ -93,10 +93,10 @@ def expand(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Finding]]:
         del shaft["firing_order"]
         findings += _write_out(order, cylinders, 180 * strokes, shaft)
     if "throw_angles_deg" not in shaft and not findings:
-        places = _places(data, str(layout), cylinders, shaft)
+        placement = _places(data, str(layout), cylinders, shaft)
         offsets: Any = shaft.get("firing_offsets_deg")
-        if places is not None and _numbers(offsets, len(places)):
-            shaft["throw_angles_deg"] = list(throw_angles(places, offsets))
+        if placement is not None and _numbers(offsets, len(placement)):
+            shaft["throw_angles_deg"] = list(throw_angles(placement, offsets))
     return result, findings
 
 
@@ -125,27 +125,27 @@ def order_text(offsets: Sequence[float], period: float) -> str:
 
 def _write_out(text: str, cylinders: int, period: float, shaft: dict[str, Any]) -> list[Finding]:
     if not _ORDER.fullmatch(text.strip()):
-        what = "порядок работы записан непонятно"
-        return [Finding(_PATH, what, 'пример записи: "1-3-4-2"')]
+        problem = "порядок работы записан непонятно"
+        return [Finding(_PATH, problem, 'пример записи: "1-3-4-2"')]
     numbers = [int(part) for part in re.findall(r"\d+", text)]
     if sorted(numbers) != list(range(1, cylinders + 1)):
-        what = f"в порядке работы {'-'.join(map(str, numbers))} не все цилиндры по одному разу"
-        return [Finding(_PATH, what, f"назовите каждый цилиндр от 1 до {cylinders} один раз")]
+        problem = f"в порядке работы {'-'.join(map(str, numbers))} не все цилиндры по одному разу"
+        return [Finding(_PATH, problem, f"назовите каждый цилиндр от 1 до {cylinders} один раз")]
     first = numbers.index(1)
     numbers = numbers[first:] + numbers[:first]
-    given = shaft.get("firing_offsets_deg")
-    if given is None:
-        places = {number: position for position, number in enumerate(numbers)}
+    stated = shaft.get("firing_offsets_deg")
+    if stated is None:
+        positions = {number: position for position, number in enumerate(numbers)}
         step = period / cylinders
-        shaft["firing_offsets_deg"] = [places[i] * step for i in range(1, cylinders + 1)]
+        shaft["firing_offsets_deg"] = [positions[i] * step for i in range(1, cylinders + 1)]
         return []
-    if _numbers(given, cylinders) and list(sequence(given)) != numbers:
-        order = "-".join(map(str, sequence(given)))
-        what = (
+    if _numbers(stated, cylinders) and list(sequence(stated)) != numbers:
+        order = "-".join(map(str, sequence(stated)))
+        problem = (
             f"порядок работы {'-'.join(map(str, numbers))} противоречит firing_offsets_deg, "
             f"по которым порядок {order}"
         )
-        return [Finding(_PATH, what, "оставьте один из двух ключей")]
+        return [Finding(_PATH, problem, "оставьте один из двух ключей")]
     return []
 
 
@@ -167,10 +167,10 @@ def _places(
     return arrangement(layout, cylinders, bank, split, articulated="articulated" in data)
 
 
-def throw_angles(places: Arrangement, offsets: Sequence[float]) -> tuple[float, ...]:
+def throw_angles(placement: Arrangement, offsets: Sequence[float]) -> tuple[float, ...]:
     """Throw angles in 0…360 [deg] that fit the first cylinder on every throw."""
     angles: dict[int, float] = {}
-    for cylinder, offset in zip(places, offsets, strict=True):
+    for cylinder, offset in zip(placement, offsets, strict=True):
         angle = round(math.degrees(throw_angle(cylinder, math.radians(offset))), 6)
         angles.setdefault(cylinder.throw, angle % 360)
     return tuple(angles[throw] for throw in sorted(angles))

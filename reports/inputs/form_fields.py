@@ -29,11 +29,11 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
         if name in raw or not section.absent:
             whole = (name,) if section.absent else None
             yield from _section(name, (name,), section.title, raw.get(name), whole)
-    for name, about in sections_of(texts_of(raw)).items():
-        assert about.model is not None
+    for name, spec in sections_of(texts_of(raw)).items():
+        assert spec.model is not None
         part = _mapping(_mapping(raw.get("own")).get(name))
-        yield {"title": about.title, "key": f"own.{name}", "whole": None,
-               "entries": [list(_record(part, about.model, ("own", name)))]}  # fmt: skip
+        yield {"title": spec.title, "key": f"own.{name}", "whole": None,
+               "entries": [list(_record(part, spec.model, ("own", name)))]}  # fmt: skip
     regimes = raw.get("regimes")
     for index, regime in enumerate(regimes[:MOST_REGIMES] if isinstance(regimes, list) else ()):
         path, gas = ("regimes", index), _mapping(regime).get("gas")
@@ -65,66 +65,66 @@ def _gas_model(gas: Mapping[str, Any]) -> type[BaseModel]:
 
 
 def _section(
-    name: str, path: Path, title: str, given: object, whole: Path | None,
+    name: str, path: Path, title: str, values: object, whole: Path | None,
     model: type[BaseModel] | None = None,
 ) -> Iterator[Data]:  # fmt: skip
-    part, lists = _mapping(given), SECTIONS[name].lists
+    part, lists = _mapping(values), SECTIONS[name].lists
     model = model or (_gas_model(part) if name == "gas" else SECTIONS[name].model)
     plain = list(_record(part, model, path, left_out=lists))
     if plain:
         yield {"title": title, "key": key_text(path), "entries": [plain], "whole": whole}
-    for key, about in hints(model).items():
+    for key, spec in hints(model).items():
         if key not in lists:
             continue
-        own = lists[key].title if name == path[0] else f"{title}: {lists[key].title.lower()}"
+        heading = lists[key].title if name == path[0] else f"{title}: {lists[key].title.lower()}"
         two_banks = key == "arms" and "bank_angle_deg" in part
-        given = part.get(key)
-        shown = given[:_MOST_ENTRIES] if isinstance(given, list | tuple) else ()
+        values = part.get(key)
+        entries = values[:_MOST_ENTRIES] if isinstance(values, list | tuple) else ()
         yield {
-            "title": own, "key": key_text((*path, key)), "path": (*path, key), "whole": whole,
+            "title": heading, "key": key_text((*path, key)), "path": (*path, key), "whole": whole,
             "drawing": "arms-v" if two_banks else _DRAWINGS.get(key, ""),
-            "entries": [list(_entry(item, about, (*path, key, index)))
-                        for index, item in enumerate(shown)],
-            "more": _one_more(shown, about),
+            "entries": [list(_entry(item, spec, (*path, key, index)))
+                        for index, item in enumerate(entries)],
+            "more": _one_more(entries, spec),
         }  # fmt: skip
 
 
-def _one_more(shown: Sequence[object], about: Key) -> object:
-    if about.metas and about.metas[0].choices:
-        free = (choice for choice in about.metas[0].choices if choice not in shown)
+def _one_more(entries: Sequence[object], spec: Key) -> object:
+    if spec.metas and spec.metas[0].choices:
+        free = (choice for choice in spec.metas[0].choices if choice not in entries)
         return next(free, "")
-    if shown:
-        return shown[-1]
-    return {} if about.inner else [""] * len(about.metas) if len(about.metas) > 1 else ""
+    if entries:
+        return entries[-1]
+    return {} if spec.inner else [""] * len(spec.metas) if len(spec.metas) > 1 else ""
 
 
 def _record(
     part: Mapping[str, Any], model: type[BaseModel], path: Path, number: int = 0,
     left_out: Mapping[str, object] | None = None,
 ) -> Iterator[Data]:  # fmt: skip
-    for key, about in hints(model).items():
-        if about.metas and key not in (left_out or ()):
-            meta = about.metas[0].numbered(number) if number else about.metas[0]
-            yield _field((*path, key), meta, part.get(key), about, about.optional)
+    for key, spec in hints(model).items():
+        if spec.metas and key not in (left_out or ()):
+            meta = spec.metas[0].numbered(number) if number else spec.metas[0]
+            yield _field((*path, key), meta, part.get(key), spec, spec.optional)
 
 
-def _entry(item: object, about: Key, path: Path) -> Iterator[Data]:
+def _entry(item: object, spec: Key, path: Path) -> Iterator[Data]:
     """Fields of an entry of a list: a record, a pair, or one value."""
-    metas, number = about.metas, int(path[-1]) + 1
-    if about.inner is not None:
-        yield from _record(_mapping(item), about.inner, path, number)
+    metas, number = spec.metas, int(path[-1]) + 1
+    if spec.inner is not None:
+        yield from _record(_mapping(item), spec.inner, path, number)
         return
     pair = len(metas) > 1
     values = (item if isinstance(item, list | tuple) else ()) if pair else (item,)
     for column, meta in enumerate(metas):
         value = values[column] if column < len(values) else None
-        yield _field((*path, column) if pair else path, meta.numbered(number), value, about)
+        yield _field((*path, column) if pair else path, meta.numbered(number), value, spec)
 
 
-def _field(path: Path, meta: Meta, value: object, about: Key, optional: bool = False) -> Data:
+def _field(path: Path, meta: Meta, value: object, spec: Key, optional: bool = False) -> Data:
     return {
         "path": path, "key": key_text(path), "title": meta.title, "symbol": meta.symbol,
         "unit": meta.unit.label, "value": value, "min": meta.minimum, "max": meta.maximum,
         "choices": meta.choices and dict(meta.choices), "optional": optional,
-        "number": meta.choices is None and bool(about.types & {int, float}),
+        "number": meta.choices is None and bool(spec.types & {int, float}),
     }  # fmt: skip

@@ -69,12 +69,14 @@ def inside(index: int, path: Path) -> Path:
     return ("regimes", index, *path)
 
 
-def check_regime(values: ValidValues, own: ValidValues) -> Iterator[Finding]:
+def check_regime(values: ValidValues, regime_values: ValidValues) -> Iterator[Finding]:
     """Findings about a regime's gas in the engine of the file."""
-    both = replace(own, sections={**values.sections, **own.sections})
+    both = replace(regime_values, sections={**values.sections, **regime_values.sections})
     both.sections.pop("cycle", None)
     yield from check_gas(both)
-    yield from (finding for finding in check_pairs(both) if finding.path[0] in own.sections)
+    yield from (
+        finding for finding in check_pairs(both) if finding.path[0] in regime_values.sections
+    )
 
 
 def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:
@@ -162,8 +164,8 @@ def tables_of(text: str, *, source: str) -> dict[str, Any]:
     except RecursionError:
         raise refused(source, "слишком глубокая вложенность", "уберите лишние скобки") from None
     except ValueError as error:  # TOMLDecodeError, or an integer of thousands of digits
-        what, hint = toml_error(error, text)
-        raise refused(source, what, hint) from None
+        problem, hint = toml_error(error, text)
+        raise refused(source, problem, hint) from None
 
 
 def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None = None) -> Loaded:
@@ -181,12 +183,12 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     """
     reader = _SectionReader(source, locate)
     data = normalise(raw, source)
-    regimes, books, own = data.pop("regimes", ()), data.pop("books", {}), data.pop("own", {})
+    regimes, books, department = data.pop("regimes", ()), data.pop("books", {}), data.pop("own", {})
     if locate is not None:
         data = reader.from_cells(data)
     reader.order_alone = _has_order_alone(data)
     texts = reader.books(books, named(data))
-    own_sections = reader.own(own, texts)
+    own_sections = reader.own(department, texts)
     data, findings = expand(data)
     reader.take(findings)
     # What would have followed from what is wrong or missing is not missing as well.
@@ -210,9 +212,9 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
         if run is not None and run.design is not None:
             design_sizes = run.design.bore, run.design.stroke
     accepted = accepted_keys(() if model.checks is None else model.checks.accepted)
-    known = {key for key, _ in reader.warnings} - accepted  # a line for each key
+    warned = {key for key, _ in reader.warnings} - accepted  # a line for each key
     odd = [*check_plausibility(model, sizes_of(model, design_sizes), accepted), *check_signs(model)]
-    reader.take(finding for finding in odd if key_text(finding.path) not in known)
+    reader.take(finding for finding in odd if key_text(finding.path) not in warned)
     loaded = reader.loaded(model)
     if reader.problems:  # what else is odd may be the cause
         raise InputError([*reader.problems, *loaded.warnings])
@@ -231,8 +233,8 @@ def load_remote(raw: Mapping[str, Any]) -> Loaded:
     if model.prototype is not None and model.prototype.file:
         named.append(PROTOTYPE_KEY)
     if named:
-        what, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
-        raise InputError([Problem(key, what, hint) for key in named])
+        problem, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
+        raise InputError([Problem(key, problem, hint) for key in named])
     return loaded
 
 
@@ -256,20 +258,20 @@ class _SectionReader:
             path = inside(self.regime, path)
         return one_line(key_text((*self.home, *path)), 100)
 
-    def problem(self, path: Path, what: str, hint: str = "") -> Problem:
+    def problem(self, path: Path, problem: str, hint: str = "") -> Problem:
         if self.order_alone and path[:2] == ("crankshaft", "firing_offsets_deg"):
             path = ("crankshaft", "firing_order")
         key = self.key(path)
         if self.regime is not None:
             path = inside(self.regime, path)
         if self.order_alone:
-            what, hint = (_OFFSETS.sub("firing_order", text) for text in (what, hint))
+            problem, hint = (_OFFSETS.sub("firing_order", text) for text in (problem, hint))
         if self.locate is not None:
-            what, hint = in_cells(what), in_cells(hint)
+            problem, hint = in_cells(problem), in_cells(hint)
         home = (*self.home, *path)
         cell = self.locate(home) if self.locate is not None and path else ""
         address = f"{cell} ({key})" if cell else key
-        return Problem(": ".join(part for part in (self.source, address) if part), what, hint)
+        return Problem(": ".join(part for part in (self.source, address) if part), problem, hint)
 
     def take(self, findings: Iterable[Finding]) -> None:
         for finding in findings:
@@ -287,11 +289,11 @@ class _SectionReader:
 
     def from_cells(self, data: dict[str, Any]) -> dict[str, Any]:
         source = str(data["gas"].get("source")) if isinstance(data.get("gas"), dict) else ""
-        known = {name: section.model for name, section in SECTIONS.items()}
-        known["gas"] = GAS_MODELS.get(source, PolytropicGasSection)
+        models = {name: section.model for name, section in SECTIONS.items()}
+        models["gas"] = GAS_MODELS.get(source, PolytropicGasSection)
         if self.regime is not None:
-            known["regime"] = RegimeValues
-        result, empty = from_cells(data, known)
+            models["regime"] = RegimeValues
+        result, empty = from_cells(data, models)
         self.problems += [self.problem(path, "ячейка пуста", "впишите значение") for path in empty]
         self.empty = set(empty)
         self.values.broken |= {(str(path[0]), str(path[1])) for path in empty}
@@ -309,13 +311,13 @@ class _SectionReader:
             hint = f"возможно, имелся в виду [{likely}]" if likely else "удалите его"
             self.problems.append(self.problem((key,), "неизвестный раздел или ключ", hint))
         models = {}
-        for name, about in SECTIONS.items():
-            if name not in data and not about.optional:
+        for name, spec in SECTIONS.items():
+            if name not in data and not spec.optional:
                 if name not in guessed:
                     hint = f"добавьте раздел [{name}], ключи его покажет «kshm new»"
                     self.problems.append(self.problem((name,), "нет раздела", hint))
                 continue
-            if about.absent and name not in data:
+            if spec.absent and name not in data:
                 continue
             model = self._model_of(name, data.get(name, {}))
             if name == "geometry" and model is not None and _sizes_are_wanted(data):
@@ -336,26 +338,26 @@ class _SectionReader:
 
     def own(self, raw: object, books: Texts) -> Strictly | None:
         """The sections of own books, [own.SECTION] in the file."""
-        known, reader = sections_of(books), _SectionReader(self.source, self.locate)
+        declared, reader = sections_of(books), _SectionReader(self.source, self.locate)
         reader.home = ("own",)
-        given, sections = raw if isinstance(raw, dict) else {}, {}
-        for name in [name for name in given if name not in known and not self.problems][:1]:
-            what, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
-            reader.problems.append(reader.problem((name,), what, hint))
-        for name, about in known.items():
-            assert about.model is not None
-            part = given.get(name, {})
+        tables, sections = raw if isinstance(raw, dict) else {}, {}
+        for name in [name for name in tables if name not in declared and not self.problems][:1]:
+            problem, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
+            reader.problems.append(reader.problem((name,), problem, hint))
+        for name, spec in declared.items():
+            assert spec.model is not None
+            part = tables.get(name, {})
             if not isinstance(part, dict):
-                what = f"нужен раздел, а задано: {messages.kind(part)}"
-                reader.problems.append(reader.problem((name,), what))
+                problem = f"нужен раздел, а задано: {messages.kind(part)}"
+                reader.problems.append(reader.problem((name,), problem))
                 continue
-            part = in_types(part, about.model)
+            part = in_types(part, spec.model)
             if self.locate is not None:
-                cells, empty = from_cells({name: part}, {name: about.model})
+                cells, empty = from_cells({name: part}, {name: spec.model})
                 part, reader.empty = cells[name], reader.empty | set(empty)
-                what, hint = "ячейка пуста", "впишите значение"
-                reader.problems += [reader.problem(at, what, hint) for at in empty]
-            sections[name] = reader._section(name, about.model, part)
+                problem, hint = "ячейка пуста", "впишите значение"
+                reader.problems += [reader.problem(at, problem, hint) for at in empty]
+            sections[name] = reader._section(name, spec.model, part)
         self.problems += reader.problems
         return own_model(books).model_construct(None, **sections) if sections else None
 
@@ -391,21 +393,21 @@ class _SectionReader:
 
     def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
         if not isinstance(raw, dict):
-            what = f"нужен раздел [{name}], а задано: {messages.kind(raw)}"
-            self.problems.append(self.problem((name,), what))
+            problem = f"нужен раздел [{name}], а задано: {messages.kind(raw)}"
+            self.problems.append(self.problem((name,), problem))
             return None
         if name != "gas":
             return SECTIONS[name].model
         source = raw.get("source")
         if isinstance(source, str) and source in GAS_MODELS:
             return GAS_MODELS[source]
-        what = "обязательный ключ не задан"
+        problem = "обязательный ключ не задан"
         if "source" in raw:
-            what = f"недопустимое значение {messages.shown(source)}"
+            problem = f"недопустимое значение {messages.shown(source)}"
         allowed = (*GAS_MODELS, "file") if self.locate is None else SOURCES.values()
         hint = "допустимо: " + ", ".join(allowed)
         if ("gas", "source") not in self.empty:
-            self.problems.append(self.problem(("gas", "source"), what, hint))
+            self.problems.append(self.problem(("gas", "source"), problem, hint))
         return None
 
     def _section(self, name: str, model: type[Strictly], raw: dict[str, Any]) -> Strictly | None:
@@ -419,7 +421,7 @@ class _SectionReader:
             self.values.sections[name] = _valid_part(model, raw, error)
             return None
         keys = hints(model).items()
-        self.values.sections[name] = {key: getattr(section, about.name) for key, about in keys}
+        self.values.sections[name] = {key: getattr(section, spec.name) for key, spec in keys}
         return section
 
     def _report(self, name: str, model: type[Strictly], error: ValidationError) -> None:
@@ -438,17 +440,17 @@ class _SectionReader:
                 *parents, key = item["loc"]
                 owner = _owner(model, tuple(parents))
                 guesses.add((tuple(parents), messages.likely_key(str(key), owner)))
-                what, hint = messages.unknown_key(str(key), owner)
-                self.problems.append(self.problem((name, *item["loc"]), what, hint))
+                problem, hint = messages.unknown_key(str(key), owner)
+                self.problems.append(self.problem((name, *item["loc"]), problem, hint))
         for item in errors:
             loc = item["loc"]
             # A misspelt key is one mistake, not also a missing key.
             if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
                 continue
             in_book = self.locate is not None
-            what, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
+            problem, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
             if (name, *loc) not in self.empty:
-                self.problems.append(self.problem((name, *loc), what, hint))
+                self.problems.append(self.problem((name, *loc), problem, hint))
 
 
 def _has_order_alone(data: Mapping[str, Any]) -> bool:
@@ -480,18 +482,21 @@ def _valid_part(
     validator = model.__pydantic_validator__
     blank = model.model_construct()
     values = {}
-    for key, about in hints(model).items():
+    for key, spec in hints(model).items():
         if key in wrong:
             continue
         part: Any = blank
         if key in raw:
-            part = validator.validate_assignment(blank.model_copy(), about.name, raw[key])
-        values[key] = getattr(part, about.name, None)
+            part = validator.validate_assignment(blank.model_copy(), spec.name, raw[key])
+        values[key] = getattr(part, spec.name, None)
     return values
 
 
 def _capped(source: str, problems: list[Problem], uncounted: int) -> list[Problem]:
-    rest = max(0, len(problems) - MAX_PROBLEMS) + uncounted
-    if rest == 0:
+    uncounted_problems = max(0, len(problems) - MAX_PROBLEMS) + uncounted
+    if uncounted_problems == 0:
         return problems
-    return [*problems[:MAX_PROBLEMS], Problem(one_line(source, 120), f"и ещё ошибок: {rest}")]
+    return [
+        *problems[:MAX_PROBLEMS],
+        Problem(one_line(source, 120), f"и ещё ошибок: {uncounted_problems}"),
+    ]

@@ -72,8 +72,8 @@ def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) ->
         return f"слишком длинная строка, {len(str(value))} знаков", f"допустимо до {MAX_TEXT}"
     if fault == "control_character":
         if "\n" not in str(value).strip() and set(str(value)) & set("\t\b\f\r"):
-            what = "в строке обратная черта «\\» со знаком, как в «\\t»"
-            return what, "пишите в путях прямую черту: «папка/файл.csv»"
+            problem = "в строке обратная черта «\\» со знаком, как в «\\t»"
+            return problem, "пишите в путях прямую черту: «папка/файл.csv»"
         return "в строке есть управляющие символы", "оставьте одну строку обычного текста"
     return _explain_shape(fault, value)
 
@@ -135,29 +135,29 @@ def latin(word: str) -> str:
 
 def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
     """Return (what, hint) for a key `model` does not know."""
-    what = "неизвестный ключ"
+    problem = "неизвестный ключ"
     for home, models in homes():
         if any(key in hints(candidate) for candidate in models):
             other = "при другом source" if model in models else f"в разделе {home}"
-            return what, f"такой ключ есть {other}"
+            return problem, f"такой ключ есть {other}"
     strange = next((sign for sign in key if sign != latin(sign)), "")
     if strange and latin(key) in hints(model):
         return f"в ключе русская буква «{strange}»", f"напишите латиницей: {latin(key)}"
     likely = likely_key(key, model)
-    return what, f"возможно, имелся в виду {likely}" if likely else "удалите его"
+    return problem, f"возможно, имелся в виду {likely}" if likely else "удалите его"
 
 
 def meta_at(model: type[Strictly], path: tuple[str | int, ...]) -> Meta | None:
     """Return the metadata of the field at `path` inside `model`, if it is a single value."""
-    about: Key | None = None
+    spec: Key | None = None
     current: type[Strictly] | None = model
     for part in path:
         if isinstance(part, str):
-            about = hints(current).get(part) if current is not None else None
-            if about is None:
+            spec = hints(current).get(part) if current is not None else None
+            if spec is None:
                 return None
-            current = about.inner
-    metas = about.metas if about is not None and current is None else ()
+            current = spec.inner
+    metas = spec.metas if spec is not None and current is None else ()
     numbers = [part for part in path if isinstance(part, int)]
     if len(metas) == 2:
         metas = metas[numbers[1] :] if len(numbers) > 1 else ()

@@ -46,8 +46,8 @@ class Strictly(BaseModel):
             if isinstance(info, FieldInfo) and info.default is USUAL:
                 meta = next(part for part in info.metadata if isinstance(part, Meta))
                 name = solver_name(key, meta)
-                given: Any = next(f.default for t in usual for f in fields(t) if f.name == name)
-                usual_value = given if meta.choices is not None else meta.unit.from_si(given)
+                default: Any = next(f.default for t in usual for f in fields(t) if f.name == name)
+                usual_value = default if meta.choices is not None else meta.unit.from_si(default)
                 setattr(cls, key, _field(meta, usual_value))
 
 
@@ -246,11 +246,11 @@ def solver_values(section: BaseModel, target: type, owner: str = "") -> dict[str
     """
     names = {field.name for field in fields(target)}
     values = {}
-    for key, about in hints(type(section)).items():
-        value = getattr(section, about.name)
-        if value is None or about.inner is not None or len(about.metas) != 1:
+    for key, spec in hints(type(section)).items():
+        value = getattr(section, spec.name)
+        if value is None or spec.inner is not None or len(spec.metas) != 1:
             continue
-        meta = about.metas[0]
+        meta = spec.metas[0]
         before, _, name = solver_name(key, meta).rpartition(".")
         if before == owner and name in names:
             many = isinstance(value, tuple)

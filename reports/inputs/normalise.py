@@ -63,11 +63,11 @@ def read_text(file: Path) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         if error.reason == "unexpected end of data":
-            what = "файл обрывается посреди знака"
-            raise refused(source, what, "восстановите его конец") from None
+            problem = "файл обрывается посреди знака"
+            raise refused(source, problem, "восстановите его конец") from None
         row = data.count(b"\n", 0, error.start) + 1
-        what = f"строка {row}: не UTF-8 (возможно, Windows-1251)"
-        raise refused(source, what, "сохраните файл в UTF-8") from None
+        problem = f"строка {row}: не UTF-8 (возможно, Windows-1251)"
+        raise refused(source, problem, "сохраните файл в UTF-8") from None
 
 
 def refuse_bomb(source: str, text: str) -> None:
@@ -76,14 +76,14 @@ def refuse_bomb(source: str, text: str) -> None:
     # 400 KB takes all there is.
     lines = text.split("\n")
     if len(lines) > MAX_LINES:
-        what = f"в файле больше {MAX_LINES} строк"
-        raise refused(source, what, "это не файл исходных данных")
+        problem = f"в файле больше {MAX_LINES} строк"
+        raise refused(source, problem, "это не файл исходных данных")
     for row, line in enumerate(lines, start=1):
         if line.count(".") <= MAX_DOTS or line.lstrip().startswith("#"):
             continue
         if _DECIMAL.sub("", line).count(".") > MAX_DOTS:
-            what = f"строка {row}: слишком длинный составной ключ"
-            raise refused(source, what, "ключ состоит из одного слова")
+            problem = f"строка {row}: слишком длинный составной ключ"
+            raise refused(source, problem, "ключ состоит из одного слова")
 
 
 def refuse_endless(source: str, raw: Mapping[str, Any]) -> None:
@@ -94,13 +94,13 @@ def refuse_endless(source: str, raw: Mapping[str, Any]) -> None:
         for key, value in part.items() if isinstance(part, dict) else [("", part)]:
             if isinstance(value, list | tuple) and len(value) > MAX_ENTRIES:
                 address = ": ".join(filter(None, (source, f"{name}.{key}".rstrip("."))))
-                what = f"в списке {len(value)} строк"
-                raise refused(address, what, f"допустимо не больше {MAX_ENTRIES}")
+                problem = f"в списке {len(value)} строк"
+                raise refused(address, problem, f"допустимо не больше {MAX_ENTRIES}")
 
 
-def refused(source: str, what: str, hint: str) -> InputError:
+def refused(source: str, problem: str, hint: str) -> InputError:
     """Return the error of an unreadable file."""
-    return InputError(Problem(one_line(source, 120), what, hint))
+    return InputError(Problem(one_line(source, 120), problem, hint))
 
 
 def normalise(data: Mapping[str, Any], source: str = "") -> dict[str, Any]:
@@ -124,8 +124,8 @@ def _section(name: str, part: object) -> Any:  # noqa: ANN401
         return in_types(part, SECTIONS[name].model)
     if "source" in part:
         part = {**part, "source": _value(part["source"], str, _SOURCE)}
-    source, known = part.get("source"), SECTIONS["gas"].sources
-    model = known.get(source) if isinstance(source, str) else None
+    source, sources = part.get("source"), SECTIONS["gas"].sources
+    model = sources.get(source) if isinstance(source, str) else None
     return in_types(part, model or SECTIONS["gas"].model)
 
 
@@ -138,20 +138,20 @@ def _regime(entry: object) -> object:
 
 def in_types(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
     """The values of a section in the types of its keys."""
-    known = hints(model)
+    specs = hints(model)
     return {
-        key: _entry(value, known[key]) if key in known else value for key, value in part.items()
+        key: _entry(value, specs[key]) if key in specs else value for key, value in part.items()
     }
 
 
-def _entry(value: object, about: Key) -> Any:  # noqa: ANN401
+def _entry(value: object, spec: Key) -> Any:  # noqa: ANN401
     if isinstance(value, list | tuple):
-        return [_entry(item, about) for item in value]
+        return [_entry(item, spec) for item in value]
     if isinstance(value, dict):
-        return in_types(value, about.inner) if about.inner is not None else value
-    if len(about.types) != 1 or not about.metas:
+        return in_types(value, spec.inner) if spec.inner is not None else value
+    if len(spec.types) != 1 or not spec.metas:
         return value
-    return _value(value, next(iter(about.types)), about.metas[0])
+    return _value(value, next(iter(spec.types)), spec.metas[0])
 
 
 def _value(value: object, kind: type, meta: Meta) -> object:
@@ -168,11 +168,11 @@ def _value(value: object, kind: type, meta: Meta) -> object:
 
 def choice_of(text: str, choices: Mapping[str, str]) -> str:
     """Choice named by key or label; the text itself if none."""
-    wanted = _folded(text)
+    folded = _folded(text)
     names = {_folded(name): key for key, label in choices.items() for name in (label, key)}
-    if wanted in names:
-        return names[wanted]
-    meant = _ONE_WORD.get(wanted)
+    if folded in names:
+        return names[folded]
+    meant = _ONE_WORD.get(folded)
     return meant if meant is not None and meant in choices else text
 
 

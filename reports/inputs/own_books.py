@@ -58,16 +58,16 @@ _TAG = re.compile("[<>]")
 class DeclarationError(ValueError):
     """A declaration that is none: its line and what is wrong."""
 
-    def __init__(self, line: int, column: int, what: str, hint: str) -> None:
-        super().__init__(what)
-        self.line, self.column, self.what, self.hint = line, column, what, hint
+    def __init__(self, line: int, column: int, problem: str, hint: str) -> None:
+        super().__init__(problem)
+        self.line, self.column, self.what, self.hint = line, column, problem, hint
 
 
 class Misdeclared(ValueError):  # noqa: N818 - a part of DeclarationError
     """What is wrong with a declaration of the right form, and how to mend it."""
 
-    def __init__(self, what: str, hint: str) -> None:
-        super().__init__(what)
+    def __init__(self, problem: str, hint: str) -> None:
+        super().__init__(problem)
         self.hint = hint
 
 
@@ -91,21 +91,21 @@ class Declarations:
     fields: dict[str, Any] = field(default_factory=dict)
     quantities: dict[str, Quantity] = field(default_factory=dict)
 
-    def take(self, word: str, rest: str) -> None:
+    def take(self, word: str, tail: str) -> None:
         """One declaration; ValueError where it is none."""
         {"section": self._titled, "input": self._input, "choice": self._choice,
-         "quantity": self._quantity}[word](rest)  # fmt: skip
+         "quantity": self._quantity}[word](tail)  # fmt: skip
         if len(self.fields) + len(self.quantities) > MOST_DECLARED:
-            what = f"объявлено больше {MOST_DECLARED} величин и исходных"
-            raise Misdeclared(what, "разделите книгу")
+            problem = f"объявлено больше {MOST_DECLARED} величин и исходных"
+            raise Misdeclared(problem, "разделите книгу")
 
-    def _titled(self, rest: str) -> None:
-        heading = _matched(_SECTION, rest, "section")
+    def _titled(self, tail: str) -> None:
+        heading = _matched(_SECTION, tail, "section")
         self._named(heading["name"])
         self.title = safe_text(heading["title"])
 
-    def _input(self, rest: str) -> None:
-        key, (title, symbol, unit, span, default) = self._head(rest, "input", 5)
+    def _input(self, tail: str) -> None:
+        key, (title, symbol, unit, span, default) = self._head(tail, "input", 5)
         limits = _SPAN.fullmatch(span)
         if limits is None:
             raise ValueError(f"пределы «{span}» не разобраны")
@@ -118,8 +118,8 @@ class Declarations:
         self.fields[key] = (float, number(safe_text(title), safe_text(symbol, empty=True), unit_of,
                                           low, high, value, structural=shapes))  # fmt: skip
 
-    def _choice(self, rest: str) -> None:
-        key, (title, options, default) = self._head(rest, "choice", 3)
+    def _choice(self, tail: str) -> None:
+        key, (title, options, default) = self._head(tail, "choice", 3)
         words = {}
         for option in options.split(";"):
             word, dash, label = option.strip().partition(" — ")
@@ -131,14 +131,14 @@ class Declarations:
         kind = Literal.__getitem__(tuple(words))
         self.fields[key] = (kind, choice(safe_text(title), words, default, structural=True))
 
-    def _quantity(self, rest: str) -> None:
-        row = _matched(_QUANTITY, rest, "quantity")
+    def _quantity(self, tail: str) -> None:
+        row = _matched(_QUANTITY, tail, "quantity")
         key, (title, tex, unit, digits) = row["key"], _parts(row["rest"], 4)
         if key in self.quantities:
             raise Misdeclared(f"величина «{key}» объявлена дважды", "уберите одну строку")
         if _is_of_program(key):
-            what = f"величину «{key}» объявляет сама программа"
-            raise Misdeclared(what, "назовите свою иначе; программную берут без quantity")
+            problem = f"величину «{key}» объявляет сама программа"
+            raise Misdeclared(problem, "назовите свою иначе; программную берут без quantity")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
             raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
         if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
@@ -146,14 +146,14 @@ class Declarations:
         label, symbol = _unit(unit), plain_symbol(tex)
         twin = next((each.key for each in self.quantities.values() if each.symbol == symbol), "")
         if twin:
-            what = f"обозначение «{symbol}» уже у «{twin}»"
-            raise Misdeclared(what, "дайте величинам разные обозначения")
-        known = next((name for name, unit in UNITS.items() if unit.label == label), label)
-        self.quantities[key] = Quantity(key, tex, known, safe_text(title), Digits(int(digits)))
+            problem = f"обозначение «{symbol}» уже у «{twin}»"
+            raise Misdeclared(problem, "дайте величинам разные обозначения")
+        unit_name = next((name for name, unit in UNITS.items() if unit.label == label), label)
+        self.quantities[key] = Quantity(key, tex, unit_name, safe_text(title), Digits(int(digits)))
 
-    def _head(self, rest: str, word: str, parts: int) -> tuple[str, list[str]]:
+    def _head(self, tail: str, word: str, parts: int) -> tuple[str, list[str]]:
         """Key and parts of the declaration of an input."""
-        head = _matched(_INPUT, rest, word)
+        head = _matched(_INPUT, tail, word)
         self._named(head["section"])
         key = head["key"]
         if key in self.fields:
@@ -223,9 +223,7 @@ def sections_of(books: Texts) -> Mapping[str, Declared]:
 @lru_cache(maxsize=64)
 def own_model(books: Texts) -> type[Strictly]:
     """Model of the sections of all books together."""
-    fields: dict[str, Any] = {
-        name: (about.model, ...) for name, about in sections_of(books).items()
-    }
+    fields: dict[str, Any] = {name: (spec.model, ...) for name, spec in sections_of(books).items()}
     return create_model("OwnSections", __base__=Strictly, **fields)
 
 
@@ -237,9 +235,9 @@ def book_name(name: str) -> str:
 def path_of_cell(name: str, books: Texts) -> tuple[str, ...] | None:
     """Path of an own input from the name of its cell."""
     section, _, key = name.partition("_")
-    about = sections_of(books).get(section)
-    known = about is not None and about.model is not None and key in about.model.model_fields
-    return ("own", section, key) if known else None
+    spec = sections_of(books).get(section)
+    is_key = spec is not None and spec.model is not None and key in spec.model.model_fields
+    return ("own", section, key) if is_key else None
 
 
 def texts_of(raw: Mapping[str, Any]) -> Texts:
@@ -303,11 +301,11 @@ def checked_texts(raw: object, names: Sequence[str]) -> Texts:
     texts = allowed_texts(texts, names)
     for name in names:
         if name not in texts:
-            what = f"книга {one_line(name, 60)} не прочитана"
-            raise InputError(Problem("report.books", what, "здесь книг с диска не читают"))
+            problem = f"книга {one_line(name, 60)} не прочитана"
+            raise InputError(Problem("report.books", problem, "здесь книг с диска не читают"))
     if len(set(map(book_name, names))) < len(names):
-        what = "имена книг повторяются"
-        raise InputError(Problem("report.books", what, "назовите каждую книгу один раз"))
+        problem = "имена книг повторяются"
+        raise InputError(Problem("report.books", problem, "назовите каждую книгу один раз"))
     problems = []
     for name in names:
         try:
@@ -321,8 +319,8 @@ def checked_texts(raw: object, names: Sequence[str]) -> Texts:
     _refuse_twins(books)
     sections = [each for each in (declared(text).section for _, text in books) if each]
     if len(set(sections)) < len(sections):
-        what = "у двух книг один раздел исходных данных"
-        raise InputError(Problem("report.books", what, "назовите разделы по-разному"))
+        problem = "у двух книг один раздел исходных данных"
+        raise InputError(Problem("report.books", problem, "назовите разделы по-разному"))
     return books
 
 
@@ -336,14 +334,14 @@ def _refuse_twins(books: Texts) -> None:
     symbols: dict[str, str] = {}
     for name, text in books:
         for key, each in declared(text).quantities.items():
-            what = ""
+            problem = ""
             if keys.setdefault(key, each) != each:
-                what = f"величина «{key}» объявлена и в другой книге"
+                problem = f"величина «{key}» объявлена и в другой книге"
             elif symbols.setdefault(each.symbol, key) != key:
-                what = f"обозначение «{each.symbol}» уже у «{symbols[each.symbol]}»"
-            if what:
+                problem = f"обозначение «{each.symbol}» уже у «{symbols[each.symbol]}»"
+            if problem:
                 at = f"{one_line(name, 60)}: строка {line_of_quantity(text, key)}, столбец 1"
-                raise InputError(Problem(at, what, "назовите её иначе"))
+                raise InputError(Problem(at, problem, "назовите её иначе"))
 
 
 def line_of_quantity(text: str, key: str) -> int:
@@ -362,8 +360,8 @@ def allowed_texts(texts: Mapping[str, str], names: Sequence[str]) -> dict[str, s
     if owner is None:
         return dict(texts)
     if names and not owner:
-        what = "своих книг владелец страницы не разрешил"
-        raise InputError(Problem("report.books", what, "уберите ключ; команде kshm он доступен"))
+        problem = "своих книг владелец страницы не разрешил"
+        raise InputError(Problem("report.books", problem, "уберите ключ; команде kshm он доступен"))
     return {name: read_text(Path(owner), name, "") for name in names}
 
 
@@ -377,8 +375,8 @@ def read_text(folder: Path, name: str, source: str) -> str:
     where = f"{source}: report.books: {name_of}" if source else name_of
     path = PurePosixPath(name.replace("\\", "/"))
     if path.is_absolute() or ".." in path.parts or path.suffix != SUFFIX or ":" in name:
-        what = "книга должна лежать рядом с исходными данными"
-        raise InputError(Problem(where, what, f"укажите имя файла с окончанием {SUFFIX}"))
+        problem = "книга должна лежать рядом с исходными данными"
+        raise InputError(Problem(where, problem, f"укажите имя файла с окончанием {SUFFIX}"))
     try:
         data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
     except InputError as error:  # the place of the folder is no one's business
@@ -393,8 +391,8 @@ def read_text(folder: Path, name: str, source: str) -> str:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         called = "UTF-16" if kind == UTF16 else "не UTF-8 (возможно, Windows-1251)"
-        what = f"строка {line}, столбец 1: кодировка {called}"
-        raise InputError(Problem(where, what, "сохраните книгу в UTF-8")) from None
+        problem = f"строка {line}, столбец 1: кодировка {called}"
+        raise InputError(Problem(where, problem, "сохраните книгу в UTF-8")) from None
 
 
 def _taken() -> frozenset[str]:

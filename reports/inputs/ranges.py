@@ -30,8 +30,8 @@ class ParameterRange:
 
 def split_ranges(raw: Mapping[str, Any]) -> tuple[dict[str, Any], Any]:
     """The sections of the engine, and the section [variants] or None."""
-    rest = {key: value for key, value in raw.items() if key != SECTION}
-    return rest, raw.get(SECTION)
+    others = {key: value for key, value in raw.items() if key != SECTION}
+    return others, raw.get(SECTION)
 
 
 def read_ranges(
@@ -50,7 +50,7 @@ def read_ranges(
         ]
     ranges: list[ParameterRange] = []
     problems: list[Problem] = []
-    for key, given in section.items():
+    for key, entry in section.items():
         spot = f"{where}: variants.{one_line(str(key), 80)}"
         path = ParameterRange.path_of(str(key))
         current = _at(base, path)
@@ -58,12 +58,12 @@ def read_ranges(
             problems.append(Problem(spot, "в файле нет такого параметра", "задайте его значение"))
             continue
         if path[0] in _IDLE or path == ("engine", "name"):
-            what = "расчёт от этого параметра не зависит"
-            problems.append(Problem(spot, what, "назовите другой параметр"))
+            problem = "расчёт от этого параметра не зависит"
+            problems.append(Problem(spot, problem, "назовите другой параметр"))
             continue
-        values, what, hint = _values(given, current)
-        if what:
-            problems.append(Problem(spot, what, hint))
+        values, problem, hint = _values(entry, current)
+        if problem:
+            problems.append(Problem(spot, problem, hint))
         else:
             ranges.append(ParameterRange(str(key), path, values))
     return ranges, problems
@@ -82,23 +82,23 @@ def _at(base: Mapping[str, Any], path: tuple[str | int, ...]) -> float | int | s
 
 
 def _values(
-    given: object, current: float | int | str
+    entry: object, current: float | int | str
 ) -> tuple[tuple[float | int | str, ...], str, str]:
     """Values, or the error and a hint."""
     example = "нужно {min = 84, max = 92, step = 1} или {values = [84, 88]}"
-    if not isinstance(given, Mapping):
+    if not isinstance(entry, Mapping):
         return (), "это не диапазон", example
-    if set(given) == {"values"} and isinstance(given["values"], list):
-        values = given["values"]
+    if set(entry) == {"values"} and isinstance(entry["values"], list):
+        values = entry["values"]
         kind = (str,) if isinstance(current, str) else (int, float)
         if not values or not all(isinstance(v, kind) and not isinstance(v, bool) for v in values):
             return (), "неверный список values", "перечислите значения того же рода, что в файле"
         if len({repr(v) for v in values}) < len(values):
             return (), "в списке values есть повторы", "удалите их"
         return tuple(_like(v, current) for v in values), "", ""
-    if set(given) != {"min", "max", "step"}:
+    if set(entry) != {"min", "max", "step"}:
         return (), "неверные ключи диапазона", example
-    low, high, step = (given[key] for key in ("min", "max", "step"))
+    low, high, step = (entry[key] for key in ("min", "max", "step"))
     for number in (low, high, step):
         if isinstance(number, bool) or not isinstance(number, (int, float)):
             return (), "min, max и step должны быть числами", example

@@ -182,9 +182,9 @@ def prototype_file(model: InputFile, beside: Path) -> Path | None:
         return None
     path = beside / name
     if path.suffix.lower() != ".toml":
-        what, hint = f"{name} — не файл .toml", "укажите файл исходных данных"
-        raise InputError(Problem(PROTOTYPE_KEY, what, hint))
+        problem, hint = f"{name} — не файл .toml", "укажите файл исходных данных"
+        raise InputError(Problem(PROTOTYPE_KEY, problem, hint))
     if not path.is_file():
-        what, hint = f"нет файла {path}", "укажите файл от файла исходных данных"
-        raise InputError(Problem(PROTOTYPE_KEY, what, hint))
+        problem, hint = f"нет файла {path}", "укажите файл от файла исходных данных"
+        raise InputError(Problem(PROTOTYPE_KEY, problem, hint))
     return path

@@ -56,8 +56,8 @@ def angles_fault(
     counted = bool((np.diff(part) == 1).all())
     if whole < period - WIDEST_GAP_DEG:
         if counted and part[0] in (0, 1):
-            what = f"углы идут {span} через 1: это номера отсчётов или один оборот"
-            return what, f"нужны градусы за цикл {number_text(period)}°"
+            problem = f"углы идут {span} через 1: это номера отсчётов или один оборот"
+            return problem, f"нужны градусы за цикл {number_text(period)}°"
         unit = next(_units(whole, step, period, speed_rpm), "")
         if not unit and whole < 10 and speed_rpm and 0.5 < whole * 6 * speed_rpm / period < 100:
             unit = "секунды"
@@ -75,8 +75,8 @@ def angles_fault(
     unit = next(_units(whole, step, period, speed_rpm), "")
     if unit:
         return f"углы идут {span}: похоже на {unit}", _MENDS.get(unit, _TIME_MEND)
-    what = f"углы идут {span}, но давления не повторяются через {number_text(period)}°"
-    return what, "нужны градусы поворота вала: проверьте столбец угла"
+    problem = f"углы идут {span}, но давления не повторяются через {number_text(period)}°"
+    return problem, "нужны градусы поворота вала: проверьте столбец угла"
 
 
 def _turns(angles: Array, period: float) -> Fault | None:
@@ -88,10 +88,10 @@ def _turns(angles: Array, period: float) -> Fault | None:
     turns = max(2, round(len(angles) * float(np.median(np.abs(steps))) / 360))
     low = 5 * round(low / 5)
     times = "дважды" if turns == 2 else f"{turns} раза" if turns in (3, 4) else f"{turns} раз"
-    what = f"углы {times} проходят {number_text(low)}…{number_text(low + 360)}°"
+    problem = f"углы {times} проходят {number_text(low)}…{number_text(low + 360)}°"
     if turns == 2:
-        return what, "цикл занимает 720°: прибавьте ко второму обороту 360°"
-    return what, "цикл занимает 720°: прибавляйте к каждому обороту на 360° больше"
+        return problem, "цикл занимает 720°: прибавьте ко второму обороту 360°"
+    return problem, "цикл занимает 720°: прибавляйте к каждому обороту на 360° больше"
 
 
 def _units(whole: float, step: float, period: float, speed_rpm: float | None) -> Iterator[str]:
@@ -118,12 +118,12 @@ def _are_alike(angles: Array, pressures: Array, period: float) -> bool:
     cycle = np.floor((angles - angles.min()) / period + 1e-9).astype(int)
     first = cycle == 0
     order = np.argsort(angles[first])
-    known, p = angles[first][order], pressures[first][order]
+    first_angles, p = angles[first][order], pressures[first][order]
     for number in range(1, int(cycle.max()) + 1):
         here = cycle == number
         if here.sum() < 10:
             continue
-        there = np.interp(angles[here] - number * period, known, p)
+        there = np.interp(angles[here] - number * period, first_angles, p)
         if not np.ptp(there) and not np.ptp(pressures[here]):
             continue
         with np.errstate(invalid="ignore", divide="ignore"):

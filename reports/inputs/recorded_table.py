@@ -80,7 +80,7 @@ def text_of(file: Path, refused: Refuse) -> str:
     raise refused("кодировка не UTF-8, UTF-16 или Windows-1251", "сохраните как «CSV UTF-8»")
 
 
-def recorded(text: str, wanted: WantedColumns) -> Recorded:
+def recorded(text: str, columns: WantedColumns) -> Recorded:
     """Columns of angle and pressure of a table.
 
     Raises:
@@ -90,7 +90,7 @@ def recorded(text: str, wanted: WantedColumns) -> Recorded:
     unfit: list[_UnfitError] = []
     for separator, called in _CALLED.items():
         try:
-            reading = _read(_rows(text, separator), separator, wanted)
+            reading = _read(_rows(text, separator), separator, columns)
         except _UnfitError as error:
             unfit.append(error)
         else:
@@ -100,7 +100,7 @@ def recorded(text: str, wanted: WantedColumns) -> Recorded:
             raise reason.error
     if len(readings) > 1:
         ways = " или ".join(readings.values())
-        raise wanted.refused(f"числа читаются двояко: {ways}", "сохраните таблицу через «;»")
+        raise columns.refused(f"числа читаются двояко: {ways}", "сохраните таблицу через «;»")
     if not readings:
         raise max(unfit, key=lambda reason: reason.rows).error
     return next(iter(readings))
@@ -140,22 +140,24 @@ def _mend(cell: str, units: frozenset[str]) -> str:
     return ""
 
 
-def _read(rows: list[Row], separator: str, wanted: WantedColumns) -> Recorded:
+def _read(rows: list[Row], separator: str, requested: WantedColumns) -> Recorded:
     """Columns of angle and pressure between separators of one kind.
 
     Raises:
         _UnfitError: it is not so that the file is written.
     """
-    nothing = wanted.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
-    like = [[_value(f) is not None or bool(_mend(f, wanted.units)) for f in row] for _, row in rows]
+    nothing = requested.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
+    like = [
+        [_value(f) is not None or bool(_mend(f, requested.units)) for f in row] for _, row in rows
+    ]
     numeric = [sum(fields) > 1 for fields in like]
     if not any(numeric):
         raise _UnfitError(0, nothing)
     start, score = _longest(numeric), sum(numeric)
-    keys = [(wanted.angle, "gas.angle_column")]
-    keys += [(column, "gas.pressure_column") for column in wanted.pressures]
-    places = [_column(column, rows, start, key, wanted, score) for column, key in keys]
-    columns, after = [place[0] for place in places], max(place[1] for place in places)
+    keys = [(requested.angle, "gas.angle_column")]
+    keys += [(column, "gas.pressure_column") for column in requested.pressures]
+    located = [_column(column, rows, start, key, requested, score) for column, key in keys]
+    columns, after = [match[0] for match in located], max(match[1] for match in located)
     cells = [[row[c] if c < len(row) else "" for c in columns] for _, row in rows]
     values = [[_value(cell) for cell in group] for group in cells]
     first = next((i for i in range(after, len(rows)) if all(
@@ -163,15 +165,15 @@ def _read(rows: list[Row], separator: str, wanted: WantedColumns) -> Recorded:
     while first > after and values[first - 1][0] is not None:
         first -= 1  # a pressure that is no number is a fault, not a heading
     first += _is_numbering(rows, values, first, columns[0])
-    fault = _fault(rows, cells, values, first, separator, wanted)
+    fault = _fault(rows, cells, values, first, separator, requested)
     if fault is not None:
         raise fault
     body = rows[first:]
     if len(body) < LEAST_ROWS:
         raise _UnfitError(0, nothing)
-    if separator == "," and _torn(rows[:first], body, tuple(columns), wanted.units):
-        what = "запятая стоит и между столбцами, и в дробях"
-        torn = wanted.refused(what, "сохраните таблицу через «;» или числа с точкой")
+    if separator == "," and _torn(rows[:first], body, tuple(columns), requested.units):
+        problem = "запятая стоит и между столбцами, и в дробях"
+        torn = requested.refused(problem, "сохраните таблицу через «;» или числа с точкой")
         raise _UnfitError(len(body), torn, final=True)
     angles, *pressures = zip(*values[first:], strict=True)
     above = takewhile(lambda row: sum(map(bool, row[1])) > 1, reversed(rows[:first]))
@@ -223,28 +225,30 @@ def _columns_beside(body: list[Row], first: int) -> Iterator[tuple[float, ...]]:
 
 def _fault(
     rows: list[Row], cells: list[list[str]], values: list[list[float | None]], first: int,
-    separator: str, wanted: WantedColumns,
+    separator: str, requested: WantedColumns,
 ) -> _UnfitError | None:  # fmt: skip
     """First row that breaks the table of numbers."""
-    refused, signs = wanted.refused, [""] * len(cells[0])
+    refused, signs = requested.refused, [""] * len(cells[0])
     for i in range(first, len(rows)):
         line, fields = rows[i]
         for column, (cell, value) in enumerate(zip(cells[i], values[i], strict=True)):
             if value is None:
-                what = f"строка {line}: не числа" + (f" («{one_line(cell, 20)}»)" if cell else "")
-                mend = _mend(cell, wanted.units) or "оставьте одну таблицу без пропусков"
+                problem = f"строка {line}: не числа" + (
+                    f" («{one_line(cell, 20)}»)" if cell else ""
+                )
+                mend = _mend(cell, requested.units) or "оставьте одну таблицу без пропусков"
                 # A cell that is nearly a number is the reason, however few rows stand above it.
-                score = len(rows) if _mend(cell, wanted.units) else i - first
-                return _UnfitError(score, refused(what, mend))
+                score = len(rows) if _mend(cell, requested.units) else i - first
+                return _UnfitError(score, refused(problem, mend))
             sign = "".join(mark for mark in ".," if mark in cell)
             signs[column] = signs[column] or sign
             if sign and sign != signs[column]:
-                what = f"строка {line}: в столбце стоят и точка, и запятая"
-                return _UnfitError(i - first, refused(what, "оставьте один знак дроби"))
+                problem = f"строка {line}: в столбце стоят и точка, и запятая"
+                return _UnfitError(i - first, refused(problem, "оставьте один знак дроби"))
         if separator in ", " and len(fields) != len(rows[first][1]):
-            what = f"строка {line}: чисел {len(fields)}, а выше {len(rows[first][1])}"
+            problem = f"строка {line}: чисел {len(fields)}, а выше {len(rows[first][1])}"
             hint = "в таблице должно быть одно число столбцов"
-            return _UnfitError(i - first, refused(what, hint))
+            return _UnfitError(i - first, refused(problem, hint))
     return _thousands(rows, cells, first, refused)
 
 
@@ -256,36 +260,36 @@ def _thousands(
         signed = [i for i, cell in enumerate(column) if "," in cell or "." in cell]
         whole = any(cell.lstrip("-+−").isdecimal() and len(cell) > 2 for cell in column)
         if signed and whole and all(_THOUSANDS.fullmatch(column[i]) for i in signed):
-            what = f"строка {rows[first + signed[0]][0]}: «{column[signed[0]]}» читается двояко"
-            return _UnfitError(len(rows), refused(what, "уберите разделители тысяч"), final=True)
+            problem = f"строка {rows[first + signed[0]][0]}: «{column[signed[0]]}» читается двояко"
+            return _UnfitError(len(rows), refused(problem, "уберите разделители тысяч"), final=True)
     return None
 
 
 def _column(
-    column: object, rows: list[Row], first: int, key: str, wanted: WantedColumns, score: int
+    column: object, rows: list[Row], first: int, key: str, requested: WantedColumns, score: int
 ) -> tuple[int, int]:
     """Index of a column by its number from 1 or its name, and the row below which it begins."""
     width = len(rows[first][1])
     if isinstance(column, int) and not isinstance(column, bool):
         if 1 <= column <= width:
             return column - 1, 0
-        what, hint = f"нет столбца {column}", f"в таблице столбцов {width}"
-        raise _UnfitError(score, wanted.refused(what, hint, key=key))
+        problem, hint = f"нет столбца {column}", f"в таблице столбцов {width}"
+        raise _UnfitError(score, requested.refused(problem, hint, key=key))
     names = [fields for _, fields in rows[:first]]
     word = str(column).strip().casefold()
     for i, fields in reversed([*enumerate(names)]):  # the heading is the nearest row
-        places = [j for j, name in enumerate(fields) if name.casefold() == word]
-        exact = [j for j in places if fields[j] == column]
-        if len(exact or places) == 1:
-            return (exact or places)[0], i + 1
-        if places:
-            what = f"столбцов «{one_line(str(column), 40)}» несколько"
-            raise _UnfitError(score, wanted.refused(what, "укажите номер", key=key))
+        indices = [j for j, name in enumerate(fields) if name.casefold() == word]
+        exact = [j for j in indices if fields[j] == column]
+        if len(exact or indices) == 1:
+            return (exact or indices)[0], i + 1
+        if indices:
+            problem = f"столбцов «{one_line(str(column), 40)}» несколько"
+            raise _UnfitError(score, requested.refused(problem, "укажите номер", key=key))
     nearest = [fields for fields in reversed(names) if len([*filter(None, fields)]) > 1]
     heads = [one_line(name, 20) for fields in nearest[:2] for name in fields if name]
     hint = f"есть: {', '.join(heads[:12])}" if heads else "у столбцов нет заголовков: укажите номер"
-    what = f"нет столбца «{one_line(str(column), 40)}»"
-    raise _UnfitError(score, wanted.refused(what, hint, key=key))
+    problem = f"нет столбца «{one_line(str(column), 40)}»"
+    raise _UnfitError(score, requested.refused(problem, hint, key=key))
 
 
 def _torn(

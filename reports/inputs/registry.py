@@ -249,9 +249,9 @@ GAS_MODELS = SECTIONS["gas"].sources
 
 def records(model: type[Strictly]) -> Iterator[tuple[str, type[Strictly]]]:
     """Keys of a model that hold lists of records, with the records' models."""
-    for key, about in hints(model).items():
-        if about.inner is not None:
-            yield key, about.inner
+    for key, spec in hints(model).items():
+        if spec.inner is not None:
+            yield key, spec.inner
 
 
 def homes() -> Iterator[tuple[str, tuple[type[Strictly], ...]]]:

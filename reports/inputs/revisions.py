@@ -51,8 +51,8 @@ class Revisions:
         self._model = self.revised = load_mapping(raw, source=source).model
         self._changed = tuple(dict.fromkeys(str(path[0]) for path in paths))
         # A calculated cycle and further regimes are checked as wholes.
-        known = set(self._changed) <= SECTIONS.keys()
-        self._quick = known and self._model.cycle is None and not self._model.regimes
+        all_known = set(self._changed) <= SECTIONS.keys()
+        self._quick = all_known and self._model.cycle is None and not self._model.regimes
         self._values = ValidValues()
         self._kept = KeptParts()
         if self._quick:
@@ -77,7 +77,7 @@ class Revisions:
 
     def _put(self, name: str, section: Any) -> None:  # noqa: ANN401
         keys = hints(type(section))  # type: ignore[arg-type]
-        values = {key: getattr(section, about.name) for key, about in keys.items()}
+        values = {key: getattr(section, spec.name) for key, spec in keys.items()}
         self._values.sections[name] = values
         for key, value in values.items():
             if isinstance(value, tuple):

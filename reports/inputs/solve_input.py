@@ -101,8 +101,8 @@ def power_problems(model: InputFile) -> tuple[Problem, ...]:
         if _is_of_the_step(model, error):  # of that grid_errors tells
             continue
         where = "regime" if number == 1 else f"regimes[{number - 1}]"
-        what = _told(float(stated), percent, float(regime.mechanical_efficiency))
-        problems.append(Problem(f"{where}.indicated_power_kw", what, _MEND_KW))
+        problem = _told(float(stated), percent, float(regime.mechanical_efficiency))
+        problems.append(Problem(f"{where}.indicated_power_kw", problem, _MEND_KW))
     return tuple(problems)
 
 
@@ -116,11 +116,11 @@ def _is_of_the_step(model: InputFile, error: str) -> bool:
 
 
 def _told(stated: float, percent: float, efficiency: float) -> str:
-    given = stated * (1 + percent / 100)
+    power = stated * (1 + percent / 100)
     sign = "+" if percent > 0 else "−"
     return (
         f"задано N_i = {_kw(stated)} (эффективная {_kw(stated * efficiency)}), а диаграмма с этими "
-        f"размерами даёт {_kw(given)} ({_kw(given * efficiency)}), "
+        f"размерами даёт {_kw(power)} ({_kw(power * efficiency)}), "
         f"{sign}{fixed(abs(percent), 1)}{NBSP}%"
     )
 
@@ -285,8 +285,8 @@ def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
     if not errors:
         return ""
     listed = "; ".join(_said(error) for error in errors[:_TOLD])
-    rest = len(errors) - _TOLD
-    more = f"; ещё {rest} в отчёте" if rest > 0 else ""
+    others = len(errors) - _TOLD
+    more = f"; ещё {others} в отчёте" if others > 0 else ""
     step = fixed(model.calculation.step_deg, 0)
     return (
         f"Шаг таблиц {step}° груб для части результатов, по решению с шагом 1° они другие: "
@@ -324,25 +324,25 @@ def flywheel_remark(model: InputFile) -> str:
     throws = len(model.crankshaft.throw_angles_deg)
     heavy = inertias[throws + 1] / inertias[1 : throws + 1].sum()
     if heavy > _MOST_INERTIA:
-        own = _shown(model, inertias[throws + 1])
+        inertia = _shown(model, inertias[throws + 1])
         return (
-            f"torsion.flywheel_kg_m2: момент инерции маховика {own} больше, чем у всех "
+            f"torsion.flywheel_kg_m2: момент инерции маховика {inertia} больше, чем у всех "
             f"колен вместе, в {number_text(round(heavy))}{NBSP}раз; проверьте, что он в кг·м²"
         )
     throw = lighter_than(inertias, throws)
     if not throw:
         return ""
-    own, other = (_shown(model, inertias[mass]) for mass in (throws + 1, throw - 1))
+    inertia, other = (_shown(model, inertias[mass]) for mass in (throws + 1, throw - 1))
     whose = "маховика" if model.torsion.flywheel_kg_m2 else "маховика не задан, принятый"
     return (
-        f"torsion.flywheel_kg_m2: момент инерции {whose} {own} меньше, чем у одного "
+        f"torsion.flywheel_kg_m2: момент инерции {whose} {inertia} меньше, чем у одного "
         f"колена ({other}); задайте момент инерции маховика, винта или муфты"
     )
 
 
 def _shown(model: InputFile, value: float) -> str:
-    about = quantity(INERTIAS[1], smallness_of(model))
-    return f"{written(value, about.digits)}{NBSP}{about.unit_label}"
+    measure = quantity(INERTIAS[1], smallness_of(model))
+    return f"{written(value, measure.digits)}{NBSP}{measure.unit_label}"
 
 
 def webs_remark(model: InputFile) -> str:

@@ -57,8 +57,8 @@ def _sample_text(sample: str) -> str:
     if sample not in names:  # also keeps ../ out
         likely = likely_word(sample, names)
         hint = f"возможно, {likely}; " if likely else ""
-        what = f"нет образца {shown(sample)}"
-        raise InputError(Problem("--sample", what, f"{hint}есть: {', '.join(names)}"))
+        problem = f"нет образца {shown(sample)}"
+        raise InputError(Problem("--sample", problem, f"{hint}есть: {', '.join(names)}"))
     return (samples_dir() / f"{sample}.toml").read_text(encoding="utf-8")
 
 
@@ -92,22 +92,22 @@ def _commented(section: InputSection) -> Iterator[str]:
     heads |= {f"[[{section.name}.{key}]]": hints(inner) for key, inner in lists.items()}
     for head, keys in heads.items():
         yield head
-        for key, about in keys.items():
-            yield f"{key} = … {_note(about.metas)}"
+        for key, spec in keys.items():
+            yield f"{key} = … {_note(spec.metas)}"
 
 
 def _table(model: type[Strictly], values: dict[str, Any]) -> Table:
     table = tomlkit.table()
     defaults = model.model_construct()
-    for key, about in hints(model).items():
-        if about.inner is not None:
+    for key, spec in hints(model).items():
+        if spec.inner is not None:
             entries = tomlkit.aot()
             for entry in values[key]:
-                entries.append(_table(about.inner, entry))
+                entries.append(_table(spec.inner, entry))
             table.add(key, entries)
             continue
-        note = _note(about.metas)
-        value = values.get(key, getattr(defaults, about.name, None))
+        note = _note(spec.metas)
+        value = values.get(key, getattr(defaults, spec.name, None))
         if value is None:  # an alternative or optional key: shown, not given
             table.add(tomlkit.comment(f"{key} = … {note}"))
         else:

@@ -40,7 +40,7 @@ _Rule = Callable[[str], Iterator[Words]]
 def toml_error(error: Exception, text: str) -> Words:
     """Return (what, hint) for an error of the TOML parser."""
     message = str(error)
-    twice, what = next(
+    twice, problem = next(
         (
             (russian is _KEY_TWICE or russian is _SECTION_TWICE, russian)
             for english, russian in _PARSER
@@ -57,13 +57,13 @@ def toml_error(error: Exception, text: str) -> Words:
         if not row:
             return "файл обрывается на середине записи", "восстановите его конец"
     if not row:
-        return what, "проверьте запись по примеру из «kshm new»"
+        return problem, "проверьте запись по примеру из «kshm new»"
     line = lines[row - 1] if row <= len(lines) else ""
     for rule in () if twice else _RULES:
         for exact, hint in rule(line):
             return f"строка {row}: {exact}", hint
     hint = f"строка: {shown(line.strip())}" if line.strip() else ""
-    return f"строка {row}, столбец {column}: {what}", hint
+    return f"строка {row}, столбец {column}: {problem}", hint
 
 
 def decimal_commas(text: str) -> Iterator[Words]:
@@ -72,8 +72,8 @@ def decimal_commas(text: str) -> Iterator[Words]:
         pairs = re.search(r"=\s*\[\s*(\d+,\d+(?:,\s+\d+,\d+)+)\s*\]", line)
         if pairs is not None:
             mended = re.sub(r"(\d),(\d)", r"\1.\2", pairs[1])
-            what = f"строка {row}: в списке дроби с запятой"
-            yield what, f"если это дроби, напишите [{mended[:60]}]"
+            problem = f"строка {row}: в списке дроби с запятой"
+            yield problem, f"если это дроби, напишите [{mended[:60]}]"
 
 
 def _opened(lines: list[str], end: int) -> int:
@@ -120,11 +120,11 @@ def _letter(line: str) -> Iterator[Words]:
         return
     mended = latin(key[1])
     alphabet = "русская буква" if "CYRILLIC" in unicodedata.name(strange[0], "") else "буква"
-    what = f"в ключе «{shown(key[1])[1:-1]}» {alphabet} «{strange[0]}»"
+    problem = f"в ключе «{shown(key[1])[1:-1]}» {alphabet} «{strange[0]}»"
     if mended.isascii():
-        yield what, f"напишите латиницей: {mended}"
+        yield problem, f"напишите латиницей: {mended}"
     else:
-        yield what, "ключи пишутся латиницей, названия — в комментарии после #"
+        yield problem, "ключи пишутся латиницей, названия — в комментарии после #"
 
 
 def _value(line: str) -> str:
@@ -149,18 +149,18 @@ def _backslash(line: str) -> Iterator[Words]:
 
 def _list(line: str) -> Iterator[Words]:
     """A list without its brackets or with the separators of a Russian Excel."""
-    given = _value(bare(line))
-    brackets = re.match(r"[\[({](.*?)[\])}]?$", given)
-    inside = brackets[1] if brackets else given
+    value = _value(bare(line))
+    brackets = re.match(r"[\[({](.*?)[\])}]?$", value)
+    inside = brackets[1] if brackets else value
     parts = inside.split(";") if ";" in inside else re.split(r",\s+|\s+", inside)
     mended = ", ".join(part.strip().replace(",", ".") for part in parts)[:60]
-    if given[:1] in ("(", "{") or _ITEMS.fullmatch(given):
+    if value[:1] in ("(", "{") or _ITEMS.fullmatch(value):
         yield "список без квадратных скобок", f"напишите [{mended}]"
     elif not brackets:
         return
     elif ";" in inside:
         yield "в списке точка с запятой", f"между числами запятая, дробь с точкой: [{mended}]"
-    elif "]" not in given:
+    elif "]" not in value:
         yield "список не закрыт скобкой «]»", f"строка: {shown(_code(line).strip())}"
     elif re.search(r"\d\s+[-+]?\d", inside):
         yield "в списке нет запятой между числами", f"напишите [{mended}]"
@@ -211,8 +211,8 @@ def _equals(line: str) -> Iterator[Words]:
     if re.match(r"\s*(//|;|--|/\*)", line):
         yield "комментарий начинается не с «#»", "поставьте в начале строки #"
     elif other is not None and "=" not in other[3]:
-        given = re.sub(r"^\s*\w+\s*(:=|:)?\s*", "", _code(line)).strip()
-        yield "после ключа нет знака «=»", f"напишите {other[1]} = {given[:40]}"
+        value = re.sub(r"^\s*\w+\s*(:=|:)?\s*", "", _code(line)).strip()
+        yield "после ключа нет знака «=»", f"напишите {other[1]} = {value[:40]}"
 
 
 # The first that knows the line speaks.

@@ -64,9 +64,9 @@ class BookPlaces:
 class BookError(InputError):
     """A mistake in a book: where it stands there, what it is, how to mend it."""
 
-    def __init__(self, book: str, line: int, column: int, what: str, hint: str = "") -> None:
+    def __init__(self, book: str, line: int, column: int, problem: str, hint: str = "") -> None:
         at = f"{one_line(book, 60)}: строка {line}, столбец {column}"
-        super().__init__(Problem(at, one_line(what, 200), hint))
+        super().__init__(Problem(at, one_line(problem, 200), hint))
         self.line, self.column = line, column
 
 
@@ -84,8 +84,8 @@ class Shelf:
         Raises:
             jinja2.TemplateNotFound: no folder has it.
         """
-        for given, text in self.own:
-            if book_name(given) == Path(name).stem:
+        for name_of, text in self.own:
+            if book_name(name_of) == Path(name).stem:
                 return text, Path(name)
         for folder in self.folders if _NAME.fullmatch(name) else ():
             path = folder / name
@@ -106,7 +106,10 @@ class Shelf:
 
     def called(self, name: str) -> str:
         """A book as messages call it: an own one by the name that its file has."""
-        return next((given for given, _ in self.own if book_name(given) == Path(name).stem), name)
+        return next(
+            (full_name for full_name, _ in self.own if book_name(full_name) == Path(name).stem),
+            name,
+        )
 
     def of_book(self, name: str) -> Shelf:
         """The shelf to read a book from: the house's own where no own book is asked of it."""
@@ -133,12 +136,12 @@ class Shelf:
 
 def _compiled(folder: Path) -> jinja2.BytecodeCache | None:
     """Where compiled books are kept, as Python keeps its modules; nowhere in a read-only place."""
-    kept = folder / "__pycache__"
+    cache = folder / "__pycache__"
     try:
-        kept.mkdir(exist_ok=True)
+        cache.mkdir(exist_ok=True)
     except OSError:
         return None
-    return jinja2.FileSystemBytecodeCache(str(kept)) if os.access(kept, os.W_OK) else None
+    return jinja2.FileSystemBytecodeCache(str(cache)) if os.access(cache, os.W_OK) else None
 
 
 @lru_cache(maxsize=8)
@@ -212,8 +215,8 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
                         "уберите вызов себя через себя") from None  # fmt: skip
     except jinja2.TemplateSyntaxError as error:
         book = error.name or name
-        for line, what, hint in unpaired(shelf.source(book)[0]):
-            raise BookError(shelf.called(book), line, 1, what, hint) from error
+        for line, problem, hint in unpaired(shelf.source(book)[0]):
+            raise BookError(shelf.called(book), line, 1, problem, hint) from error
         raise BookError(shelf.called(book), error.lineno, 1,
                         f"условие Jinja2 не разобрано{_cause(error)}",
                         "проверьте % if, % for и скобки") from error  # fmt: skip
@@ -287,23 +290,23 @@ def _place(mark: str) -> tuple[str, str]:
 
 
 def at_fragment(
-    line: BookLine, shelf: Shelf, what: str, hint: str = "", fragment: str = ""
+    line: BookLine, shelf: Shelf, problem: str, hint: str = "", fragment: str = ""
 ) -> BookError:
     """A mistake in a line; its column is that of the fragment where it is written."""
     source, book = shelf.source(line.book)[0].splitlines(), shelf.called(line.book)
     for number, written in enumerate(source[line.number - 1 :], line.number):
         if fragment and fragment in written:
-            return BookError(book, number, written.index(fragment) + 1, what, hint)
+            return BookError(book, number, written.index(fragment) + 1, problem, hint)
         if number > line.number and not written[:1].isspace():
             break
-    return BookError(book, line.number, 1, what, hint)
+    return BookError(book, line.number, 1, problem, hint)
 
 
-def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
-    """Names that formulas of books do not know, circles; ``places`` are the lines of nodes."""
+def book_faults(model: Model, lines: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
+    """Names that formulas of books do not know, circles; ``lines`` are the lines of nodes."""
     known = model.nodes.keys() | model.fields.keys() | model.grid_runs.keys()
     known |= model.input_runs.keys()
-    for key, line in places.items():
+    for key, line in lines.items():
         node = model.nodes.get(key)
         if node is None or node.expr is None:
             continue
@@ -312,10 +315,10 @@ def book_faults(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> I
             if node_of(name, table, model) not in known:
                 yield at_fragment(line, shelf, f"имя «{name}» неизвестно",
                                   _likely(name, known), name)  # fmt: skip
-    yield from _circles(model, places, shelf)
+    yield from _circles(model, lines, shelf)
 
 
-def _likely(name: str, known: Set[str]) -> str:
+def _likely(name: str, names: Set[str]) -> str:
     """How to mend a name that nobody knows."""
     if name == "value":
         return "value стоит только в условии проверки; назовите величину"
@@ -325,16 +328,16 @@ def _likely(name: str, known: Set[str]) -> str:
     if section in SECTIONS and any(key in model.model_fields for model in SECTIONS[section].models):
         at = f"{section}.{key}"
         return f"{at} у этого двигателя не задано; спросите % if given.{at} или возьмите другое"
-    column = next((each for each in sorted(known) if each.endswith(f".{name}")), None)
-    near = column or next(iter(difflib.get_close_matches(name, known, n=1, cutoff=0.8)), "")
+    column = next((each for each in sorted(names) if each.endswith(f".{name}")), None)
+    similar = column or next(iter(difflib.get_close_matches(name, names, n=1, cutoff=0.8)), "")
     usual = "назовите величину книги, исходное или столбец таблицы"
-    return f"возможно, {near}; {usual}" if near else usual
+    return f"возможно, {similar}; {usual}" if similar else usual
 
 
-def _circles(model: Model, places: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
+def _circles(model: Model, lines: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
     """Nodes whose formulas lead back to them, but for rows that follow from rows before."""
     graph, whole = graph_of(model), model.whole_tables
-    for key, line in places.items():
+    for key, line in lines.items():
         if key in model.nodes and key not in whole and key in graph.ancestors(key):
             short = key.rpartition(".")[2]
             yield at_fragment(line, shelf, f"«{short}» считается через себя",

@@ -80,7 +80,7 @@ def read_book(
     name: str,
     names: Mapping[str, Any],
     shelf: Shelf | None = None,
-    places: BookPlaces | dict[str, BookLine] | None = None,
+    lines: BookPlaces | dict[str, BookLine] | None = None,
 ) -> Part:
     """Blocks and charts of a book for one engine.
 
@@ -88,15 +88,13 @@ def read_book(
         name: file of the book.
         names: what its conditions may ask.
         shelf: where books lie, those of the house if none is given.
-        places: takes the lines of what the book says; a mapping, those of its formulas alone.
+        lines: takes the lines of what the book says; a mapping, those of its formulas alone.
 
     Raises:
         BookError: a mistake, with its line and column in the book.
     """
     shelf = shelf or house_shelf()
-    where = (
-        places if isinstance(places, BookPlaces) else BookPlaces({} if places is None else places)
-    )
+    where = lines if isinstance(lines, BookPlaces) else BookPlaces({} if lines is None else lines)
     reader = _BookReader(shelf, names, where)
     for line in lines_of(name, shelf, names):
         reader.take(line)
@@ -121,9 +119,9 @@ class _Open:
 class _BookReader:
     """Takes line after line and keeps the blocks."""
 
-    def __init__(self, shelf: Shelf, names: Mapping[str, Any], places: BookPlaces) -> None:
+    def __init__(self, shelf: Shelf, names: Mapping[str, Any], lines: BookPlaces) -> None:
         self._shelf, self._names = shelf, names
-        self._places = places
+        self._places = lines
         self._chapters: list[OwnChapter] = []
         self._sheet = ""
         self._blocks: list[Block] = []
@@ -163,67 +161,70 @@ class _BookReader:
 
     def _take(self, line: BookLine) -> None:
         text = line.text
-        word, _, rest = text.partition(" ")
+        word, _, tail = text.partition(" ")
         if DECLARATION.fullmatch(text):
             pass  # read before any engine, see reports.inputs.own_books
-        elif word in _HEADS and not rest.startswith(("=", "of ", "every ")):
+        elif word in _HEADS and not tail.startswith(("=", "of ", "every ")):
             self._close()
-            self._head(word, rest)
+            self._head(word, tail)
             self._lines = [line]
-        elif word in ChartLines.HEADS and not rest.startswith("="):
+        elif word in ChartLines.HEADS and not tail.startswith("="):
             self._close()
-            self._open = ChartLines.opened(word, rest, self._sheet)
+            self._open = ChartLines.opened(word, tail, self._sheet)
             self._lines = [line]
         elif isinstance(self._open, ChartLines):
-            self._open = self._open.take(word, rest)
+            self._open = self._open.take(word, tail)
             self._lines.append(line)
         elif self._open is None:
             raise self._fault(f"строка «{text}» стоит вне блока", "начните с list, table или grid")
         elif self._open.word == "text":
-            self._said(self._open, word, rest, text)
+            self._said(self._open, word, tail, text)
         else:
             self._lines.append(line)
-            self._body(self._open, word, rest, text)
+            self._body(self._open, word, tail, text)
 
-    def _said(self, block: _Open, word: str, rest: str, text: str) -> None:
+    def _said(self, block: _Open, word: str, tail: str, text: str) -> None:
         """A line of a chapter's text."""
         kind = word if word in ("heading", "formula", "show") else "paragraph"
-        said = rest if kind != "paragraph" else text
+        said = tail if kind != "paragraph" else text
         block.lines.append(TextLine(kind, said, self._line.book, self._line.number))
 
-    def _head(self, word: str, rest: str) -> None:
+    def _head(self, word: str, tail: str) -> None:
         pattern, form = _HEADS[word]
-        head = re.fullmatch(pattern, rest)
+        head = re.fullmatch(pattern, tail)
         if head is None:
-            raise self._fault(f"заголовок «{word} {rest}» не разобран", f"пишите {form}")
-        about = {key: value or "" for key, value in head.groupdict().items()}
+            raise self._fault(f"заголовок «{word} {tail}» не разобран", f"пишите {form}")
+        attributes = {key: value or "" for key, value in head.groupdict().items()}
         if word == "sheet":
-            self._sheet = about["title"].strip()
+            self._sheet = attributes["title"].strip()
         elif word in ("place", "chapter"):
             pass  # read before any engine, see reports.model.contents
         elif word == "box":
-            parse(about["size"])
-            grid = corners(about["id"], about["title"], self._sheet, about["key"], about["size"],
-                           about["of"] or "box", about["source"] or "оси диаграммы")  # fmt: skip
+            parse(attributes["size"])
+            key, box, source = attributes["key"], attributes["of"], attributes["source"]
+            grid = corners(
+                attributes["id"], attributes["title"], self._sheet, key, attributes["size"],
+                box or "box", source or "оси диаграммы",
+            )  # fmt: skip
             self._placed(*(key for key, _ in nodes_in(grid)))
             self._places.blocks[grid.id] = (self._line,)
             self._blocks.append(grid)
         else:
-            self._open = _Open(word, about, self._sheet)
+            self._open = _Open(word, attributes, self._sheet)
 
-    def _body(self, block: _Open, word: str, rest: str, text: str) -> None:
+    def _body(self, block: _Open, word: str, tail: str, text: str) -> None:
         if word == "note":
-            block.notes.append(rest)
+            block.notes.append(tail)
         elif block.word == "grid" and word == "member":
-            block.members.append((rest, []))
+            block.members.append((tail, []))
         elif block.word == "grid" and word == "last":
-            block.last = tuple(rest.split())
+            block.last = tuple(tail.split())
         elif word == "extremes" and block.word in ("list", "table"):
-            self._extremes(block, rest)
+            self._extremes(block, tail)
         elif block.word == "allowed":
             block.scalars += self._allowed(block, text)
         elif word == "check" and block.word == "list":
-            block.scalars += self._check(block, rest)
+            block.scalars += self._check(block, tail)
         elif block.word == "grid":
             if not block.members:
                 raise self._fault("строка стоит раньше member", "начните с member НАЗВАНИЕ")
@@ -233,10 +234,10 @@ class _BookReader:
         else:
             block.scalars.append(self._scalar(text))
 
-    def _extremes(self, block: _Open, rest: str) -> None:
-        match = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", rest)
+    def _extremes(self, block: _Open, tail: str) -> None:
+        match = re.fullmatch(r"(?:(\w+)\.)?(\w+) as (\w+)(?: \| (.*))?", tail)
         if match is None:
-            raise self._fault(f"«extremes {rest}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
+            raise self._fault(f"«extremes {tail}» не разобрано", "пишите extremes СТОЛБЕЦ as ИМЯ")
         table, column, name, source = match.groups()
         if block.word == "table":
             columns = extreme_columns(column, name)
@@ -251,15 +252,15 @@ class _BookReader:
         self._placed(*(each.key for each in scalars))
         block.scalars += scalars
 
-    def _check(self, block: _Open, rest: str) -> tuple[Scalar, Scalar]:
+    def _check(self, block: _Open, tail: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
-        match = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", rest)
+        match = re.fullmatch(r"(\w+)(?: of (\w+))? = (.*?) \| (.*?) \| (.*?)(?: \| (.*))?", tail)
         if match is None:
-            raise self._fault(f"«check {rest}» не разобрано",
+            raise self._fault(f"«check {tail}» не разобрано",
                               "пишите check ИМЯ = ВЕЛИЧИНА | УСЛОВИЕ | ЧТО ПРОВЕРЕНО")  # fmt: skip
         key, value_key, value, test, title, source = match.groups()
         verdict = key if value_key else f"check_{key}"
-        own = value_key or f"value_{key}"
+        value_name = value_key or f"value_{key}"
         if value_key and key.startswith("check_"):
             raise self._fault(f"имя «{key}» занято", f"пишите check {key[6:]} = … без of", key)
         parse(value)
@@ -270,21 +271,21 @@ class _BookReader:
         if not (is_condition(test) and "value" in names(test)):
             raise self._fault(f"«{test}» — не условие о проверяемом значении",
                               "назовите его value: value <= 120", test)  # fmt: skip
-        test = renamed(test, lambda name: own if name == "value" else name)
-        self._placed(own, verdict)
+        test = renamed(test, lambda name: value_name if name == "value" else name)
+        self._placed(value_name, verdict)
         source = source or "проверка"
-        return judged(own, verdict, value, _plain(test), title, source, words, ends)
+        return judged(value_name, verdict, value, _plain(test), title, source, words, ends)
 
     def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
         """``KEY = value | title``, held to the limit of the heading."""
-        found = re.fullmatch(r"(\w+) = (.*?) \| (.*)", text)
-        if found is None:
+        match = re.fullmatch(r"(\w+) = (.*?) \| (.*)", text)
+        if match is None:
             raise self._fault(f"строка «{text}» не разобрана", "пишите ИМЯ = ВЕЛИЧИНА | ЧТО ЭТО")
-        key, value, title = found.groups()
-        own, limit = f"value_{key}", block.about["limit"]
+        key, value, title = match.groups()
+        value_name, limit = f"value_{key}", block.about["limit"]
         parse(value)
-        self._placed(own, f"{ALLOWED}{key}")
-        return judged(own, f"{ALLOWED}{key}", value, f"{own} {limit}", title,
+        self._placed(value_name, f"{ALLOWED}{key}")
+        return judged(value_name, f"{ALLOWED}{key}", value, f"{value_name} {limit}", title,
                       "сравнение с допускаемым")  # fmt: skip
 
     def _words(self, block: _Open) -> tuple[str, str] | None:
@@ -332,10 +333,10 @@ class _BookReader:
         self._line = here
 
     def _made(self, block: _Open) -> Block:
-        about, note = block.about, " ".join(block.notes)
-        head = (about["id"], about["title"])
+        attributes, note = block.about, " ".join(block.notes)
+        head = (attributes["id"], attributes["title"])
         if not (block.scalars or block.columns or block.members or self._shelf.trusted):
-            raise ValueError(f"в блоке «{about['id']}» нет ни одной величины; допишите её")
+            raise ValueError(f"в блоке «{attributes['id']}» нет ни одной величины; допишите её")
         if block.word == "grid":
             return Grid(*head, block.sheet, tuple(label for label, _ in block.members),
                         _rows_of(block), note=note)  # fmt: skip
@@ -345,24 +346,25 @@ class _BookReader:
         return ScalarTable(*head, block.sheet, tuple(block.scalars), note=note, verdicts=verdicts)
 
     def _table(self, block: _Open, note: str) -> Table:
-        about, step = block.about, None
-        if "…" in about["rows"]:
-            first, last, step = _rows_between(about["rows"])
+        attributes, step = block.about, None
+        if "…" in attributes["rows"]:
+            first, last, step = _rows_between(attributes["rows"])
             rows = stepped(first, last, step)
         else:
-            rows = self._names[about["rows"]]
-        options = about["options"].split()
+            rows = self._names[attributes["rows"]]
+        options = attributes["options"].split()
         if block.columns and not self._shelf.trusted:
             _refuse_odd_columns(block.columns, computed="computed" in options)
         return Table(
-            about["id"], about["number"], about["title"], block.sheet, tuple(block.columns), rows,
+            attributes["id"], attributes["number"], attributes["title"], block.sheet,
+            tuple(block.columns), rows,
             note=note, helper="helper" in options, step=step,
-            computed=partial(solved_columns, about["id"]) if "computed" in options else None,
+            computed=partial(solved_columns, attributes["id"]) if "computed" in options else None,
         )  # fmt: skip
 
-    def _fault(self, what: str, hint: str = "", fragment: str = "") -> BookError:
+    def _fault(self, problem: str, hint: str = "", fragment: str = "") -> BookError:
         """A mistake in the line taken."""
-        return at_fragment(self._line, self._shelf, what, hint, fragment)
+        return at_fragment(self._line, self._shelf, problem, hint, fragment)
 
 
 def _rows_between(text: str) -> tuple[float, float, float]:
@@ -405,18 +407,19 @@ def solved_columns(table: str, model: InputFile) -> Columns:
 
 
 @lru_cache(maxsize=8192)
-def _scalar(text: str, own: Texts, *, named: bool) -> Scalar | None:
+def _scalar(text: str, declared: Texts, *, named: bool) -> Scalar | None:
     """Scalar of a line, None where it is none; ``named`` names the quantity in any case."""
     match = _VALUE.fullmatch(text)
     if match is None or match["helper"] or match["expr"] is None:
         return None
     of = match["of"] or (match["key"] if named else "")
-    return _known(Scalar(match["key"], match["expr"].strip(), match["source"] or "", of=of,
-                         every=match["every"] or TURN, note=match["note"] or ""), own)  # fmt: skip
+    scalar = Scalar(match["key"], match["expr"].strip(), match["source"] or "", of=of,
+                    every=match["every"] or TURN, note=match["note"] or "")  # fmt: skip
+    return _known(scalar, declared)
 
 
 @lru_cache(maxsize=8192)
-def _column(text: str, own: Texts) -> Column | None:
+def _column(text: str, declared: Texts) -> Column | None:
     """Column of a line, None where it is none."""
     match = _VALUE.fullmatch(text)
     if match is None:
@@ -424,7 +427,7 @@ def _column(text: str, own: Texts) -> Column | None:
     expr = match["expr"] and match["expr"].strip()
     column = Column(match["key"], expr, match["source"] or "", of=match["of"] or "",
                     every=match["every"] or TURN, helper=bool(match["helper"]))  # fmt: skip
-    return _known(column, own)
+    return _known(column, declared)
 
 
 def _known(node: Kind, books: Texts) -> Kind:
@@ -442,10 +445,10 @@ def _known(node: Kind, books: Texts) -> Kind:
     if books:
         node = replace(node, own=quantities_of(books).get(node.of or node.key))
     _ = node.quantity
-    said, wanted = (name.rpartition("_")[2] for name in (node.key, node.of))
-    if node.of and wanted and said != wanted and {said, wanted} <= UNITS.keys():
+    said, required = (name.rpartition("_")[2] for name in (node.key, node.of))
+    if node.of and required and said != required and {said, required} <= UNITS.keys():
         raise ValueError(
-            f"единица «{said}» ключа «{node.key}» — не «{wanted}» величины «{node.of}»"
+            f"единица «{said}» ключа «{node.key}» — не «{required}» величины «{node.of}»"
         )
     return node
 

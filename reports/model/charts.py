@@ -89,9 +89,9 @@ class ChartSpec:
     @property
     def heading(self) -> str:
         """Title of the workbook's chart: the report's number, the textbook's in brackets."""
-        own = f"Рис.{NBSP}{self.number}. " if self.number else ""
+        number = f"Рис.{NBSP}{self.number}. " if self.number else ""
         textbook = f" [рис.{NBSP}{self.figure}]" if self.figure else ""
-        return f"{own}{self.title}{textbook}"
+        return f"{number}{self.title}{textbook}"
 
     @property
     def equal_axes(self) -> bool:
@@ -131,43 +131,43 @@ class ChartLines:
     more: dict[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def opened(cls, word: str, rest: str, sheet: str) -> ChartLines:
+    def opened(cls, word: str, tail: str, sheet: str) -> ChartLines:
         """A chart from its heading.
 
         Raises:
             ValueError: it is none.
         """
-        head = _HEAD.fullmatch(rest)
+        head = _HEAD.fullmatch(tail)
         if head is None:
-            raise ValueError(f"заголовок «{word} {rest}» не разобран; пишите {word} ИМЯ: ЗАГОЛОВОК")
+            raise ValueError(f"заголовок «{word} {tail}» не разобран; пишите {word} ИМЯ: ЗАГОЛОВОК")
         return cls(cls.HEADS[word], head["id"], "" if head["report"] else sheet, head["title"],
                    head["over"] or "", head["box"] or "")  # fmt: skip
 
-    def take(self, word: str, rest: str) -> ChartLines:
+    def take(self, word: str, tail: str) -> ChartLines:
         """The chart with one more line.
 
         Raises:
             ValueError: the line says nothing of a chart.
         """
         if word == "curve":
-            return replace(self, curves=(*self.curves, _curve(rest)))
-        return replace(self, more={**self.more, **self._said(word, rest)})
+            return replace(self, curves=(*self.curves, _curve(tail)))
+        return replace(self, more={**self.more, **self._said(word, tail)})
 
-    def _said(self, word: str, rest: str) -> dict[str, Any]:
+    def _said(self, word: str, tail: str) -> dict[str, Any]:
         if word in ("x", "y"):
-            return {f"{word}_title": rest}
+            return {f"{word}_title": tail}
         if word in _TEXTS:
-            return {word: rest}
+            return {word: tail}
         if word in _FLAGS:
             return {word: True}
         if word == "x_step":
-            return {word: _step(rest)}
+            return {word: _step(tail)}
         if word == "floating":
             return {"from_zero": False}
         if word in ("levels", "contact"):
-            return {word: tuple(rest.split())}
+            return {word: tuple(tail.split())}
         if word == "pole":
-            symbol, _, ordinate = rest.partition(" = ")
+            symbol, _, ordinate = tail.partition(" = ")
             return {"poles": (*self.more.get("poles", ()), (symbol, ordinate))}
         raise ValueError(f"слово «{word}» диаграмме неизвестно; слова диаграмм — в docs/books.md")
 
@@ -210,14 +210,14 @@ def _step(text: str) -> float:
     return step
 
 
-def _curve(rest: str) -> Series:
+def _curve(tail: str) -> Series:
     """``[X] Y [workbook|report]: name``."""
-    head, _, name = rest.partition(": ")
+    head, _, name = tail.partition(": ")
     refs = [word for word in head.split() if "." in word]
     words = [word for word in head.split() if "." not in word]
     only = next((word for word in words if word in ("workbook", "report")), "")
     if not 1 <= len(refs) <= 2 or set(words) - {only, "point"}:
-        raise ValueError(f"«curve {rest}» не разобрано; пишите curve ТАБЛИЦА.X ТАБЛИЦА.Y: имя")
+        raise ValueError(f"«curve {tail}» не разобрано; пишите curve ТАБЛИЦА.X ТАБЛИЦА.Y: имя")
     return Series(refs[0] if len(refs) == 2 else "", refs[-1], name, only=only,  # type: ignore[arg-type]
                   point="point" in words)  # fmt: skip
 

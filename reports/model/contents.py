@@ -46,13 +46,13 @@ class Contents:
 def contents_of(shelf: Shelf | None = None) -> Contents:
     """Contents of all books of a shelf, those of the house if none is given."""
     texts = dict((shelf or house_shelf()).texts())
-    places = [
+    positions = [
         (part, int(order), name, bool(alone))
         for name, text in texts.items()
         for part, order, alone in _PLACE.findall(text)
     ]
     parts: dict[str, list[str]] = {"before": [], "chain": [], "after": []}
-    for part, _, name, _ in sorted(places):
+    for part, _, name, _ in sorted(positions):
         parts[part].append(name)
     whole = "\n".join(texts.values())
     sheets: dict[str, list[tuple[int, str, str]]] = {}
@@ -70,11 +70,11 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
             for title, colour, smooth in _CHAPTER.findall(whole)
         ),
         frozenset(beyond_course),
-        frozenset(name for _, _, name, alone in places if alone),
+        frozenset(name for _, _, name, alone in positions if alone),
     )
 
 
-def _check_chapters(shelf: Shelf, known: set[str]) -> None:
+def _check_chapters(shelf: Shelf, chapters: set[str]) -> None:
     """Refuse sheets of own books that name no chapter of the workbook."""
     for name, text in shelf.own:
         for number, line in enumerate(text.splitlines(), 1):
@@ -82,10 +82,10 @@ def _check_chapters(shelf: Shelf, known: set[str]) -> None:
             title = sheet[1] if sheet else ""
             if sheet is None:
                 continue
-            if sheet[2] not in known:
+            if sheet[2] not in chapters:
                 raise BookError(name, number, line.index(sheet[2]) + 1,
                                 f"главы «{sheet[2]}» в книге Excel нет",
-                                "главы: " + ", ".join(sorted(known)))  # fmt: skip
+                                "главы: " + ", ".join(sorted(chapters)))  # fmt: skip
             if "{{" not in title and (
                 len(title) > MOST_TITLE or re.search(r"[\\/*?:\[\]']", title)
             ):

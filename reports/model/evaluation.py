@@ -39,7 +39,7 @@ class Evaluation:
             scalar or input or by ``table.column``.
     """
 
-    def __init__(self, model: Model, known: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, model: Model, values: Mapping[str, Any] | None = None) -> None:
         self.model = model
         self.done: dict[str, Any] = {}
         self.running: set[str] = set()
@@ -53,14 +53,14 @@ class Evaluation:
             points = [model.fields[name].value for name in cells]
             self.done[key] = np.array(points, dtype=float)
         self.inputs = dict(self.done)
-        self.done.update(known or {})
+        self.done.update(values or {})
 
-    def fork(self, known: Mapping[str, Any]) -> Evaluation:
+    def fork(self, values: Mapping[str, Any]) -> Evaluation:
         """The same model with other known values, nothing else evaluated yet."""
         other = Evaluation.__new__(Evaluation)
         other.model, other.nodes, other.running = self.model, self.nodes, set()
         other.inputs, other.runs, other.programs = self.inputs, self.runs, self.programs
-        other.done = {**self.inputs, **known}
+        other.done = {**self.inputs, **values}
         return other
 
     def value(self, key: str) -> Any:  # noqa: ANN401
@@ -119,12 +119,12 @@ class Evaluation:
         acts, needs = _row_acts(table.columns)
         row: dict[str, Any] = {name: self._needed(name) for name in needs}
         columns = {key: np.zeros(len(table.rows)) for key in keys}
-        given = {key: self.done.get(f"{table.id}.{key}") for key in keys}
-        given[keys[0]] = np.array(table.rows)
+        columns_done = {key: self.done.get(f"{table.id}.{key}") for key in keys}
+        columns_done[keys[0]] = np.array(table.rows)
         for i in range(len(table.rows)):
             row.update({f"{_ABOVE}{key}": row.get(key, 0.0) for key in keys})
             for key, act in zip(keys, acts, strict=True):
-                known = given[key]
+                known = columns_done[key]
                 row[key] = columns[key][i] = act(row) if known is None else known[i]
         return {f"{table.id}.{key}": values for key, values in columns.items()}
 
@@ -137,9 +137,9 @@ def _row_acts(
     columns: tuple[Column, ...],
 ) -> tuple[tuple[Callable[[dict[str, Any]], Any], ...], frozenset[str]]:
     """What each column of a table does with the values of a row, and the names from outside."""
-    own = {column.key for column in columns}
+    keys = {column.key for column in columns}
     texts = [_PREVIOUS.sub(rf"{_ABOVE}\1", column.expr or "0") for column in columns]
-    outside = frozenset().union(*(names(column.expr) for column in columns if column.expr)) - own
+    outside = frozenset().union(*(names(column.expr) for column in columns if column.expr)) - keys
     return tuple(compiled(text, str) for text in texts), outside
 
 
@@ -221,8 +221,8 @@ class Graph:
 
     def references(self, node: str) -> frozenset[str]:
         """Nodes and inputs that a node's formula names."""
-        known = self._references.get(node)
-        if known is None:
+        cached = self._references.get(node)
+        if cached is None:
             text = self.expression(node)
             table = node.split(".", maxsplit=1)[0] if "." in node else ""
             keys: set[str] = set()
@@ -230,8 +230,8 @@ class Graph:
                 local = f"{table}.{name}"
                 key = local if local in self._formulas else name
                 keys.update(self._runs.get(key, (key,)))
-            known = self._references[node] = frozenset(keys)
-        return known
+            cached = self._references[node] = frozenset(keys)
+        return cached
 
     def ancestors(self, node: str) -> frozenset[str]:
         """Every node and input that a node depends on."""

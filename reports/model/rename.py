@@ -38,8 +38,8 @@ def copied(block: Block, names: Names) -> Block:
 
     The columns of a table keep their keys.
     """
-    own = {column.key for column in block.columns} if isinstance(block, TableSpec) else set()
-    change = _Expressions(lambda name: name if name in own else names(name))
+    keys = {column.key for column in block.columns} if isinstance(block, TableSpec) else set()
+    change = _Expressions(lambda name: name if name in keys else names(name))
 
     def scalar(item: Scalar) -> Scalar:
         return replace(change(item), key=names(item.key), of=item.of or item.key)

@@ -122,9 +122,9 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
         if isinstance(obj, type) or not callable(obj):
             raise SecurityError("вызывать это книге нельзя")
         owner = getattr(obj, "__self__", None)
-        given = any(obj is each for each in context.parent.values())
-        known = given or isinstance(obj, Macro) or owner is self
-        if not (known or isinstance(owner, str | dict) or is_dataclass(owner)):
+        from_context = any(obj is each for each in context.parent.values())
+        is_known = from_context or isinstance(obj, Macro) or owner is self
+        if not (is_known or isinstance(owner, str | dict) or is_dataclass(owner)):
             raise SecurityError("вызывать это книге нельзя")
         if isinstance(owner, str) and obj.__name__ == "replace":
             return self._replaced(owner, *args)

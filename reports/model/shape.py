@@ -30,8 +30,8 @@ class Shape:
     @classmethod
     def of(cls, model: InputFile) -> Shape:
         """Shape of a checked input."""
-        given = model.geometry
-        offset = isinstance(given, GeometrySection) and given.is_offset
+        geometry = model.geometry
+        offset = isinstance(geometry, GeometrySection) and geometry.is_offset
         shaft = model.crankshaft
         lists = (shaft.pin_diameters_mm, shaft.pin_lengths_mm)
         own_pins = any(len(set(sizes or ())) > 1 for sizes in lists)

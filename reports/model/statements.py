@@ -56,8 +56,8 @@ def unpaired(text: str) -> Iterator[tuple[int, str, str]]:
         statement = _STATEMENT.fullmatch(line)
         if statement is None:
             continue
-        word, rest = statement[1], statement[2]
-        if word in _CLOSED or (word == "set" and "=" not in rest):
+        word, tail = statement[1], statement[2]
+        if word in _CLOSED or (word == "set" and "=" not in tail):
             waiting.append((number, word))
         elif word.startswith("end"):
             if not waiting or waiting[-1][1] != word[3:]:

@@ -78,19 +78,19 @@ def phases(cylinders: int, layout: str, strokes: int) -> Phases:
     if layout == "inline":
         order = _IN_LINE[strokes][cylinders - 1]
     elif layout == "v":
-        bank, given = _V[strokes][cylinders]
-        order, offsets = (given, ()) if isinstance(given, str) else ("", given)
+        bank, table = _V[strokes][cylinders]
+        order, offsets = (table, ()) if isinstance(table, str) else ("", table)
     elif strokes == 4:
         order = _OPPOSED[cylinders]
     else:  # both of a pair fire together
         half = _starts(_IN_LINE[2][cylinders // 2 - 1], 360)
         offsets = half + half
-    places = arrangement(layout, cylinders, bank)
-    if places is None:
+    placement = arrangement(layout, cylinders, bank)
+    if placement is None:
         msg = "the layout was checked before"
         raise AssertionError(msg)
     offsets = offsets or _starts(order, 180 * strokes)
-    return Phases(offsets, throw_angles(places, offsets), order, bank)
+    return Phases(offsets, throw_angles(placement, offsets), order, bank)
 
 
 def _starts(order: str, period: float) -> tuple[float, ...]:
@@ -101,12 +101,12 @@ def _starts(order: str, period: float) -> tuple[float, ...]:
 
 
 def _refuse(cylinders: int, layout: str) -> None:
-    what = hint = ""
+    problem = hint = ""
     if not 1 <= cylinders <= MOST:
-        what, hint = f"число цилиндров {cylinders}", f"команда знает от 1 до {MOST}"
+        problem, hint = f"число цилиндров {cylinders}", f"команда знает от 1 до {MOST}"
     elif layout != "inline" and cylinders % 2:
         words = "V-образного" if layout == "v" else "оппозитного"
-        what = f"число цилиндров {cylinders} нечётное, а рядов у {words} двигателя два"
+        problem = f"число цилиндров {cylinders} нечётное, а рядов у {words} двигателя два"
         hint = "задайте чётное число или --layout inline"
-    if what:
-        raise InputError(Problem("--cylinders", what, hint))
+    if problem:
+        raise InputError(Problem("--cylinders", problem, hint))

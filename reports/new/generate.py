@@ -100,16 +100,16 @@ def generate_engine(
     strokes: int = 4,
     kind: str = "petrol",
     strength: bool = False,
-    **given: float | None,
+    **values: float | None,
 ) -> NewEngine:
-    """Engine for a task, ``given`` as fields of `EngineTask`; usual values elsewhere.
+    """Engine for a task, ``values`` as fields of `EngineTask`; usual values elsewhere.
 
     ``strength`` adds sizes of piston, pin and rod, usual ones that follow the load.
 
     Raises:
         InputError: there is no such engine.
     """
-    task, timing = EngineTask(**given), phases(cylinders, layout, strokes)
+    task, timing = EngineTask(**values), phases(cylinders, layout, strokes)
     usual = usual_for(kind, strokes, task)
     bore, stroke, speed = main_sizes(task, usual, cylinders, strokes)
     swept = math.pi * bore**2 / 4 * stroke * cylinders
@@ -207,9 +207,9 @@ def larger_pin(sizes: ShaftSizes, diameter: float, length: float) -> ShaftSizes:
         "crankshaft.pin_length_mm": words,
         "crankshaft.main_diameter_mm": "не тоньше шатунной" if diameter > sizes.main else "",
     }
-    told = {key: text for key, text in notes.items() if text}
+    remarks = {key: text for key, text in notes.items() if text}
     return replace(sizes, pin=diameter, pin_length=length, main=max(sizes.main, diameter),
-                   notes=sizes.notes | told)  # fmt: skip
+                   notes=sizes.notes | remarks)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,20 +228,20 @@ def table_masses(
     """Section [masses] and the masses of a throw by table 4 of the textbook."""
     size = Sizes(bore, stroke / 2, stroke)
     area = size.piston_area * size.heavier
-    near = area_masses(Estimate(fuel="diesel" if kind == "diesel" else "petrol"),
+    estimate = area_masses(Estimate(fuel="diesel" if kind == "diesel" else "petrol"),
                        bore / 1000, stroke / 1000)  # fmt: skip
     rods = rods_of(layout)
-    pin = near.throw * PIN_SHARE * (_SHARED_PIN if rods == 2 else 1.0)
-    web = near.throw * (1 - PIN_SHARE) / 2
-    rotating = pin + 2 * web + rods * (1 - share) * near.rod
+    pin = estimate.throw * PIN_SHARE * (_SHARED_PIN if rods == 2 else 1.0)
+    web = estimate.throw * (1 - PIN_SHARE) / 2
+    rotating = pin + 2 * web + rods * (1 - share) * estimate.rod
     taken = rotating * SHAFTS[layout, kind].counterweights
     larger = f" × {number_text(round(size.heavier, 2))} для такого D" if size.heavier > 1 else ""
     piston, rod, throw = (
         f"таблица 4: {span_text(low, high)} кг/м², принято {value:.0f}{larger}"
         for (low, high), value in (
-            (PISTON_MASSES["aluminium", kind], near.piston),
-            (ROD_MASSES[kind], near.rod),
-            (THROW_MASSES["steel", kind], near.throw),
+            (PISTON_MASSES["aluminium", kind], estimate.piston),
+            (ROD_MASSES[kind], estimate.rod),
+            (THROW_MASSES["steel", kind], estimate.throw),
         )
     )
     notes = {
@@ -255,15 +255,15 @@ def table_masses(
     }
     masses = {
         "piston_group_kg": _inside(
-            near.piston * area, PISTON_MASSES["aluminium", kind], near.piston
+            estimate.piston * area, PISTON_MASSES["aluminium", kind], estimate.piston
         ),
-        "rod_kg": _inside(near.rod * area, ROD_MASSES[kind], near.rod),
+        "rod_kg": _inside(estimate.rod * area, ROD_MASSES[kind], estimate.rod),
         "rod_small_end_share": share,
     }
     throw_span = THROW_MASSES["steel", kind]
     return masses, ThrowMasses(
-        _inside(pin * area, throw_span, near.throw),
-        _inside(web * area, throw_span, near.throw),
+        _inside(pin * area, throw_span, estimate.throw),
+        _inside(web * area, throw_span, estimate.throw),
         _grams(taken * area / 2),
         notes,
     )
@@ -335,11 +335,11 @@ def timing_notes(timing: Phases) -> Notes:
 def file_text(engine: NewEngine) -> str:
     """The engine as a commented input file."""
     lines = [f"# {line}" for line in (*engine.head, *NUMBER_WORDS)]
-    rest = [name for name in SECTIONS if name not in FIRST and name in engine.data]
+    others = [name for name in SECTIONS if name not in FIRST and name in engine.data]
     for name in FIRST:
         lines += ["", *_section(name, engine.data[name], engine.notes)]
     lines += ["", f"# {LINE}"]
-    for name in rest:
+    for name in others:
         lines += ["", *_section(name, engine.data[name], engine.notes)]
     books = dict(engine.data.get("books", ()))
     lines += ["", "[books] # тексты своих книг"] if books else []
@@ -373,16 +373,16 @@ def _section(name: str, values: Mapping[str, Any], notes: Notes) -> Iterator[str
         for number, entry in enumerate(lists.get(key, ())):
             # The entries of a made shaft are alike: the first one is explained.
             titles = _titles(inner) if number == 0 else {}
-            own = notes if number == 0 else {}
+            comments = notes if number == 0 else {}
             head = f"[[{name}.{key}]] # {number + 1}"
             yield ""
-            yield from _keys(f"{name}.{key}", entry, own, titles, head)
+            yield from _keys(f"{name}.{key}", entry, comments, titles, head)
 
 
 def _titles(model: type[Strictly]) -> dict[str, str]:
     titles = {}
-    for key, about in hints(model).items():
-        for meta in about.metas[:1]:
+    for key, spec in hints(model).items():
+        for meta in spec.metas[:1]:
             title = meta.title.replace("{n}", "N").removeprefix("Щека N: ")
             titles[key] = title.removeprefix("Колено N: ").replace(" N:", ":")
             options = meta.choices or {}

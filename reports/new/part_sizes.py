@@ -76,9 +76,9 @@ def _trials(
     """Choices a step away that mend what is outside."""
     for name, amount in excess.items():
         for key, way in _MOVES[name] if amount else ():
-            place = choice.get(key, sizing.start(key)) + (way if amount > 0 else -way)
-            if 0 <= place <= sizing.last(key):
-                yield {**choice, key: place}
+            step = choice.get(key, sizing.start(key)) + (way if amount > 0 else -way)
+            if 0 <= step <= sizing.last(key):
+                yield {**choice, key: step}
 
 
 @dataclass(frozen=True, slots=True)

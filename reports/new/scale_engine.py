@@ -68,20 +68,20 @@ class Grown:
 
 def carried(sections: Mapping[str, Any], grown: Grown) -> dict[str, Any]:
     """Sections of a file adapted to the new shaft."""
-    kept = dict(sections)
-    if "bearings" in kept:
-        kept["bearings"] = {
+    resized = dict(sections)
+    if "bearings" in resized:
+        resized["bearings"] = {
             key: _scaled(BearingsSection, key, value, _journal(key, grown))
             if key.endswith("_mm") else value
-            for key, value in kept["bearings"].items()
+            for key, value in resized["bearings"].items()
         }  # fmt: skip
-    if "balance" in kept:
+    if "balance" in resized:
         key = "shaft_radius_mm"
-        radius = _scaled(BalanceSection, key, kept["balance"][key], grown.linear)
-        kept["balance"] = kept["balance"] | {key: radius}
-    if "torsion" in kept:
-        kept["torsion"] = _train(kept["torsion"], grown)
-    return kept
+        radius = _scaled(BalanceSection, key, resized["balance"][key], grown.linear)
+        resized["balance"] = resized["balance"] | {key: radius}
+    if "torsion" in resized:
+        resized["torsion"] = _train(resized["torsion"], grown)
+    return resized
 
 
 def _journal(key: str, grown: Grown) -> float:
@@ -93,11 +93,11 @@ def _journal(key: str, grown: Grown) -> float:
 
 def _train(old: Mapping[str, Any], grown: Grown) -> dict[str, Any]:
     """Section [torsion] without the old train; the new one is estimated."""
-    kept = {key: old[key] for key in _ANY_SHAFT if key in old}
+    retained = {key: old[key] for key in _ANY_SHAFT if key in old}
     if grown.speed == 1:
-        kept |= {key: old[key] for key in _SPEEDS if key in old}
+        retained |= {key: old[key] for key in _SPEEDS if key in old}
     bores = {"main_bore_mm": grown.main, "pin_bore_mm": grown.pin}
-    return kept | {key: _scaled(TorsionSection, key, old[key], by) for key, by in bores.items()}
+    return retained | {key: _scaled(TorsionSection, key, old[key], by) for key, by in bores.items()}
 
 
 def _scaled(section: type[Strictly], key: str, size: float, factor: float) -> float:
@@ -207,7 +207,7 @@ def _shaft(
     rods = _rods(model, layout)
     sized = {key: _one(old, key) * (rods if key == _PIN_LENGTH else 1) for key in _SINGLE}
     by_rule = {key: round(size * factor, DIGITS) for key, size in sized.items()}
-    kept = {key: _bounded(key, by_rule[key], bore) for key in _SINGLE}
+    retained = {key: _bounded(key, by_rule[key], bore) for key in _SINGLE}
     before = old.main_lengths_mm
     if len(before) != throws + 1:
         before = (sum(before) / len(before),) * (throws + 1)
@@ -218,8 +218,8 @@ def _shaft(
     if rods != 1:
         notes[f"crankshaft.{_PIN_LENGTH}"] += f", шатунов рядом {rods_of(layout)}"
     for key in _SINGLE:
-        if kept[key] != by_rule[key]:
-            share = number_text(round(kept[key] / bore, 4))
+        if retained[key] != by_rule[key]:
+            share = number_text(round(retained[key] / bore, 4))
             would = f"{rule} вышло бы {number_text(by_rule[key])}"
             notes[f"crankshaft.{key}"] = f"{would}; принято {share} D, край обычного"
     notes["crankshaft.main_lengths_mm"] = rule + (
@@ -227,7 +227,7 @@ def _shaft(
     )
     notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
     lengths = tuple(round(value * factor, DIGITS) for value in before)
-    pin, length, main = (kept[key] for key in _SINGLE)
+    pin, length, main = (retained[key] for key in _SINGLE)
     every = 2 if layout == "opposed" else 1
     between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + length)
     if throws > every and between < _LEAST_BETWEEN * bore:
@@ -267,9 +267,9 @@ def _bounded(key: str, size: float, bore: float) -> float:
     """Journal size within the usual bounds over the bore [mm]."""
     for band in BANDS:
         if band.key == f"crankshaft.{key}" and not band.low <= size / bore <= band.high:
-            near = band.low if size < band.low * bore else band.high
-            edge = float(near * bore)
-            return _up(edge) if near == band.low else -_up(-edge)
+            bound = band.low if size < band.low * bore else band.high
+            edge = float(bound * bore)
+            return _up(edge) if bound == band.low else -_up(-edge)
     return size
 
 

@@ -191,15 +191,15 @@ def size_notes(task: EngineTask, usual: Usual, stroke: float, speed: float) -> d
     """Notes on the sizes: of the task, usual, to be replaced."""
     pressure = number_text(usual.effective_mpa)
     mean = number_text(round(stroke * speed / 30000, 1))
-    own = "впишите свой" if task.power_kw is None else "свой задают ключом {}"
+    advice = "впишите свой" if task.power_kw is None else "свой задают ключом {}"
     known = {
         "geometry.bore_mm": (
             task.bore_mm,
-            f"при p_e = {pressure} МПа и Sn/30 ≈ {mean} м/с; {own.format('--bore')}",
+            f"при p_e = {pressure} МПа и Sn/30 ≈ {mean} м/с; {advice.format('--bore')}",
         ),
         "geometry.stroke_mm": (
             task.stroke_mm,
-            f"обычное S/D = {number_text(usual.stroke_bore)}; {own.format('--stroke')}",
+            f"обычное S/D = {number_text(usual.stroke_bore)}; {advice.format('--stroke')}",
         ),
         "geometry.rod_length_mm": (task.rod_mm, f"обычное λ = {number_text(usual.lam)}"),
         "geometry.lambda": (task.lambda_, ""),
@@ -216,14 +216,14 @@ def size_notes(task: EngineTask, usual: Usual, stroke: float, speed: float) -> d
 
 
 def _no_such_bore(bore: float, task: EngineTask) -> InputError:
-    what = f"получается диаметр цилиндра {number_text(bore)} мм"
+    problem = f"получается диаметр цилиндра {number_text(bore)} мм"
     low, high = (number_text(value) for value in BORES_MM)
-    given = (("--bore", task.bore_mm), ("--stroke", task.stroke_mm), ("--power", task.power_kw))
-    where = next((option for option, value in given if value is not None), "--speed")
+    options = (("--bore", task.bore_mm), ("--stroke", task.stroke_mm), ("--power", task.power_kw))
+    where = next((option for option, value in options if value is not None), "--speed")
     hint = f"возможно от {low} до {high} мм: задайте другую мощность, частоту или число цилиндров"
     if task.bore_mm is not None or task.stroke_mm is not None:
         hint = f"возможно от {low} до {high} мм"
-    return InputError(Problem(where, what, hint))
+    return InputError(Problem(where, problem, hint))
 
 
 def pin_within(model: InputFile, kind: str, bore_mm: float) -> tuple[float, float] | None:
@@ -358,15 +358,15 @@ def _between(first: float, last: float, part: float) -> float:
 
 
 def _root(
-    way: _Way, power_of: Callable[[Gas], float], wanted: float, low: float, high: float
+    way: _Way, power_of: Callable[[Gas], float], power: float, low: float, high: float
 ) -> float:
     """Parameter of a way that gives the wanted power, by a bracketed secant."""
-    left, right, below, above = 0.0, 1.0, low - wanted, high - wanted
+    left, right, below, above = 0.0, 1.0, low - power, high - power
     part = 1.0
     for _ in range(_STEPS):
         part = right - above * (right - left) / ((above - below) or 1.0)
-        off = power_of(way.gas(part)) - wanted
-        if abs(off) <= _CLOSE * wanted:
+        off = power_of(way.gas(part)) - power
+        if abs(off) <= _CLOSE * power:
             break
         # The side that stays counts half, so that both close in.
         if off < 0:
@@ -377,10 +377,10 @@ def _root(
 
 
 def _out_of_reach(power_kw: float, low: float, high: float) -> InputError:
-    wanted, near = power_kw, high if power_kw > high else low
+    power, bound = power_kw, high if power_kw > high else low
     least_or_most = "не больше" if power_kw > high else "не меньше"
-    what = (
-        f"задано {number_text(wanted)} кВт, а при этих размерах и частоте обычные давления дают "
-        f"{least_or_most} {number_text(float(f'{near:.3g}'))} кВт"
+    problem = (
+        f"задано {number_text(power)} кВт, а при этих размерах и частоте обычные давления дают "
+        f"{least_or_most} {number_text(float(f'{bound:.3g}'))} кВт"
     )
-    return InputError(Problem("--power", what, _ADVICE))
+    return InputError(Problem("--power", problem, _ADVICE))

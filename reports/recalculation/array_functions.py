@@ -69,8 +69,8 @@ NOT_LIFTED = frozenset(_FUNCTIONS)
 
 
 def _convert(value: Any, unit: Any, other: Any) -> Any:  # noqa: ANN401
-    (kind, size), (wanted, into) = (UNITS.get(name, (name, 0.0)) for name in (unit, other))
-    if kind != wanted or not into:
+    (kind, size), (target_kind, into) = (UNITS.get(name, (name, 0.0)) for name in (unit, other))
+    if kind != target_kind or not into:
         return {"type": "Error", "kind": "Na"}
     return _one(lambda number: number * size / into, [value])
 

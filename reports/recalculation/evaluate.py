@@ -51,18 +51,18 @@ class Evaluator:
         The letters: ``n`` number, ``b`` blank, ``t`` text, ``e`` error; the number of
         a blank, a text and an error is NaN.
         """
-        known = self.grid.column(sheet, column)
+        cells = self.grid.column(sheet, column)
         numbers = np.full(last - first + 1, np.nan)
         kinds = [BLANK] * len(numbers)
-        for row, constant in known.constants.items():
+        for row, constant in cells.constants.items():
             if first <= row <= last:
                 is_text = isinstance(constant, str)
                 numbers[row - first] = np.nan if is_text else float(constant)
                 kinds[row - first] = TEXT if is_text else NUMBER
-        for row in known.errors:
+        for row in cells.errors:
             if first <= row <= last:
                 kinds[row - first] = ERROR
-        for run in known.runs_in(first, last):
+        for run in cells.runs_in(first, last):
             block, letters = self._of(run)
             low, high = max(first, run.first), min(last, run.last)
             inside = slice(low - run.first, high - run.first + 1)
@@ -76,15 +76,15 @@ class Evaluator:
 
     def shown(self, sheet: str, column: int, row: int) -> float | str | None:
         """What stands in a cell; a calculated text is folded by case, an error as ``#DIV/0!``."""
-        known = self.grid.column(sheet, column)
-        for run in known.runs_in(row, row):
+        cells = self.grid.column(sheet, column)
+        for run in cells.runs_in(row, row):
             index = row - run.first
             number, kind = self._of(run)[0][index], self._of(run)[1][index]
             value = self._raw[run][index]
             if kind == ERROR:
                 return _ERRORS[value["kind"]] if isinstance(value, dict) else "#NUM!"
             return str(value) if kind == TEXT else float(number)
-        return known.errors.get(row, known.constants.get(row))
+        return cells.errors.get(row, cells.constants.get(row))
 
     def put(self, cells: Iterable[Any]) -> None:
         """Other constants in some cells; everything is calculated anew when next asked for."""

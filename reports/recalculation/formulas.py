@@ -104,8 +104,8 @@ def column_letters(number: int) -> str:
     """Letters of a column; the other way round."""
     letters = ""
     while number > 0:
-        number, rest = divmod(number - 1, 26)
-        letters = chr(65 + rest) + letters
+        number, digit = divmod(number - 1, 26)
+        letters = chr(65 + digit) + letters
     return letters
 
 
@@ -194,10 +194,10 @@ def ref_of(text: str) -> Ref:
     return Ref(int(match[2]), int(match[4]), not match[1], not match[3])
 
 
-def render(tokens: Sequence[Token], row: int, column: int, own: str = "") -> str:
-    """The formula of a pattern in one cell; ``own`` is put before references without a sheet."""
+def render(tokens: Sequence[Token], row: int, column: int, sheet: str = "") -> str:
+    """The formula of a pattern in one cell; ``sheet`` is put before references without a sheet."""
     parts = ["="]
-    prefix = quoted(own) if own else ""
+    prefix = quoted(sheet) if sheet else ""
     for (kind, value), before in zip(tokens, (("", ""), *tokens), strict=False):
         if kind in ("ref", "columns", "rows") and before[0] != "sheet" and before != ("op", ":"):
             parts.append(prefix)
@@ -281,8 +281,8 @@ class Formula:
 
     def _converts_known_units(self) -> bool:
         """Whether each conversion names two units, and such as are calculated."""
-        places = zip(self.pattern, _places(self.pattern), strict=True)
-        units = [token for token, use in places if use.function == "CONVERT" and use.argument]
+        pairs = zip(self.pattern, _places(self.pattern), strict=True)
+        units = [token for token, use in pairs if use.function == "CONVERT" and use.argument]
         texts = [value[1:-1] for kind, value in units if kind == "text"]
         calls = sum(kind == "name" and value.upper() == "CONVERT" for kind, value in self.pattern)
         return len(texts) == 2 * calls and set(texts) <= UNITS.keys()
@@ -345,19 +345,19 @@ class _TokenPlace:
 def _places(pattern: tuple[Token, ...]) -> list[_TokenPlace]:
     """The place of every token."""
     contexts = [_TokenPlace("", 0, False)]
-    places = []
+    positions = []
     for at, (kind, value) in enumerate(pattern):
         if (kind, value) == ("op", ")") and len(contexts) > 1:
             contexts.pop()
         elif (kind, value) == ("op", ","):
             here = contexts[-1]
             contexts[-1] = _TokenPlace(here.function, here.argument + 1, here.spread)
-        places.append(contexts[-1])
+        positions.append(contexts[-1])
         if (kind, value) == ("op", "("):
             before = pattern[at - 1] if at else ("", "")
             name = _PREFIX.sub("", before[1].upper()) if before[0] == "name" else ""
             contexts.append(_TokenPlace(name, 0, contexts[-1].spread or name in _TAKES_ARRAYS))
-    return places
+    return positions
 
 
 def is_doubtful(text: str, *, in_product: bool = False) -> bool:
@@ -384,7 +384,7 @@ def formula_of(tokens: tuple[Token, ...]) -> Formula:
 
 
 def _references(pattern: tuple[Token, ...]) -> Iterator[Reference]:
-    places = _places(pattern)
+    positions = _places(pattern)
     tokens = (*pattern, ("op", ")"))
     sheet, start, at = None, 0, 0
     while at < len(pattern):
@@ -402,7 +402,7 @@ def _references(pattern: tuple[Token, ...]) -> Iterator[Reference]:
         elif kind == "name" and tokens[at + 1] != ("op", "("):
             name = "" if value.upper() in ("TRUE", "FALSE") else value.casefold()
         if ends is not None or name:
-            context = places[start]
+            context = positions[start]
             before = tokens[start - 1] if start else ("", "")
             alone = before in (("op", "("), ("op", ",")) and tokens[at + 1] in _ENDS
             first, last = ends or (Ref(1, 1), Ref(1, 1))

@@ -113,10 +113,10 @@ class CellColumn:
 
     def cut(self, rows: set[int]) -> None:
         """Take the formulas out of some rows."""
-        kept: list[Run] = []
+        runs: list[Run] = []
         for run in self.runs:
-            kept += _without(run, rows)
-        self.runs = kept
+            runs += _without(run, rows)
+        self.runs = runs
 
 
 @dataclass(slots=True)
@@ -140,8 +140,8 @@ class CellGrid:
         """Title of a sheet as the book writes it; titles do not differ by case."""
         if sheet in self.sheets:
             return sheet
-        wanted = sheet.casefold()
-        return next((title for title in self.sheets if title.casefold() == wanted), None)
+        folded = sheet.casefold()
+        return next((title for title in self.sheets if title.casefold() == folded), None)
 
     def runs(self) -> Iterator[Run]:
         """All runs."""

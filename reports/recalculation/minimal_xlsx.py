@@ -94,17 +94,17 @@ def _sheet(grid: CellGrid, columns: dict[int, CellColumn], runs: list[Run]) -> s
             rows.setdefault(row, []).append(cell)
     for shared, run in enumerate(runs):
         letters = column_letters(run.column)
-        about, follows = "", ""
+        attributes, follows = "", ""
         if run.array is not None:
             if run.column > run.array.first_column:
                 continue  # its values come with those of the first column
-            about = f' t="array" ref="{_extent(run.array)}"'
+            attributes = f' t="array" ref="{_extent(run.array)}"'
         elif run.count > 1 and not _is_misread(run):
-            about = f' t="shared" ref="{letters}{run.first}:{letters}{run.last}" si="{shared}"'
+            attributes = f' t="shared" ref="{letters}{run.first}:{letters}{run.last}" si="{shared}"'
             follows = f'<f t="shared" si="{shared}"/>'
         for row in range(run.first, run.last + 1 if run.array is None else run.first + 1):
             first = not follows or row == run.first
-            text = f"<f{about}>{_formula(grid, run, row)}</f>" if first else follows
+            text = f"<f{attributes}>{_formula(grid, run, row)}</f>" if first else follows
             rows.setdefault(row, []).append(f'<c r="{letters}{row}">{text}</c>')
     lines = "".join(f'<row r="{row}">{"".join(rows[row])}</row>' for row in sorted(rows))
     return f"<worksheet {_MAIN}><sheetData>{lines}</sheetData></worksheet>"

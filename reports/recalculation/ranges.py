@@ -213,13 +213,13 @@ def _picked(tokens: tuple[Token, ...], grid: CellGrid) -> list[Token]:
 def _indexed(tokens: tuple[Token, ...], grid: CellGrid) -> list[Token]:
     """The cell that these arguments of INDEX name; nothing where it takes reckoning."""
     sheet = [token for token in tokens[:1] if token[0] == "sheet"]
-    rest = tokens[len(sheet) :]
-    if _COMMA not in rest:
+    tail = tokens[len(sheet) :]
+    if _COMMA not in tail:
         return []
-    at = rest.index(_COMMA)
-    area, places = rest[:at], rest[at:]
-    numbers = [value for _, value in places[1::2]]
-    if set(places[::2]) != {_COMMA} or not all(map(_WHOLE.fullmatch, numbers)):
+    at = tail.index(_COMMA)
+    area, indices = tail[:at], tail[at:]
+    numbers = [value for _, value in indices[1::2]]
+    if set(indices[::2]) != {_COMMA} or not all(map(_WHOLE.fullmatch, numbers)):
         return []
     named = area_of(area, grid)
     if named is None or (sheet and named.sheet):

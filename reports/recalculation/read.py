@@ -82,12 +82,12 @@ def local_names(grid: CellGrid, root: etree._Element) -> Local:
         sheet = str(name.get("localSheetId") or "")
         if not (sheet.isdecimal() and int(sheet) < len(titles)):
             continue
-        title, own = titles[int(sheet)], str(name.get("name")).casefold()
+        title, folded = titles[int(sheet)], str(name.get("name")).casefold()
         tokens: tuple[Token, ...] = ()
         with suppress(UnknownFormula):
             tokens = pattern(str(name.text or "").strip(), 1, 1)
         fixed = 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid) and not _names(tokens)
-        names.setdefault(title, {})[own] = tokens if fixed else _unknown(title, own)
+        names.setdefault(title, {})[folded] = tokens if fixed else _unknown(title, folded)
     return names
 
 
@@ -97,9 +97,9 @@ def _unknown(title: str, name: str) -> tuple[Token, ...]:
 
 def put_local(grid: CellGrid, local: Local) -> None:
     """The formulas of a grid with the names of single sheets replaced by what they stand for."""
-    folded = {title.casefold(): known for title, known in local.items()}
-    nobody = {title.casefold(): {name: _unknown(title, name) for name in known}
-              for title, known in local.items()}  # fmt: skip
+    folded = {title.casefold(): names for title, names in local.items()}
+    nobody = {title.casefold(): {name: _unknown(title, name) for name in names}
+              for title, names in local.items()}  # fmt: skip
     for run in grid.runs():
         if run.formula is None:
             continue
@@ -115,8 +115,8 @@ def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Tok
     for token, after in zip(tokens, (*tokens[1:], ("", "")), strict=True):
         before = pattern[-1] if pattern else ("", "")
         where = unquoted(before[1]) if before[0] == "sheet" else sheet
-        known = local.get(where.casefold(), {})
-        inner = known.get(token[1].casefold()) if token[0] == "name" else None
+        names = local.get(where.casefold(), {})
+        inner = names.get(token[1].casefold()) if token[0] == "name" else None
         if inner is None or after == ("op", "("):
             pattern.append(token)
             continue
@@ -127,14 +127,14 @@ def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Tok
     return tuple(pattern)
 
 
-def put_in(grid: CellGrid, known: Meanings, local: Local) -> None:
+def put_in(grid: CellGrid, names: Meanings, local: Local) -> None:
     """The formulas of a grid with names replaced by what they stand for.
 
     A formula that then refers to no cell is left: a number by a name is for a person to see.
     """
     for run in grid.runs():
         hidden = local.get(run.sheet, {}).keys()
-        here = {name: inner for name, inner in known.items() if hidden.isdisjoint(_names(inner))}
+        here = {name: inner for name, inner in names.items() if hidden.isdisjoint(_names(inner))}
         if run.formula is not None and not here.keys().isdisjoint(_names(run.formula.pattern)):
             formula = formula_of(_replaced(run.formula.pattern, here))
             if any(formula.references):
@@ -150,12 +150,12 @@ def _is_called(tokens: Sequence[Token], at: int) -> bool:
     return tuple(tokens[at + 1 : at + 2]) == (("op", "("),)
 
 
-def _replaced(tokens: tuple[Token, ...], known: Meanings) -> tuple[Token, ...]:
+def _replaced(tokens: tuple[Token, ...], names: Meanings) -> tuple[Token, ...]:
     pattern: list[Token] = []
     for before, token, after in zip(
         (("", ""), *tokens), tokens, (*tokens[1:], ("", "")), strict=False
     ):
-        inner = known.get(token[1].casefold()) if token[0] == "name" else None
+        inner = names.get(token[1].casefold()) if token[0] == "name" else None
         if inner is None or after == ("op", "(") or before[0] == "sheet":
             pattern.append(token)
         else:
@@ -194,8 +194,8 @@ def _read(package: Package, forms: Forms | None) -> CellGrid:
         read_sheet(grid, title, package.read(part), strings, forms)
     if local := local_names(grid, root):
         put_local(grid, local)
-    if known := meanings(grid, root):
-        put_in(grid, known, local)
+    if names := meanings(grid, root):
+        put_in(grid, names, local)
     pick(grid)
     cross(grid)
     return grid

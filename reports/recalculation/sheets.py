@@ -132,8 +132,12 @@ def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:
     typed = [(row, k, kind) for k, (row, _, kind, formula, _) in slots if not formula]
     constants = tuple(entry for entry in typed if entry[2] != "e")
     errors = tuple((row, k) for row, k, kind in typed if kind == "e")
-    own = {row: v for row, v in column.constants.items() if row not in {c[0] for c in constants}}
-    form = CellColumn(own, {}, [replace(run) for run in column.runs], list(column.saved_rows))
+    constants_left = {
+        row: v for row, v in column.constants.items() if row not in {c[0] for c in constants}
+    }
+    form = CellColumn(
+        constants_left, {}, [replace(run) for run in column.runs], list(column.saved_rows)
+    )
     return _FormColumn(
         form, tuple(numbers.get(r, -1) for r in column.saved_rows), constants, errors
     )
@@ -218,8 +222,8 @@ def _parsed(grid: CellGrid, title: str, data: bytes, strings: list[str]) -> list
     slots: list[Slot] = []
     row = 0
     for line in parse_xml(data).iter(_ROW):
-        given = line.get("r")
-        row = int(given) if given is not None and given.isdigit() else row + 1
+        row_text = line.get("r")
+        row = int(row_text) if row_text is not None and row_text.isdigit() else row + 1
         column = 0
         for cell in line:
             if cell.tag != _CELL:
@@ -229,18 +233,18 @@ def _parsed(grid: CellGrid, title: str, data: bytes, strings: list[str]) -> list
                 column += 1
             else:
                 row, column = _place(address)
-            kind, text, about, saved = cell.get("t", "n"), None, None, None
+            kind, text, details, saved = cell.get("t", "n"), None, None, None
             for part in cell:
                 if part.tag == _VALUE:
                     text = saved = part.text
                 elif part.tag == _FORMULA:
-                    about = _about(part)
+                    details = _about(part)
                 elif part.tag == _INLINE:
                     text, kind = rich_text(part), "str"
             if saved and text:
-                slots.append((row, column, kind, about is not None, text))
+                slots.append((row, column, kind, details is not None, text))
             try:
-                sheet.put(row, column, value_of(kind, text, strings), kind, about)
+                sheet.put(row, column, value_of(kind, text, strings), kind, details)
             except (ValueError, IndexError) as error:
                 if isinstance(error, BadBook):
                     raise
@@ -275,32 +279,32 @@ class _Sheet:
         self._arrays: list[Run] = []
 
     def put(
-        self, row: int, column: int, value: Constant | None, kind: str, about: About | None
+        self, row: int, column: int, value: Constant | None, kind: str, details: About | None
     ) -> None:
         """One cell.
 
         Raises:
             BadBook: the cell lies far out, or there are too many.
         """
-        if about is None and value is None:
+        if details is None and value is None:
             return
         if not (0 < row <= MAX_ROW and 0 < column <= MAX_COLUMN):
             raise BadBook(f"на листе «{self.title}» есть ячейки далеко за таблицами")
         self.grid.cells += 1
         if self.grid.cells > MAX_CELLS:
             raise BadBook(f"в книге больше {MAX_CELLS} заполненных ячеек")
-        known = self.columns.get(column)
-        if known is None:
-            known = self.columns[column] = CellColumn()
-        if about is not None:
-            known.saved_rows.append(row)
+        cells = self.columns.get(column)
+        if cells is None:
+            cells = self.columns[column] = CellColumn()
+        if details is not None:
+            cells.saved_rows.append(row)
             is_number = isinstance(value, float) and kind == "n"
-            known.saved.append(value if is_number else nan)  # type: ignore[arg-type]
-            self._formula(known, row, column, *about)
+            cells.saved.append(value if is_number else nan)  # type: ignore[arg-type]
+            self._formula(cells, row, column, *details)
         elif kind == "e":
-            known.errors[row] = str(value)
+            cells.errors[row] = str(value)
         elif value != "" and value is not None:
-            known.constants[row] = value
+            cells.constants[row] = value
 
     def finish(self) -> None:
         """Cells of array formulas are calculated: what is saved in them was not typed in."""
@@ -323,7 +327,7 @@ class _Sheet:
                     column.runs.append(copy)
 
     def _formula(
-        self, known: CellColumn, row: int, column: int, kind: str, text: str, key: str, extent: str
+        self, cells: CellColumn, row: int, column: int, kind: str, text: str, key: str, extent: str
     ) -> None:
         run, template, shared = self._open.get(column, (None, None, ""))
         follows = run is not None and run.first + run.count == row
@@ -338,34 +342,34 @@ class _Sheet:
                 return
             master = self._shared.get(key)
             if master is None:
-                self._start(known, row, column, "", "общая формула без образца", key)
+                self._start(cells, row, column, "", "общая формула без образца", key)
             else:
-                self._start(known, row, column, master[0], "", key, origin=master[1:])
+                self._start(cells, row, column, master[0], "", key, origin=master[1:])
         elif kind == "array":
-            self._array(known, row, column, text, extent)
+            self._array(cells, row, column, text, extent)
         elif kind not in ("normal", "shared"):
-            self._start(known, row, column, text, "таблица данных", "")
+            self._start(cells, row, column, text, "таблица данных", "")
         elif run is not None and follows and template and filled(template, row) == text:
             run.count += 1
             if kind == "shared":
                 self._open[column] = (run, template, key)
         else:
-            self._start(known, row, column, text, "", key if kind == "shared" else "")
+            self._start(cells, row, column, text, "", key if kind == "shared" else "")
 
-    def _array(self, known: CellColumn, row: int, column: int, text: str, extent: str) -> None:
+    def _array(self, cells: CellColumn, row: int, column: int, text: str, extent: str) -> None:
         first, _, last = extent.partition(":")
         ends = [_place(cell) for cell in (first, last or first)]
         (top, left), (bottom, right) = ends
         inside = top == row <= bottom <= MAX_ROW and left == column <= right <= MAX_COLUMN
         if not inside or (bottom - top + 1) * (right - left + 1) > MAX_ROW:
             raise BadBook(f"на листе «{self.title}» формула массива с неверными границами")
-        run = self._start(known, row, column, text, "", "")
+        run = self._start(cells, row, column, text, "", "")
         run.count, run.array = bottom - top + 1, Area(self.title, top, bottom, left, right)
         self._open.pop(column)
         self._arrays.append(run)
 
     def _start(
-        self, known: CellColumn, row: int, column: int, text: str, problem: str, key: str,
+        self, cells: CellColumn, row: int, column: int, text: str, problem: str, key: str,
         origin: tuple[int, int] | None = None,
     ) -> Run:  # fmt: skip
         opened = None
@@ -377,7 +381,7 @@ class _Sheet:
             except UnknownFormula as error:
                 problem = str(error)
         run = Run(self.title, column, row, 1, opened, text, problem)
-        known.runs.append(run)
+        cells.runs.append(run)
         template = row_template(text, row) if opened is not None and origin is None else None
         self._open[column] = (run, template, key)
         return run

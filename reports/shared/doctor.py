@@ -116,8 +116,8 @@ def _python() -> SystemPart:
 def _fonts() -> SystemPart:
     # The package is found without importing it: matplotlib takes half a second.
     spec = importlib.util.find_spec("matplotlib")
-    places = list(spec.submodule_search_locations or ()) if spec is not None else []
-    folder = Path(places[0], "mpl-data", "fonts", "ttf") if places else None
+    folders = list(spec.submodule_search_locations or ()) if spec is not None else []
+    folder = Path(folders[0], "mpl-data", "fonts", "ttf") if folders else None
     missing = [name for name in _FONTS if folder is None or not (folder / name).is_file()]
     detail = "нет " + ", ".join(missing) if missing else "STIXGeneral из matplotlib"
     command = f'"{sys.executable}" -m pip install --force-reinstall matplotlib' if missing else ""

@@ -72,8 +72,8 @@ class SystemPartMissing(KshmError):  # noqa: N818 - the contract's name
         self.part = part
         self.command = command
         self.purpose = purpose
-        what = f"не найден системный компонент {part}"
+        problem = f"не найден системный компонент {part}"
         if purpose:
-            what += f" ({purpose})"
+            problem += f" ({purpose})"
         hint = f"установите его: {command}" if command else ""
-        super().__init__(Problem("", what, hint))
+        super().__init__(Problem("", problem, hint))

@@ -43,9 +43,9 @@ def read_bytes(path: Path, most: int, hint: str) -> bytes:
         InputError: it is too large, or cannot be read.
     """
     try:
-        what = no_file(path)
-        if what:
-            raise InputError(Problem(str(path), what, "проверьте имя и путь"))
+        fault = no_file(path)
+        if fault:
+            raise InputError(Problem(str(path), fault, "проверьте имя и путь"))
         with path.open("rb") as stream:
             data = stream.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
@@ -53,6 +53,6 @@ def read_bytes(path: Path, most: int, hint: str) -> bytes:
         problem = Problem(str(path), f"файл не читается: {why}", "проверьте имя и права")
         raise InputError(problem) from None
     if len(data) > most:
-        what = f"файл больше {most // 10**6} МБ"
-        raise InputError(Problem(path.name, what, hint))
+        fault = f"файл больше {most // 10**6} МБ"
+        raise InputError(Problem(path.name, fault, hint))
     return data

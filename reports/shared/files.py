@@ -190,17 +190,17 @@ def refuse_own(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     read = {target for path in inputs for target in _places(path)}
     for path in outputs:
         if read & _places(path):
-            what = "результат лёг бы поверх ваших исходных данных"
-            raise OutputError(Problem(str(path), what, _ADVICE))
+            problem = "результат лёг бы поверх ваших исходных данных"
+            raise OutputError(Problem(str(path), problem, _ADVICE))
 
 
 def _places(path: Path) -> set[object]:
     """Identity of a file: resolved path and inode."""
-    places: set[object] = {os.path.realpath(path)}
+    paths: set[object] = {os.path.realpath(path)}
     with contextlib.suppress(OSError):
         status = path.stat()
-        places.add((status.st_dev, status.st_ino))
-    return places
+        paths.add((status.st_dev, status.st_ino))
+    return paths
 
 
 def no_file(path: Path) -> str:
@@ -241,10 +241,10 @@ def make_dir(path: Path) -> None:
         raise _failure(path, OSError(errno.EROFS if reading_only else errno.EACCES, ""))
 
 
-def private_dir(path: Path, own: str) -> None:
+def private_dir(path: Path, name: str) -> None:
     """Make a folder that nobody else may enter, from its first moment.
 
-    One that stands open is closed if it is empty or holds a file called ``own``.
+    One that stands open is closed if it is empty or holds a file called ``name``.
 
     Raises:
         OutputError: it cannot be made or written, or is open and holds what is not ours.
@@ -254,9 +254,11 @@ def private_dir(path: Path, own: str) -> None:
         with contextlib.suppress(FileExistsError):
             path.mkdir(mode=0o700)
         if os.name != "nt" and path.is_dir() and path.stat().st_mode & 0o077:
-            if any(path.iterdir()) and not (path / own).exists():
-                what = "папка открыта другим, и в ней чужие файлы"
-                raise OutputError(Problem(str(path), what, "укажите новую папку или закройте эту"))
+            if any(path.iterdir()) and not (path / name).exists():
+                problem = "папка открыта другим, и в ней чужие файлы"
+                raise OutputError(
+                    Problem(str(path), problem, "укажите новую папку или закройте эту")
+                )
             path.chmod(0o700)
     except OSError as error:
         raise _failure(path, error) from None
@@ -271,8 +273,8 @@ def reason(error: OSError) -> str:
 def temporary_failure(error: Exception) -> OutputError:
     """The error of a temporary file that a library could not write."""
     number = error.errno if isinstance(error, OSError) else None
-    known = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
-    text = "нет папки" if number == errno.ENOENT else _REASONS.get(known, "ошибка ввода-вывода")
+    code = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
+    text = "нет папки" if number == errno.ENOENT else _REASONS.get(code, "ошибка ввода-вывода")
     hint = "освободите место или укажите другую папку переменной TMPDIR"
     return OutputError(Problem("временные файлы", f"не удаётся записать: {text}", hint))
 

@@ -68,9 +68,9 @@ def boxed(text: str) -> str:
 @functools.cache
 def _foreign() -> re.Pattern[str]:
     """Any sign that neither face has."""
-    known = sorted(coverage() | second_coverage())
+    covered = sorted(coverage() | second_coverage())
     ranges: list[list[int]] = []
-    for code in known:
+    for code in covered:
         if ranges and ranges[-1][1] == code - 1:
             ranges[-1][1] = code
         else:

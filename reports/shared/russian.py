@@ -104,9 +104,9 @@ def written(value: float, digits: Digits, *, more: int | None = None, group: boo
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
     if more is not None:
         return fixed(value, digits.decimals + more, group=group)
-    shown = digits.within(value)
-    whole = round(value, -shown.zeros) if shown.zeros else value
-    return fixed(whole, shown.decimals, group=group)
+    printed = digits.within(value)
+    whole = round(value, -printed.zeros) if printed.zeros else value
+    return fixed(whole, printed.decimals, group=group)
 
 
 def last_bound(text: str) -> str:
@@ -118,8 +118,8 @@ def last_bound(text: str) -> str:
 def power_of_ten(value: float) -> str:
     """``10¹²`` for a power of ten whose zeros nobody counts; empty for any other number."""
     exponent = round(math.log10(value)) if value > 0 else 0
-    known = exponent >= _ZEROS and value == 10.0**exponent
-    return f"10{str(exponent).translate(_RAISED)}" if known else ""
+    exact = exponent >= _ZEROS and value == 10.0**exponent
+    return f"10{str(exponent).translate(_RAISED)}" if exact else ""
 
 
 def capital(text: str) -> str:

@@ -52,10 +52,10 @@ WORDS: Mapping[Standing, str] = {
 def standing(value: float, span: tuple[float, float], digits: int) -> Standing:
     """Standing of a number as it is printed in a span as it is printed, whose ends are inside."""
     low, high = printed_span(span)
-    shown = as_printed(value, digits)
-    if shown < low:
+    printed = as_printed(value, digits)
+    if printed < low:
         return Standing.BELOW
-    return Standing.ABOVE if shown > high else Standing.INSIDE
+    return Standing.ABOVE if printed > high else Standing.INSIDE
 
 
 def printed_span(span: tuple[float, float]) -> tuple[float, float]:

@@ -74,14 +74,15 @@ class Workers:
         self,
         count: int,
         begin: Callable[..., Callable[..., Any]],
-        *given: Any,  # noqa: ANN401
+        *arguments: Any,  # noqa: ANN401
         needs: str = "",
         memory: int | None = MEMORY,
         most: int | None = 500,
     ) -> None:
         self._threads = ThreadPoolExecutor(count)  # one waits for each process
         self._all = [
-            _Worker(most, needs or begin.__module__, memory, begin, *given) for _ in range(count)
+            _Worker(most, needs or begin.__module__, memory, begin, *arguments)
+            for _ in range(count)
         ]
         self._idle, self._guarded = SimpleQueue[_Worker](), memory is not None
 
@@ -128,8 +129,8 @@ class Workers:
 class _Worker:
     """A process with its own pipe."""
 
-    def __init__(self, most: int | None, needs: str, *given: Any) -> None:  # noqa: ANN401
-        self.most, self.needs, self.given, self.over = most, needs, given, False
+    def __init__(self, most: int | None, needs: str, *arguments: Any) -> None:  # noqa: ANN401
+        self.most, self.needs, self.given, self.over = most, needs, arguments, False
 
     def launch(self) -> None:
         context = processes(self.needs)
@@ -203,11 +204,11 @@ def _serve(
     connection: Connection,
     memory: int | None,
     begin: Callable[..., Callable[..., Any]],
-    *given: Any,  # noqa: ANN401
+    *arguments: Any,  # noqa: ANN401
 ) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     end_with_parent()
-    answer = begin(*given)
+    answer = begin(*arguments)
     if memory is not None:
         limit_memory(memory)
         forbid_the_world()

@@ -233,13 +233,13 @@ def _star(canvas: Canvas, centre: Point, radius: float, angles: tuple[float, ...
         canvas.line(centre, polar(centre, radius, angle), layer=CONTOUR)
         canvas.circle(polar(centre, radius, angle), 1.5, layer=CONTOUR)
         text = ", ".join(numbers)
-        places = [
+        points = [
             (p[0], p[1] - TEXT / 2)
             for r in (6, 9, 13)
             for p in (polar(centre, radius + r + len(text) * abs(math.sin(math.radians(angle))),
                             angle),)
         ]  # fmt: skip
-        canvas.words_where_free(places, text, TEXT, align=0.5)
+        canvas.words_where_free(points, text, TEXT, align=0.5)
 
 
 def _free(terms: Terms) -> Iterator[str]:

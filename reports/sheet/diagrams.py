@@ -240,15 +240,15 @@ def _poles(canvas: Canvas, poles: dict[str, Point], within: Box) -> None:
         canvas.circle(pole, _POLE, layer=CONTOUR)
     for name, pole in poles.items():
         half = width_of(name, TEXT) / 2
-        near = {
+        middles = {
             at: (at[0] + half, at[1] + TEXT / 2)
             for at in _beside(pole, name, TEXT, (45, 135, -45, -135, 90, -90), (2.5, 5, 8, 12, 18))
         }
-        own = [at for at, middle in near.items()
+        poles_inside = [at for at, middle in middles.items()
                if min(poles.values(), key=partial(math.dist, middle)) == pole]  # fmt: skip
-        if not canvas.words_where_free(own, name, TEXT, within):
+        if not canvas.words_where_free(poles_inside, name, TEXT, within):
             continue
-        middle = near[cast(Words, canvas.items[-1]).place]
+        middle = middles[cast(Words, canvas.items[-1]).place]
         far = math.dist(pole, middle)
         if far > _FAR:
             along = np.subtract(middle, pole) / far
@@ -308,8 +308,8 @@ def _angles(
             (x, y), text = points[row], f"{fixed(rows[row], 0)}°"
             away = math.degrees(math.atan2(x - centre[0], y - centre[1]))
             turns = [away + aside for aside in (0, 180, 45, -45, 90, -90)]
-            places = _beside((x, y), text, 2.5, turns)
-            if canvas.words_where_free(places, text, 2.5, frame, crossed=False):
+            positions = _beside((x, y), text, 2.5, turns)
+            if canvas.words_where_free(positions, text, 2.5, frame, crossed=False):
                 canvas.circle((x, y), 0.5, layer=THIN, filled=True)
                 said.add(row)
 

@@ -151,10 +151,10 @@ def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
     width, height = SIZES[section.size]
     if section.orientation == "portrait":
         width, height = height, width
-    wanted = blocks(terms, section)
+    draws = blocks(terms, section)
     canvas = Canvas()
     frame(canvas, width, height)
-    for draw, room in zip(wanted, _rooms(wanted, width, height, section), strict=False):
+    for draw, room in zip(draws, _rooms(draws, width, height, section), strict=False):
         if room is not None:
             draw(canvas, room, terms)
     corner(canvas, terms.model.input.report, width, height)
@@ -165,26 +165,26 @@ def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
 
 def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
     """Chosen diagrams in order; by default all available."""
-    known = available(terms)
-    picked: tuple[str, ...] = section.diagrams or tuple(name for name in USUAL if name in known)
-    missing = [name for name in picked if name not in known]
+    draws = available(terms)
+    picked: tuple[str, ...] = section.diagrams or tuple(name for name in USUAL if name in draws)
+    missing = [name for name in picked if name not in draws]
     if missing:
-        what = f"у этого двигателя нет: {', '.join(missing)}"
-        raise InputError(Problem("sheet.diagrams", what, "уберите из списка"))
-    return [known[name] for name in picked]
+        problem = f"у этого двигателя нет: {', '.join(missing)}"
+        raise InputError(Problem("sheet.diagrams", problem, "уберите из списка"))
+    return [draws[name] for name in picked]
 
 
 def _rooms(
-    wanted: Sequence[Draw], width: float, height: float, section: SheetSection
+    draws: Sequence[Draw], width: float, height: float, section: SheetSection
 ) -> list[CellArea | None]:
     """Room of every block; polar diagrams take two cells, one above the other, where they fit."""
-    tall = [isinstance(draw, partial) and draw.func is diagrams.path for draw in wanted]
+    tall = [isinstance(draw, partial) and draw.func is diagrams.path for draw in draws]
     try:
-        free = cells(width, height, len(wanted) + sum(tall), section)
+        free = cells(width, height, len(draws) + sum(tall), section)
     except InputError:
-        free, tall = cells(width, height, len(wanted), section), [False] * len(wanted)
-    rooms: list[CellArea | None] = [None] * len(wanted)
-    order = sorted(range(len(wanted)), key=lambda n: not tall[n])
+        free, tall = cells(width, height, len(draws), section), [False] * len(draws)
+    rooms: list[CellArea | None] = [None] * len(draws)
+    order = sorted(range(len(draws)), key=lambda n: not tall[n])
     for n in order:
         room = None
         if tall[n]:
@@ -218,12 +218,12 @@ def available(terms: Terms) -> dict[str, Draw]:
         "main_polar": (f"fig53_{main}", diagrams.path),
         "main_load": (f"fig55_{main}", curves), "main_wear": (f"fig54_{main}", diagrams.wear),
     }  # fmt: skip
-    known: dict[str, Draw] = {
+    draws: dict[str, Draw] = {
         name: partial(draw, chart=terms.model.charts_by_id[key])
         for name, (key, draw) in charts.items()
         if key in terms.model.charts_by_id
     }
-    return known | {"shaft": shaft, "balance": balance,
+    return draws | {"shaft": shaft, "balance": balance,
                     "running": running, "results": results,
                     "throw": throw, "mechanism": mechanism}  # fmt: skip
 
@@ -240,9 +240,9 @@ def cells(width: float, height: float, count: int, section: SheetSection) -> lis
     most = max(map(len, grids), default=0)
     if count > most and section.diagrams:
         way = "альбомный" if width > height else "книжный"
-        what = f"на лист {section.size} ({way}) помещается {most}, выбрано {count}"
+        problem = f"на лист {section.size} ({way}) помещается {most}, выбрано {count}"
         hint = "уберите лишнее" + ("" if section.size == "A1" else ' или выберите size = "A1"')
-        raise InputError(Problem("sheet.diagrams", what, hint))
+        raise InputError(Problem("sheet.diagrams", problem, hint))
     fitting = [g for g in grids if len(g) >= min(count, most)]
     return max(fitting, key=lambda g: min(g[0].width / 1.6, g[0].height))
 

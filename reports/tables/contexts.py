@@ -138,8 +138,8 @@ class Table4:
 
 def _table_4(scope: Scope) -> dict[str, Any]:
     """Bounds for the kind of engine, and those between which the estimate is made."""
-    given, cycle = scope.input.masses, scope.input.cycle
-    kind = given.estimate_fuel or (cycle.kind if cycle is not None else None)
+    masses, cycle = scope.input.masses, scope.input.cycle
+    kind = masses.estimate_fuel or (cycle.kind if cycle is not None else None)
     fuels = ("petrol", "diesel") if kind is None else (kind,)
     names: dict[str, Any] = {
         "usual": Table4(
@@ -155,7 +155,7 @@ def _table_4(scope: Scope) -> dict[str, Any]:
         "is_usual_share": is_usual_share,
         "rod_share": ROD_SHARE,
     }
-    estimate = to_estimate(given)
+    estimate = to_estimate(masses)
     if estimate is None:
         return names
     fuel, material, shaft = estimate.fuel, estimate.piston_material, estimate.shaft
@@ -206,15 +206,15 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
 
 
 def book_part(
-    book: str, scope: Scope, places: BookPlaces | dict[str, BookLine] | None = None
+    book: str, scope: Scope, lines: BookPlaces | dict[str, BookLine] | None = None
 ) -> Part:
-    """Blocks and charts of a book; ``places`` takes the lines of what it says.
+    """Blocks and charts of a book; ``lines`` takes the lines of what it says.
 
     A book that replaces one of the house has the names of that subject.
     """
     further = _OF_BOOK.get(book)
     names = names_of(scope, **(further(scope) if further else {}))
-    return read_book(f"{book}.book", names, shelf_of(scope.input.books).of_book(book), places)
+    return read_book(f"{book}.book", names, shelf_of(scope.input.books).of_book(book), lines)
 
 
 def books(scope: Scope, names: Iterable[str]) -> Part:

@@ -98,7 +98,7 @@ def ranges_of(section: CycleSection) -> Iterator[CycleRange]:
     titles = {q.key: q for q in (*OUTPUTS, *EXTRA)}
     titles |= {f"inputs.{q.key}": q for q in INPUTS}
     for key, (low, high), source in cycle_ranges(section.kind, boosted=is_boosted(section)):
-        about = titles[key]
-        unit = f", {about.unit}" if about.unit else ""
-        note = f"{about.title} {about.symbol.replace('_', '')}{unit}"
+        quantity = titles[key]
+        unit = f", {quantity.unit}" if quantity.unit else ""
+        note = f"{quantity.title} {quantity.symbol.replace('_', '')}{unit}"
         yield CycleRange(_RANGE_NAMES[key], low, high, note, source or UNCHECKED)

@@ -24,8 +24,8 @@ def left_out(model: InputFile) -> tuple[Block, ...]:
         geometry = geometry.model_copy(update=none)
     plain = model.model_copy(update={"geometry": geometry, "articulated": None})
     blocks = books(Scope(plain), _BY_ORDERS).blocks
-    known = {block.id for block in books(Scope(model), _BY_ORDERS).blocks}
-    return tuple(block for block in blocks if block.id not in known)
+    ids = {block.id for block in books(Scope(model), _BY_ORDERS).blocks}
+    return tuple(block for block in blocks if block.id not in ids)
 
 
 def without_orders(model: InputFile) -> str:
@@ -33,7 +33,11 @@ def without_orders(model: InputFile) -> str:
     shape = Shape.of(model)
     moved = {"оси цилиндра": "crank_offset_mm", "поршневого пальца": "pin_offset_mm"}
     reasons = [
-        *(f"смещения {what}" for what, key in moved.items() if getattr(model.geometry, key, None)),
+        *(
+            f"смещения {offset}"
+            for offset, key in moved.items()
+            if getattr(model.geometry, key, None)
+        ),
         *(["прицепных шатунов"] if shape.articulated else []),
     ]
     return joined(reasons) if reasons else ""

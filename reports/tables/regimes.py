@@ -108,9 +108,9 @@ class RegimeModel:
             if block.id in _LEFT_OUT or main_only(block.id):
                 continue
             if isinstance(block, ScalarTable):
-                kept = tuple(s for s in block.scalars if s.key in self.dependent)
-                if kept:
-                    copies.append(replace(block, scalars=kept))
+                scalars = tuple(s for s in block.scalars if s.key in self.dependent)
+                if scalars:
+                    copies.append(replace(block, scalars=scalars))
             elif any(name in self.dependent for name in _formulas(block)):
                 copies.append(block)
         return tuple(copies)
@@ -132,11 +132,11 @@ class RegimeModel:
 
     def part(self) -> Part:
         """The copies with names, ids and sheets of their own; charts of copied tables alone."""
-        kept = {block.id for block in self.blocks_to_copy}
+        ids = {block.id for block in self.blocks_to_copy}
         charts = (
             self._chart(chart)
             for chart in self.charts
-            if {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)} <= kept
+            if {axis.split(".")[0] for s in chart.series for axis in (s.x, s.y)} <= ids
         )
         return Part(tuple(map(self._block, self.blocks_to_copy)), tuple(charts))
 

@@ -41,9 +41,9 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
     note = left_out_note(model)
     remarks = (*remarks, *accepted_checks(model, blocks), *((note,) if note else ()))
     chapters = tuple(chapter for part in parts for chapter in part.chapters)
-    own = frozenset().union(*(part.own for part in parts))
+    nodes = frozenset().union(*(part.own for part in parts))
     department = frozenset().union(*(part.department for part in parts))
-    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks, chapters, own,
+    return Model(model, tuple(iter_fields(model)), blocks, charts, remarks, chapters, nodes,
                  department)  # fmt: skip
 
 
@@ -85,13 +85,13 @@ def _size_stand_ins(model: InputFile) -> dict[str, str]:
 
 def _mass_stand_ins(model: InputFile) -> dict[str, str]:
     """Masses that the sheet of masses finds."""
-    given, names = model.masses, {}
-    if given.reciprocating_kg is None:
-        if given.rod_centre_mm is None and given.rod_small_end_share is None:
+    masses, names = model.masses, {}
+    if masses.reciprocating_kg is None:
+        if masses.rod_centre_mm is None and masses.rod_small_end_share is None:
             names["masses_rod_small_end_share"] = "rod_share"
-        if given.piston_group_kg is None:
+        if masses.piston_group_kg is None:
             names["masses_piston_group_kg"] = "m_piston"
-        if given.rod_kg is None:
+        if masses.rod_kg is None:
             names["masses_rod_kg"] = "m_rod"
     if model.crankshaft.pin_mass_kg is None:
         names["crankshaft_pin_mass_kg"] = "pin_est"

@@ -74,44 +74,44 @@ def table_of(
 
 def frame_of(style: str, widths: Sequence[int], indent: int = 0) -> Element:
     """A table of fixed widths without rows [twips]."""
-    about = w("tblPr", w("tblStyle", val=style), w("tblW", w=sum(widths), type="dxa"),
+    properties = w("tblPr", w("tblStyle", val=style), w("tblW", w=sum(widths), type="dxa"),
               *([w("tblInd", w=indent, type="dxa")] if indent else []),
               w("tblLayout", type="fixed"), w("tblLook", val="0000"))  # fmt: skip
-    return w("tbl", about, w("tblGrid", *(w("gridCol", w=width) for width in widths)))
+    return w("tbl", properties, w("tblGrid", *(w("gridCol", w=width) for width in widths)))
 
 
 def table_cell(
     width: int, content: Sequence[Element], *more: Element, middle: bool = True
 ) -> Element:
     """A cell with its paragraphs; ``more`` are further properties in the schema's order."""
-    about = w("tcPr", w("tcW", w=width, type="dxa"), *more)
+    properties = w("tcPr", w("tcW", w=width, type="dxa"), *more)
     if middle:
-        about.append(w("vAlign", val="center"))
-    return w("tc", about, *content)
+        properties.append(w("vAlign", val="center"))
+    return w("tc", properties, *content)
 
 
 def _continued(words: Sequence[Element], widths: Sequence[int]) -> Element:
     """A row of the heading without rules."""
     bare = w("tcBorders", *(w(side, val="nil") for side in ("top", "left", "right")))
-    about = w("trPr", w("cantSplit"), w("trHeight", val=twips(CONTINUED_MM), hRule="exact"),
+    properties = w("trPr", w("cantSplit"), w("trHeight", val=twips(CONTINUED_MM), hRule="exact"),
               w("tblHeader"))  # fmt: skip
     content = paragraph("TableContinued", words, w("keepNext"))
     across = w("gridSpan", val=len(widths))
-    return w("tr", about, table_cell(sum(widths), [content], across, bare))
+    return w("tr", properties, table_cell(sum(widths), [content], across, bare))
 
 
 def may_break(source: HtmlElement) -> bool:
     """Whether a table is long enough to go on over the end of a sheet."""
-    kept = "keep" in source.get("class", "").split()
-    return not kept and len(source.findall("tbody/tr")) > _SHORT
+    is_kept = "keep" in source.get("class", "").split()
+    return not is_kept and len(source.findall("tbody/tr")) > _SHORT
 
 
 def _row(
     lines: Lines, row: HtmlElement, widths: Sequence[int], size: str,
     *, keep: bool, head: bool = False,
 ) -> Element:  # fmt: skip
-    about = w("trPr", w("cantSplit"), *([w("tblHeader")] if head else []))
-    row_element = w("tr", about)
+    properties = w("trPr", w("cantSplit"), *([w("tblHeader")] if head else []))
+    row_element = w("tr", properties)
     for source, width in zip(row, widths, strict=True):
         text = source.get("class") == "t"
         more = [w("keepNext")] if keep else []
@@ -180,12 +180,12 @@ def _sized(runs: list[Element], source: HtmlElement) -> list[Element]:
     """Runs in the type size of their cell."""
     match = re.search(r"font-size:([\d.]+)pt", source.get("style", ""))
     for piece in runs if match else []:
-        about = piece.find(f"{{{piece.nsmap['w']}}}rPr")
-        if about is None:
-            about = w("rPr")
-            piece.insert(0, about)
+        properties = piece.find(f"{{{piece.nsmap['w']}}}rPr")
+        if properties is None:
+            properties = w("rPr")
+            piece.insert(0, properties)
         points = round(2 * float(match[1])) if match else 0
-        about.extend([w("sz", val=points), w("szCs", val=points)])
+        properties.extend([w("sz", val=points), w("szCs", val=points)])
     return runs
 
 
@@ -307,8 +307,8 @@ class Blocks:
             content.append(w("r", w("drawing", self._cover())))
         yield paragraph("TableCaption", content)
 
-    def _number(self, shown: str) -> list[Element]:
-        return field(f"REF {self._table} \\h", shown)
+    def _number(self, text: str) -> list[Element]:
+        return field(f"REF {self._table} \\h", text)
 
     def _cover(self) -> Element:
         """White rectangle over a table's continuation row on its first sheet."""

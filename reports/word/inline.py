@@ -35,13 +35,13 @@ def count_totals(body: Element, bookmarks: Bookmarks) -> None:
         parts = (words.text or "").split()
         if parts[0] == "SEQ":
             runs = _runs(words)
-            shown = "".join(map(_text, runs))
-            last[parts[1]] = (shown, runs[0], runs[-1])
+            text = "".join(map(_text, runs))
+            last[parts[1]] = (text, runs[0], runs[-1])
     for mark in [mark for mark in body.iter(f"{{{W}}}r") if mark.get(COUNT_MARK)]:
-        short, shown = mark.attrib.pop(COUNT_MARK), _text(mark)
+        short, text = mark.attrib.pop(COUNT_MARK), _text(mark)
         kind = SEQUENCES[short]
         sequences = [name for name in last if name == kind or name.startswith(f"{kind}_")]
-        if not sequences or sum(int(last[name][0]) for name in sequences) != int(shown):
+        if not sequences or sum(int(last[name][0]) for name in sequences) != int(text):
             continue
         names = [f"last_{short}{index}" for index in range(len(sequences))]
         for bookmark, name in zip(names, sequences, strict=True):
@@ -97,8 +97,8 @@ class Lines:
 
     @staticmethod
     def _text(text: str | None, looks: Looks) -> list[Element]:
-        shown = _BLANKS.sub(" ", text or "")
-        return [run(shown, looks)] if shown else []
+        words = _BLANKS.sub(" ", text or "")
+        return [run(words, looks)] if words else []
 
     def _child(self, child: HtmlElement, looks: Looks) -> list[Element]:
         if not isinstance(child.tag, str):  # a comment
@@ -111,9 +111,9 @@ class Lines:
             return word_field("NUMPAGES", str(self.pages or ""), looks)
         if child.tag == "a" and target.startswith("#"):
             words = "".join(child.itertext())
-            shown = words.lstrip(f" {NBSP}")  # the page moves a blank before a link into it
-            lead = self._text(words[: len(words) - len(shown)], looks)
-            return [*lead, *word_field(f"REF {bookmark_name(target[1:])} \\h", shown, looks)]
+            text = words.lstrip(f" {NBSP}")  # the page moves a blank before a link into it
+            lead = self._text(words[: len(words) - len(text)], looks)
+            return [*lead, *word_field(f"REF {bookmark_name(target[1:])} \\h", text, looks)]
         if child.tag == "img":
             return []
         if child.get("data-tex"):
@@ -146,11 +146,11 @@ class Lines:
     def number(self, element: HtmlElement, looks: Looks) -> list[Element]:
         """The number of a thing as a field, within the bookmark that references show."""
         anchor = next((a.get("id") for a in element.iterancestors() if a.get("id")), "")
-        shown = (element.text or "").strip()
+        number_text = (element.text or "").strip()
         kind = SEQUENCES.get(anchor.partition("-")[0])
-        match = _NUMBER.fullmatch(shown)
+        match = _NUMBER.fullmatch(number_text)
         if kind is None or match is None:
-            return [run(shown, looks)]
+            return [run(number_text, looks)]
         return self.bookmarks.around(bookmark_name(anchor), self._counted(kind, match, looks))
 
     def _counted(self, kind: str, match: re.Match[str], looks: Looks) -> Sequence[Element]:

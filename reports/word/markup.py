@@ -88,7 +88,7 @@ def _looks(looks: frozenset[str]) -> Element:
     return properties
 
 
-def field(instruction: str, shown: str, looks: frozenset[str] = frozenset()) -> list[Element]:
+def field(instruction: str, result: str, looks: frozenset[str] = frozenset()) -> list[Element]:
     """A field that Word renews, with what it shows until then."""
     words = w("instrText")
     words.text = f" {instruction} "
@@ -97,7 +97,7 @@ def field(instruction: str, shown: str, looks: frozenset[str] = frozenset()) -> 
         w("r", w("fldChar", fldCharType="begin")),
         w("r", words),
         w("r", w("fldChar", fldCharType="separate")),
-        run(shown, looks),
+        run(result, looks),
         w("r", w("fldChar", fldCharType="end")),
     ]
 

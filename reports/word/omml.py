@@ -61,8 +61,8 @@ def _braced(lines: Math, columns: int) -> etree._Element:
     for sign, char in zip(signs, ("{", ""), strict=True):
         sign.set(f"{{{NAMESPACE}}}val", char)
     manner = _element("mcPr", _element("count", val=str(columns)), _element("mcJc", val="left"))
-    about = _element("mPr", _element("mcs", _element("mc", manner)))
-    return _element("d", _element("dPr", *signs), _element("e", _element("m", about, *lines)))
+    properties = _element("mPr", _element("mcs", _element("mc", manner)))
+    return _element("d", _element("dPr", *signs), _element("e", _element("m", properties, *lines)))
 
 
 def displayed(tex: str, end: str = "") -> etree._Element:
@@ -204,7 +204,7 @@ def _bracket(node: TexNode) -> str:
 
 
 def _nary(atom: _Atom, following: Math) -> etree._Element:
-    about = _element(
+    properties = _element(
         "naryPr",
         _element("chr", val=atom.big),
         _element("limLoc", val="undOvr"),
@@ -212,7 +212,7 @@ def _nary(atom: _Atom, following: Math) -> etree._Element:
         *([] if atom.above else [_element("supHide", val="1")]),
     )
     parts = (_element("sub", *atom.below), _element("sup", *atom.above))
-    return _element("nary", about, *parts, _element("e", *following))
+    return _element("nary", properties, *parts, _element("e", *following))
 
 
 def _piece(node: TexNode, upright: bool) -> Math:
@@ -228,12 +228,14 @@ def _piece(node: TexNode, upright: bool) -> Math:
     if token == "{" or name in _UPRIGHT | _GROUPS:
         return _sequence(node.parts[0], upright=upright or name in _UPRIGHT)
     if name in _BARS:
-        about = _element("barPr", _element("pos", val="top"))
+        properties = _element("barPr", _element("pos", val="top"))
         inner = _element("e", *_sequence(node.parts[0], upright=upright))
-        return [_element("bar", about, inner)]
+        return [_element("bar", properties, inner)]
     if name in _ACCENTS:
-        about = _element("accPr", _element("chr", val=_ACCENTS[name]))
-        return [_element("acc", about, _element("e", *_sequence(node.parts[0], upright=upright)))]
+        properties = _element("accPr", _element("chr", val=_ACCENTS[name]))
+        return [
+            _element("acc", properties, _element("e", *_sequence(node.parts[0], upright=upright)))
+        ]
     return list(_text(node, upright))
 
 
@@ -319,5 +321,5 @@ def _element(name: str, *children: etree._Element, val: str | None = None) -> et
 
 def barred(text: str) -> etree._Element:
     """Some letters under a bar as ``m:oMath``, for running text: Word's letters have none."""
-    about = _element("barPr", _element("pos", val="top"))
-    return _element("oMath", _element("bar", about, _element("e", _run(text, _ITALIC))))
+    properties = _element("barPr", _element("pos", val="top"))
+    return _element("oMath", _element("bar", properties, _element("e", _run(text, _ITALIC))))

@@ -56,7 +56,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
     width = twips(style.width_mm)
     hang = round(2.2 * size * 20)
     above, below = style.heading_before_pt, style.heading_after_pt
-    apart = style.formula_space_pt / 2  # the rows of formulas that follow one another add up
+    spacing = style.formula_space_pt / 2  # the rows of formulas that follow one another add up
     styles = {
         "BodyText": ParagraphStyle("Body Text", jc="both", first=indent),
         "Flush": ParagraphStyle("Текст без отступа", jc="both"),
@@ -88,7 +88,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
                              keep_lines=True),
         "TableContinued": ParagraphStyle("Продолжение таблицы", "Caption", line=1.0),
         "Figure": ParagraphStyle("Рисунок", jc="center", line=1.0, before=10, keep_next=True),
-        "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=apart, after=apart),
+        "Formula": ParagraphStyle("Формула", jc="center", line=1.0, before=spacing, after=spacing),
         "FormulaNumber": ParagraphStyle("Номер формулы", jc="right", line=1.0),
         "BodyAfterTable": ParagraphStyle("Текст после таблицы", "BodyText", before=8),
         "FlushAfterTable": ParagraphStyle("Текст без отступа после таблицы", "Flush", before=8),
@@ -181,11 +181,13 @@ def _normal(style: Style) -> Element:
 
 
 def _paragraph_style(key: str, look: ParagraphStyle) -> Element:
-    about = [w("name", val=look.name), w("basedOn", val=look.base)]
+    properties = [w("name", val=look.name), w("basedOn", val=look.base)]
     if look.following:
-        about.append(w("next", val=look.following))
-    about.append(w("qFormat"))
-    return w("style", *about, _paragraph_looks(look), _letters(look), type="paragraph", styleId=key)
+        properties.append(w("next", val=look.following))
+    properties.append(w("qFormat"))
+    return w(
+        "style", *properties, _paragraph_looks(look), _letters(look), type="paragraph", styleId=key
+    )
 
 
 def _paragraph_looks(look: ParagraphStyle) -> Element:
@@ -207,9 +209,11 @@ def _paragraph_looks(look: ParagraphStyle) -> Element:
         "after": None if look.after is None else round(20 * look.after),
         "line": round(_LINE * look.line) or None,
     }
-    given: dict[str, object] = {key: value for key, value in spacing.items() if value is not None}
-    if given:
-        properties.append(w("spacing", **given, **({"lineRule": "auto"} if look.line else {})))
+    attributes: dict[str, object] = {
+        key: value for key, value in spacing.items() if value is not None
+    }
+    if attributes:
+        properties.append(w("spacing", **attributes, **({"lineRule": "auto"} if look.line else {})))
     ends = {"left": look.left, "firstLine": look.first}
     if look.first is not None and look.first < 0:
         ends = {"left": look.left, "hanging": -look.first}

@@ -147,15 +147,15 @@ def _fill(document: Document, root: HtmlElement, blocks: Blocks) -> None:
     for stamp in stamps:
         stamp.getparent().remove(stamp)
     fronts = root.xpath("//section[contains(concat(' ', @class, ' '), ' sheet ')]")
-    places = root.xpath("//div[@class='place']")
-    for item in places:
+    slots = root.xpath("//div[@class='place']")
+    for item in slots:
         item.drop_tree()
     # Sheets before the text are one page each; the frame begins with the text at the latest.
-    wanted = blocks.style.frame_from if stamps else None
-    bare = len(fronts) if wanted is None else min(wanted - 1, len(fronts))
+    frame_page = blocks.style.frame_from if stamps else None
+    bare = len(fronts) if frame_page is None else min(frame_page - 1, len(fronts))
     first = document.sections[0]
     set_sheet(first, blocks.style)
-    front(first, blocks.lines.runs(places[0]) if places else [])
+    front(first, blocks.lines.runs(slots[0]) if slots else [])
     section = first
     for number, sheet in enumerate([*fronts, text]):
         elements = blocks.written([sheet])
@@ -175,8 +175,8 @@ def _fill(document: Document, root: HtmlElement, blocks: Blocks) -> None:
 def _new_page(element: object) -> None:
     from reports.word.markup import W, w
 
-    about = element.find(f"{{{W}}}pPr")  # type: ignore[attr-defined]
-    about.insert(1, w("pageBreakBefore"))
+    properties = element.find(f"{{{W}}}pPr")  # type: ignore[attr-defined]
+    properties.insert(1, w("pageBreakBefore"))
 
 
 def _describe(document: Document, root: HtmlElement) -> None:
@@ -186,25 +186,29 @@ def _describe(document: Document, root: HtmlElement) -> None:
         element = root.find(f".//meta[@name='{name}']")
         return "" if element is None else str(element.get("content"))
 
-    about = document.core_properties
-    about.title, about.author = root.findtext(".//title") or "", meta("author")
-    about.subject, about.keywords = meta("description"), meta("keywords")
-    about.last_modified_by, about.comments, about.language = meta("author"), "", "ru-RU"
-    about.created = about.modified = datetime.fromisoformat(meta("dcterms.created"))
-    about.revision = 1
+    properties = document.core_properties
+    properties.title, properties.author = root.findtext(".//title") or "", meta("author")
+    properties.subject, properties.keywords = meta("description"), meta("keywords")
+    properties.last_modified_by, properties.comments, properties.language = (
+        meta("author"),
+        "",
+        "ru-RU",
+    )
+    properties.created = properties.modified = datetime.fromisoformat(meta("dcterms.created"))
+    properties.revision = 1
 
 
 def _timeless(data: bytes) -> bytes:
     """Remove times of packing and what tells of the library's own template from the archive."""
     stream = io.BytesIO()
     with (
-        zipfile.ZipFile(io.BytesIO(data)) as given,
+        zipfile.ZipFile(io.BytesIO(data)) as source,
         zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
-        for name in given.namelist():
+        for name in source.namelist():
             if name == _THUMBNAIL:
                 continue
-            part = given.read(name)
+            part = source.read(name)
             if name == "_rels/.rels":
                 part = re.sub(rb"<Relationship [^>]*thumbnail[^>]*/>", b"", part)
             elif name == "docProps/app.xml":

@@ -265,9 +265,9 @@ def _mark_symbols(
 ) -> None:
     """Marks where the pieces of symbols belong, with indices as such."""
     for item in root.iter(f"{{{_MAIN}}}is") if symbols else ():
-        about = symbols.get(item.getparent().get("r"))
-        if about is not None:
-            item[:] = [_marked(_pieces(*about), marks)]
+        symbol = symbols.get(item.getparent().get("r"))
+        if symbol is not None:
+            item[:] = [_marked(_pieces(*symbol), marks)]
 
 
 @cache
@@ -278,8 +278,8 @@ def _pieces(runs: Runs, bold: bool) -> str:
     for number, (text, level) in enumerate(runs):
         # An index a little larger: programs make it about 0.6 of what is said.
         size = f'<sz val="{_INDEX}"/><vertAlign val="{_LEVELS[level]}"/>' if level else _LETTERS
-        own = f"<rPr>{face}{size}</rPr>" if number or level else ""
-        pieces.append(f'<r>{own}<t xml:space="preserve">{_escaped(text)}</t></r>')
+        properties = f"<rPr>{face}{size}</rPr>" if number or level else ""
+        pieces.append(f'<r>{properties}<t xml:space="preserve">{_escaped(text)}</t></r>')
     return "".join(pieces)
 
 

@@ -49,13 +49,13 @@ def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value])
         UnicodeDecodeError: a part is not in UTF-8.
     """
     with zipfile.ZipFile(BytesIO(data)) as archive:
-        places = sheet_parts(archive)
+        parts = sheet_parts(archive)
         names = set(archive.namelist())
-        texts = {part: archive.read(part).decode("utf-8") for part in {*places.values(), _BOOK}}
+        texts = {part: archive.read(part).decode("utf-8") for part in {*parts.values(), _BOOK}}
         others = {name: archive.read(name).decode("utf-8") for name in (_TYPES, _RELATIONS)}
-    sheet = _SheetText(texts[places[title]])
-    changed = {places[title]: _unsaved(sheet.filled(values))}
-    for name, part in places.items():
+    sheet = _SheetText(texts[parts[title]])
+    changed = {parts[title]: _unsaved(sheet.filled(values))}
+    for name, part in parts.items():
         if name != title and _FORMULA.search(texts[part]) and escape(title) in texts[part]:
             changed[part] = _unsaved(texts[part])
     if any(map(_FORMULA.search, texts.values())):
@@ -91,10 +91,10 @@ class _SheetText:
             parts.append(inside[at : found.start()])
             early = sorted(row for row in by_row if row < last)
             parts += [self._row(prefix, f' r="{row}"', "", row, by_row.pop(row)) for row in early]
-            own = by_row.pop(last, None)
+            cells = by_row.pop(last, None)
             parts.append(
-                found[0] if own is None
-                else self._row(found[1], found[2], found[3] or "", last, own)
+                found[0] if cells is None
+                else self._row(found[1], found[2], found[3] or "", last, cells)
             )  # fmt: skip
             at = found.end()
         parts.append(inside[at:])
@@ -108,23 +108,23 @@ class _SheetText:
     ) -> str:
         """A row with values in its columns."""
         left, parts, at, last = dict(values), [], 0, 0
-        for found in _CELL.finditer(inside):
-            place = re.match(r"[A-Z]+", _attribute(found[2], "r"))
-            last = column_index_from_string(place[0]) if place else last + 1
-            parts.append(inside[at : found.start()])
+        for match in _CELL.finditer(inside):
+            reference = re.match(r"[A-Z]+", _attribute(match[2], "r"))
+            last = column_index_from_string(reference[0]) if reference else last + 1
+            parts.append(inside[at : match.start()])
             early = sorted(column for column in left if column < last)
             parts += [self._new(prefix, attributes, row, column, left.pop(column))
                       for column in early]  # fmt: skip
             if last in left:
-                if _MASTER.search(found[3] or ""):
+                if _MASTER.search(match[3] or ""):
                     raise SharedFormulaError(f"{get_column_letter(last)}{row}")
-                if _FORMULA.search(found[3] or ""):
+                if _FORMULA.search(match[3] or ""):
                     self.lost.append(f"{get_column_letter(last)}{row}")
-                style = _attribute(found[2], "s")
-                parts.append(_cell(found[1], row, last, style, left.pop(last)))
+                style = _attribute(match[2], "s")
+                parts.append(_cell(match[1], row, last, style, left.pop(last)))
             else:
-                parts.append(found[0])
-            at = found.end()
+                parts.append(match[0])
+            at = match.end()
         parts.append(inside[at:])
         parts += [self._new(prefix, attributes, row, column, left[column])
                   for column in sorted(left)]  # fmt: skip

@@ -31,12 +31,12 @@ def place_of(sheet: str, contents: Contents | None = None) -> tuple[int, int, in
     number = _NUMBER.search(base)
     name = base if number is None else _NUMBER.sub("", base)
     order = (int(regime[1]) if regime else 0, int(number["a"] or number["b"]) if number else 0)
-    for chapter, about in enumerate((contents or contents_of()).chapters):
-        if base == diagrams_of(about):
+    for chapter, entry in enumerate((contents or contents_of()).chapters):
+        if base == diagrams_of(entry):
             return chapter, -1, *order
-        for place, (title, _) in enumerate(about.sheets):
+        for position, (title, _) in enumerate(entry.sheets):
             if name == title:
-                return chapter, place, *order
+                return chapter, position, *order
     raise LookupError(f"no book says where the sheet {sheet!r} stands")
 
 
@@ -52,8 +52,8 @@ def chapter_of(sheet: str, contents: Contents | None = None) -> SheetChapter:
 
 def in_course(sheet: str, contents: Contents) -> bool:
     """Whether the workbook of a course project has a sheet."""
-    chapter, place, *_ = place_of(sheet, contents)
-    return contents.chapters[chapter].sheets[place][0] not in contents.beyond_course
+    chapter, position, *_ = place_of(sheet, contents)
+    return contents.chapters[chapter].sheets[position][0] not in contents.beyond_course
 
 
 def is_smooth_sheet(sheet: str, contents: Contents | None = None) -> bool:
@@ -76,10 +76,10 @@ def diagrams_of(chapter: SheetChapter) -> str:
 
 def heading(sheet: str, contents: Contents | None = None) -> str:
     """What stands above a sheet and in the contents."""
-    chapter, place, regime, number = place_of(sheet, contents)
-    about = (contents or contents_of()).chapters[chapter]
-    if place < 0:
-        return f"{DIAGRAMS}: {about.title[0].lower()}{about.title[1:]}"
-    text = about.sheets[place][1]
+    chapter, position, regime, number = place_of(sheet, contents)
+    entry = (contents or contents_of()).chapters[chapter]
+    if position < 0:
+        return f"{DIAGRAMS}: {entry.title[0].lower()}{entry.title[1:]}"
+    text = entry.sheets[position][1]
     text += f" {number}" if number else ""
     return text + (f", режим {regime}" if regime else "")

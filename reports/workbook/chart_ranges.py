@@ -59,21 +59,21 @@ def marks(spec: ChartSpec, layout: Layout, values: Values) -> list[CurveRanges]:
     xs, ys = (values.columns[table.id][key.split(".")[1]] for key in (path.x, path.y))
     radius = max((np.hypot(x, y) for x, y in zip(xs, ys, strict=True)), default=0.0)
     round_ones = (index for index, angle in enumerate(angles) if angle % _ANGLE == 0)
-    kept: list[int] = []
+    rows: list[int] = []
     for index in sorted(round_ones, key=lambda index: (angles[index] % (3 * _ANGLE), index)):
         are_distant = all(
             abs(xs[index] - xs[other]) > _NAME[0] * radius
             or abs(ys[index] - ys[other]) > _NAME[1] * radius
-            for other in kept
+            for other in rows
         )
-        if are_distant and len(kept) < _MOST_NAMES:
-            kept.append(index)
+        if are_distant and len(rows) < _MOST_NAMES:
+            rows.append(index)
     return [
         CurveRanges(f"{angles[index]:g}°", *(
             f"{quoted(table.sheet)}!${get_column_letter(layout.column_of(key))}${first + index}"
             for key in (path.x, path.y)
         ))
-        for index in sorted(kept)
+        for index in sorted(rows)
     ]  # fmt: skip
 
 

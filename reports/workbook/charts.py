@@ -74,7 +74,7 @@ def make_chart(
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, (layout, values), oblong)
-    _legend(chart, shown=not spec.equal_axes and len(curves) > 1)
+    _legend(chart, visible=not spec.equal_axes and len(curves) > 1)
     return chart
 
 
@@ -124,7 +124,7 @@ def curves_chart(
     _titles(chart, x_title, y_title)
     if ends[0] < ends[1]:
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = ends
-    _legend(chart, shown=len(curves) > 1)
+    _legend(chart, visible=len(curves) > 1)
     return chart
 
 
@@ -151,7 +151,7 @@ def drawing(
             series.marker = _dot(9)
         chart.series.append(series)
     _titles(chart, *axes)
-    _legend(chart, shown=not shape and len(lines) > 2)
+    _legend(chart, visible=not shape and len(lines) > 2)
     if downwards:
         chart.y_axis.scaling.orientation = "maxMin"
         chart.x_axis.tickLblPos = "high"
@@ -184,8 +184,8 @@ def _empty(title: str) -> ScatterChart:
     return chart
 
 
-def _legend(chart: ScatterChart, *, shown: bool) -> None:
-    if shown:
+def _legend(chart: ScatterChart, *, visible: bool) -> None:
+    if visible:
         chart.legend.position = "b"
         chart.legend.overlay = False
     else:
@@ -281,8 +281,8 @@ def _series(
 ) -> XYSeries:
     node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
     row = layout.model.grid_rows.get(series.y)
-    known = node.quantity if node else row.quantity if row else quantity(series.y.split(".")[1])
-    name = series.name or known.symbol
+    measure = node.quantity if node else row.quantity if row else quantity(series.y.split(".")[1])
+    name = series.name or measure.symbol
     line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:

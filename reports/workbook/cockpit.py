@@ -123,8 +123,8 @@ def results_of(model: Model) -> tuple[str, ...]:
     """Keys of what came out; the oil hole is where the film puts it, as the report says."""
     if "oil_film1_deg" not in model.scalars:
         return RESULTS
-    given = "crankshaft_oil_hole_deg"
-    hole = (given,) if given in model.fields else ("oil_film1_deg", "oil_film2_deg")
+    key = "crankshaft_oil_hole_deg"
+    hole = (key,) if key in model.fields else ("oil_film1_deg", "oil_film2_deg")
     at = RESULTS.index("hole_pin_deg")
     return (*RESULTS[:at], *hole, *RESULTS[at + 1 :])
 
@@ -217,10 +217,10 @@ def _values(
 ) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, about, formula, value, unit, look in known(writer, keys):
+    for text, measure, formula, value, unit, look in known(writer, keys):
         row += 1
         raise_row(sheet, row, {text: _WIDTHS["A"]})
-        writer.symbol(sheet, row, 2, about)
+        writer.symbol(sheet, row, 2, measure)
         for column, words in ((1, text), (4, unit)):
             look_of = styles.UNIT if column == 4 else styles.TEXT
             sheet.cell(row, column, words or None).style = look_of
@@ -348,12 +348,12 @@ def _left_out(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
         row += 1
         sheet.cell(row, 1, chapter.title).style = styles.TEXT
         sheet.cell(row, 2, "; ".join(group)).style = styles.LINE
-    about = model.fields["workbook_sheets"]
+    field = model.fields["workbook_sheets"]
     row += 1
-    link(sheet, Cell(sheet.title, row, 1), about.title, INPUT_SHEET,
-         writer.layout.cells[about.name].coordinate)  # fmt: skip
-    section, key = about.path
-    choices = about.choices or {}
+    link(sheet, Cell(sheet.title, row, 1), field.title, INPUT_SHEET,
+         writer.layout.cells[field.name].coordinate)  # fmt: skip
+    section, key = field.path
+    choices = field.choices or {}
     text = f"для полной — «{choices['full']}», затем kshm build; в файле: [{section}] {key}"
     sheet.cell(row, 2, f'{text} = "full"').style = styles.NOTE
     if model.folded:
@@ -404,12 +404,12 @@ def _part(
 ) -> int:
     """Lines of some values; the row behind them."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, about, formula, value, unit, look in known(writer, keys):
+    for text, measure, formula, value, unit, look in known(writer, keys):
         if isinstance(value, str):
             continue
         row += 1
         raise_row(sheet, row, {text: _STUDY_WIDTHS["A"]})
-        writer.symbol(sheet, row, 2, about)
+        writer.symbol(sheet, row, 2, measure)
         for column, words in ((1, text), (7, unit)):
             look_of = styles.UNIT if column == 7 else styles.TEXT
             sheet.cell(row, column, words or None).style = look_of
@@ -420,11 +420,11 @@ def _part(
         from_nothing = f'IF(ROUND({now},9)=0,0,"{_NO_PART}")'
         share = f"=IF({was}=0,{from_nothing},ROUND(({now}/{was}-1)*100,6))"
         # An angle and a journal's number have no share to tell: their difference itself.
-        own = look.partition("_")[0]
-        whole = unit == "°" or (own == "0" and not unit)
+        kind = look.partition("_")[0]
+        whole = unit == "°" or (kind == "0" and not unit)
         writer.formula(sheet, row, 5, f"=ROUND({now}-{was},9)" if whole else share, 0.0)
         sheet.cell(row, 6, unit if whole else "%").style = styles.UNIT
-        change = ("0_._0_0" if own == "0" else own) if whole else "0.00"
+        change = ("0_._0_0" if kind == "0" else kind) if whole else "0.00"
         for column, form in ((3, look), (4, look), (5, change)):
             sheet.cell(row, column).style = styles.FORMULA
             sheet.cell(row, column).number_format = form

@@ -62,8 +62,8 @@ def write_inputs(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
         if items[0].path[0] == "report":
             sheet.cell(top, VALUE_COLUMN, _FOLDED).style = styles.NOTE
             for item in items:
-                about = sheet.row_dimensions[layout.cells[item.name].row]
-                about.outlineLevel, about.hidden = 1, True
+                dimension = sheet.row_dimensions[layout.cells[item.name].row]
+                dimension.outlineLevel, dimension.hidden = 1, True
     sheet.sheet_properties.outlinePr.summaryBelow = False
     # Told by the notes; without its names a book is graded by these.
     sheet.column_dimensions[get_column_letter(KEY_COLUMN)].hidden = True
@@ -186,6 +186,6 @@ def _mark_wrong(sheet: Worksheet, model: Model, layout: Layout) -> None:
         if item.minimum is not None and item.maximum is not None:
             address = layout.cells[item.name].coordinate
             cells[item.minimum, item.maximum].append(address)
-    for limits, places in cells.items():
+    for limits, addresses in cells.items():
         rule = CellIsRule("notBetween", [f"{limit!r}" for limit in limits], **styles.wrong())
-        sheet.conditional_formatting.add(" ".join(places), rule)
+        sheet.conditional_formatting.add(" ".join(addresses), rule)

@@ -229,8 +229,8 @@ def _check_parts(name: str, package: Package) -> None:
             if not _ROOT.match(part[:_HEAD]):
                 if b"<!DOCTYPE" in part[:_HEAD]:
                     _refuse(name, "в книге есть объявление DOCTYPE", "это не книга Excel")
-                what = f"часть {info.filename} начинается не так, как пишут программы таблиц"
-                _refuse(name, what, "сохраните книгу заново в Excel или LibreOffice")
+                problem = f"часть {info.filename} начинается не так, как пишут программы таблиц"
+                _refuse(name, problem, "сохраните книгу заново в Excel или LibreOffice")
             if size == len(part):
                 package.keep(info.filename, part)
 
@@ -264,5 +264,5 @@ def _unpacked(name: str, package: Package, info: zipfile.ZipInfo, total: int) ->
     return part, size
 
 
-def _refuse(name: str, what: str, hint: str) -> NoReturn:
-    raise InputError(Problem(name, what, hint))
+def _refuse(name: str, problem: str, hint: str) -> NoReturn:
+    raise InputError(Problem(name, problem, hint))

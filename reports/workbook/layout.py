@@ -271,9 +271,9 @@ def _place(waves: Waves, turn: str, orders: tuple[float, ...]) -> int:
     """Number of the waves that stand before some orders."""
     names = tuple(waves.orders)
     before = sum(len(waves.orders[name]) for name in names[: names.index(turn)])
-    known = place_of(waves.orders[turn], orders)
-    assert known is not None
-    return before + known
+    position = place_of(waves.orders[turn], orders)
+    assert position is not None
+    return before + position
 
 
 class RowReferences:

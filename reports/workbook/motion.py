@@ -100,11 +100,11 @@ def write_motion(book: Workbook, model: Model, writer: BlockWriter) -> list[Box]
         inputs |= {f"{table}.{key}": column for key, column in columns.items()}
     view = _View(writer.layout, inputs)
     shape = Shape.of(model.input)
-    own = [i for i in range(1, shape.cylinders + 1) if not shape.is_hung(i)]
+    numbers = [i for i in range(1, shape.cylinders + 1) if not shape.is_hung(i)]
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
-    _choices(book, sheet, model, view, own)
-    _by_cylinder(sheet, writer, view, own, shape)
+    _choices(book, sheet, model, view, numbers)
+    _by_cylinder(sheet, writer, view, numbers, shape)
     _chosen(sheet, writer, view, shape, smallness_of(model.input))
     drawn = _drawings(sheet, writer, view, shape)
     return _charts(sheet, writer, drawn)
@@ -175,8 +175,8 @@ def _by_cylinder(
         texts = {"psi": f"mod({ANGLE} - firing_offset_{i}_deg, {shape.period})"}
         for force, of in _FORCES.items():
             table = cylinder_table_id(i)
-            known = f"{table}.{of}" in view.inputs and i in cylinders
-            texts[force] = f"element({table}.{of}, view_row)" if known else "0"
+            is_input = f"{table}.{of}" in view.inputs and i in cylinders
+            texts[force] = f"element({table}.{of}, view_row)" if is_input else "0"
         for column, (key, text) in enumerate(texts.items(), 2):
             _put(sheet, writer, view, (row + i, column), f"{key}_{i}", text)
     for column, key in enumerate(("psi", *_FORCES), 2):

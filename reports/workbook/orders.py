@@ -50,17 +50,17 @@ def waves_of(model: Model) -> Mapping[Grid, Waves]:
 
 def _add(waves: Waves, table: TableSpec | None, turn: str, order: float | str) -> None:
     """More orders; those of a table's rows stand side by side."""
-    wanted = (order,) if isinstance(order, float) else _rows(table, order)
-    known = waves.orders.setdefault(turn, ())
-    if place_of(known, wanted) is None:
-        waves.orders[turn] = (*known, *wanted)
+    required = (order,) if isinstance(order, float) else _rows(table, order)
+    orders = waves.orders.setdefault(turn, ())
+    if place_of(orders, required) is None:
+        waves.orders[turn] = (*orders, *required)
 
 
-def place_of(known: tuple[float, ...], wanted: tuple[float, ...]) -> int | None:
+def place_of(orders: tuple[float, ...], required: tuple[float, ...]) -> int | None:
     """Where some orders stand side by side among others."""
-    count = len(wanted)
-    places = range(len(known) - count + 1)
-    return next((i for i in places if known[i : i + count] == wanted), None)
+    count = len(required)
+    positions = range(len(orders) - count + 1)
+    return next((i for i in positions if orders[i : i + count] == required), None)
 
 
 def _met(model: Model, beginning: str) -> Iterator[tuple[TableSpec | None, str, str, float | str]]:

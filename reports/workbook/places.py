@@ -66,8 +66,8 @@ def column_px(sheet: Worksheet, index: int) -> int:
     letter = get_column_letter(index)
     if letter not in sheet.column_dimensions:
         return COLUMN
-    about = sheet.column_dimensions[letter]
-    return 0 if about.hidden else round(about.width * DIGIT) if about.width else COLUMN
+    dimension = sheet.column_dimensions[letter]
+    return 0 if dimension.hidden else round(dimension.width * DIGIT) if dimension.width else COLUMN
 
 
 def row_px(sheet: Worksheet, index: int) -> int:

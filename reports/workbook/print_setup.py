@@ -225,9 +225,9 @@ def _hold_words(sheet: Worksheet, labels: Mapping[int, str]) -> None:
 def _raise_row(sheet: Worksheet, row: int, labels: Mapping[int, str]) -> None:
     """A row in which headers have all their lines."""
     lines = max(_lines(label, column_px(sheet, index) / DIGIT) for index, label in labels.items())
-    about = sheet.row_dimensions[row]
+    dimension = sheet.row_dimensions[row]
     if lines > 1:
-        about.height = max(about.height or 0, _HEADER_LINE * lines)
+        dimension.height = max(dimension.height or 0, _HEADER_LINE * lines)
 
 
 def _word(word: str) -> float:

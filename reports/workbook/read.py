@@ -55,15 +55,15 @@ def load_workbook_input(path: Path) -> Loaded:
             messages name sheet and cell.
     """
     data = check_package(path)
-    cells, places, units, books = _input_cells(data, path.name)
+    cells, addresses, units, books = _input_cells(data, path.name)
     raw: dict[str, Any] = {"books": books} if books else {}
     texts = tuple(books.items())
-    wanted: dict[tuple[str | int, ...], str] = {}
+    addresses_of: dict[tuple[str | int, ...], str] = {}
     for name, value in cells.items():
         target = _path_of(name) or _own_path(name, texts)
         if target is None:
             continue
-        wanted[target] = places[name]
+        addresses_of[target] = addresses[name]
         _put(raw, target, value)
     for section in SECTIONS.values():
         if section.lists:
@@ -74,23 +74,23 @@ def load_workbook_input(path: Path) -> Loaded:
 
     def locate(target: tuple[str | int, ...]) -> str:
         for length in range(len(target), 0, -1):
-            if target[:length] in wanted:
-                return wanted[target[:length]]
-        nested = [place for at, place in wanted.items() if at[: len(target)] == target]
+            if target[:length] in addresses_of:
+                return addresses_of[target[:length]]
+        nested = [cell for at, cell in addresses_of.items() if at[: len(target)] == target]
         return nested[0] if nested else INPUT_SHEET
 
     loaded = load_mapping(raw, source=path.name, locate=locate)
-    _check_units(loaded, places, units, path.name)
+    _check_units(loaded, addresses, units, path.name)
     return loaded
 
 
 def _check_units(
-    loaded: Loaded, places: dict[str, str], units: dict[str, str], source: str
+    loaded: Loaded, addresses: dict[str, str], units: dict[str, str], source: str
 ) -> None:
     """Refuse a number whose unit a person wrote anew: it would be taken in the old one."""
     problems = [
         Problem(
-            f"{source}, {places[item.name]}",
+            f"{source}, {addresses[item.name]}",
             f"рядом стоит единица «{units[item.name]}» вместо «{item.unit}»",
             f"верните единицу и впишите число в «{item.unit}»",
         )
@@ -121,11 +121,11 @@ def _input_cells(
 
     book, title, sheet, books = _sheets(data, source)
     if _ALWAYS in book.defined_names and title not in book.sheetnames:
-        what = "в книге нет листа исходных данных, на который указывают имена её ячеек"
-        problem = Problem(source, what, "верните лист или возьмите книгу, какой её сделала kshm")
+        fault = "в книге нет листа исходных данных, на который указывают имена её ячеек"
+        problem = Problem(source, fault, "верните лист или возьмите книгу, какой её сделала kshm")
         raise InputError(problem)
     cells: dict[str, Any] = {}
-    places: dict[str, str] = {}
+    addresses: dict[str, str] = {}
     units: dict[str, str] = {}
     problems: list[Problem] = []
     for name, defined in book.defined_names.items():
@@ -135,28 +135,28 @@ def _input_cells(
             continue
         match = _ADDRESS.fullmatch(address)
         if match is None:
-            what = f"имя {name} не указывает на ячейку"
-            problems.append(Problem(source, what, "восстановите лист исходных данных"))
+            fault = f"имя {name} не указывает на ячейку"
+            problems.append(Problem(source, fault, "восстановите лист исходных данных"))
             continue
         reference = f"{title}!{match.group(1)}{match.group(2)}"
         row, column = coordinate_to_tuple(match.group(1) + match.group(2))
         cell = sheet.get((row, column))
         value = _typed(cell)
         if value is None and cell is not None:
-            what = "в ячейке исходных данных стоит формула, а не число"
+            fault = "в ячейке исходных данных стоит формула, а не число"
             hint = "впишите число или действия над числами, например =80+10"
-            problems.append(Problem(f"{source}, {reference}", what, hint))
+            problems.append(Problem(f"{source}, {reference}", fault, hint))
             continue
-        cells[name], places[name] = value, reference
+        cells[name], addresses[name] = value, reference
         beside = sheet.get((row, UNIT_COLUMN))
         if column == VALUE_COLUMN and isinstance(value, int | float) and beside is not None:
             units[name] = str(beside.value)
     if problems:
         raise InputError(problems)
     if _ALWAYS not in cells:
-        what = "это не книга, созданная командой kshm build"
-        raise InputError(Problem(source, what, "укажите файл .toml или книгу kshm"))
-    return cells, places, units, books
+        fault = "это не книга, созданная командой kshm build"
+        raise InputError(Problem(source, fault, "укажите файл .toml или книгу kshm"))
+    return cells, addresses, units, books
 
 
 def _sheets(
@@ -173,8 +173,8 @@ def _sheets(
     except InputError:
         raise
     except Exception as error:  # openpyxl raises anything on a damaged book
-        what = "книга повреждена и не читается"
-        problem = Problem(source, what, "сохраните её заново в Excel или LibreOffice")
+        fault = "книга повреждена и не читается"
+        problem = Problem(source, fault, "сохраните её заново в Excel или LibreOffice")
         raise InputError(problem) from error
 
 
@@ -265,8 +265,8 @@ def _path_of(name: str) -> tuple[str | int, ...] | None:
             return None
         return ("regimes", int(further[2]) - 2, *path[path[0] == "regime" :])
     for section in SECTIONS.values():
-        for key, about in section.lists.items():
-            match = re.fullmatch(_cell_pattern(about.cells), name)
+        for key, spec in section.lists.items():
+            match = re.fullmatch(_cell_pattern(spec.cells), name)
             if match is None:
                 continue
             index, part = int(match["n"]) - 1, match.groupdict().get("key")

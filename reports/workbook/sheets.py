@@ -89,14 +89,14 @@ class BlockWriter:
         self.caches.values.setdefault(sheet.title, {})[cell.coordinate] = value
 
     def symbol(
-        self, sheet: Worksheet, row: int, column: int, about: Quantity | Field,
+        self, sheet: Worksheet, row: int, column: int, named: Quantity | Field,
         look: str = styles.TEXT, *, unit: bool = False,
     ) -> None:  # fmt: skip
         """A symbol as the report has it, from the same TeX; with its unit as a heading."""
-        if isinstance(about, Quantity):
-            text, tex, label = about.symbol, "" if about.word else about.tex, about.unit_label
+        if isinstance(named, Quantity):
+            text, tex, label = named.symbol, "" if named.word else named.tex, named.unit_label
         else:
-            text, tex, label = field_symbol(about), input_symbol_tex(about.symbol), about.unit
+            text, tex, label = field_symbol(named), input_symbol_tex(named.symbol), named.unit
         after = f", {label}" if unit and label else ""
         cell = sheet.cell(row, column, text + after or None)
         cell.style = look

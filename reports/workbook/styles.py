@@ -75,9 +75,9 @@ def typed_format(value: object, decimals: int) -> str:
     return "General" + _blank(decimals_of([value]), decimals)
 
 
-def _blank(own: int, decimals: int) -> str:
+def _blank(digits: int, decimals: int) -> str:
     """Blank space as wide as the point and the decimals that a number has not."""
-    return ("" if own else "_.") + "_0" * (decimals - own) if decimals > own else ""
+    return ("" if digits else "_.") + "_0" * (decimals - digits) if decimals > digits else ""
 
 
 def decimals_of(numbers: Iterable[object]) -> int:
@@ -94,8 +94,8 @@ def _decimals(number: object) -> int:
 
 def blanks(quantity: Quantity, decimals: int) -> int:
     """Letters of blank space behind a number that has fewer decimals than others above it."""
-    own = quantity.digits.decimals
-    return len(_blank(own, decimals)) // 2 if quantity.digits.kind == "fixed" else 0
+    digits = quantity.digits.decimals
+    return len(_blank(digits, decimals)) // 2 if quantity.digits.kind == "fixed" else 0
 
 
 def as_text(cell: Cell) -> Cell:

@@ -72,10 +72,10 @@ def conditions(
 ) -> Iterator[Condition]:
     """Every pair both of whose sides stand in the book, those of further regimes as well."""
     main, further = _by_key(model.inputs)
-    for number_, own in ((1, main), *further.items()):
+    for number_, regime in ((1, main), *further.items()):
         suffix, whose = (regime_suffix(number_), f", режим {number_}") if number_ > 1 else ("", "")
         shared = {key: of_key for key, of_key in main.items() if not suffix or not _of_regime(key)}
-        fields = {**shared, **own}
+        fields = {**shared, **regime}
         for pair in PAIRS:
             if not is_of(pair, model.input.engine.strokes, fields.get):
                 continue
@@ -92,7 +92,7 @@ def conditions(
             sign = "<" if pair.strict else "<="
             text, holds = f"{less.text}{sign}{more.text}", pair.holds(less.value, more.value)
             yield Condition(pair, pair.title + whose, text, cells, holds)
-        if angles := tuple(item for item in own.get(_POINTS.less, ()) if item.path[-1] == 0):
+        if angles := tuple(item for item in regime.get(_POINTS.less, ()) if item.path[-1] == 0):
             title = _POINTS.title + whose
             yield Condition(_POINTS, title, _rising(angles, layout), angles, holds=True)
 
@@ -325,8 +325,8 @@ def _areas(caches: CacheValues) -> dict[str, str]:
     """Sheet → the range of all its formula cells: the ends of a filled column are among them."""
     areas: dict[str, str] = {}
     for title, cells in caches.values.items():
-        places = [coordinate_to_tuple(place) for place in cells]
-        rows, columns = {row for row, _ in places}, {column for _, column in places}
+        coordinates = [coordinate_to_tuple(address) for address in cells]
+        rows, columns = {row for row, _ in coordinates}, {column for _, column in coordinates}
         first, last = (
             Cell(title, end(rows), end(columns)).absolute.partition("!")[2] for end in (min, max)
         )
@@ -360,7 +360,7 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     sheet.column_dimensions[letter].outlineLevel, sheet.column_dimensions[letter].hidden = 1, True
     # Of a list only the number of the line: which of its cells it is their own limits say.
     marked = [area(Cell("", min(rows), 1), Cell("", max(rows), 1))]
-    marked += [layout.cells[i.name].coordinate for found in rows.values() for i in found
+    marked += [layout.cells[i.name].coordinate for values in rows.values() for i in values
                if not i.listed]  # fmt: skip
     for test_of, look in (
         (f">={RESHAPED_ROW}", styles.wrong()),

@@ -110,10 +110,12 @@ def _write_run(sheet: Worksheet, writer: BlockWriter, run: str) -> None:
     """Angles of a run side by side, below them a row an order."""
     layout = writer.layout
     keys, top = layout.keys_of_run(run), layout.run_waves[run]
-    known = {field.name: field.value for field in layout.model.inputs} | writer.values.scalars
-    if not all(key in known for key in keys):  # a work-book has some lists only
+    values_by_name = {
+        field.name: field.value for field in layout.model.inputs
+    } | writer.values.scalars
+    if not all(key in values_by_name for key in keys):  # a work-book has some lists only
         return
-    angles = [float(known[key]) for key in keys]
+    angles = [float(values_by_name[key]) for key in keys]
     cells = layout.cells_of_run(run)
     sheet.cell(top - 1, 1, cells[0].sheet).style = styles.SUBTITLE
     for column, (cell, angle) in enumerate(zip(cells, angles, strict=True), 2):
@@ -201,9 +203,9 @@ def assemble(
         cockpit.write_what_if(book, model, writer)
     _fold(book, model)
     verdict = write_verdict(book, model, writer)
-    shown = [sheet.title for sheet in book.worksheets if sheet.sheet_state == "visible"]
+    visible = [sheet.title for sheet in book.worksheets if sheet.sheet_state == "visible"]
     boxes[CONTENTS_SHEET] = write_cockpit(
-        book[CONTENTS_SHEET], shown, model, writer, legend, verdict
+        book[CONTENTS_SHEET], visible, model, writer, legend, verdict
     )
     for sheet in book.worksheets:
         keep_columns(sheet, boxes.get(sheet.title, ()))
@@ -213,7 +215,7 @@ def assemble(
         # Of the points under the charts of the mechanism nobody needs a print.
         alone = sheet.title == motion.SHEET
         set_page(sheet, boxes.get(sheet.title, ()), charts_alone=alone)
-    if WAVES_SHEET in shown:
+    if WAVES_SHEET in visible:
         print_beginning(book[WAVES_SHEET])
     for name, address in layout.defined_names().items():
         if name in model.fields or name in model.scalars:

@@ -35,8 +35,10 @@ def check_bearings(values: ValidValues) -> Iterator[Finding]:
             yield from _widths(values, part, diameters, lengths)
     if not sum(values.get("bearings", f"{key}_um") or 0 for key in
                ("journal_roughness", "shell_roughness", "form")):  # fmt: skip
-        what = "сумма неровностей и отклонений равна нулю: не с чем сравнить плёнку"
-        yield Finding(("bearings", "journal_roughness_um"), what, "задайте неровности больше нуля")
+        problem = "сумма неровностей и отклонений равна нулю: не с чем сравнить плёнку"
+        yield Finding(
+            ("bearings", "journal_roughness_um"), problem, "задайте неровности больше нуля"
+        )
 
 
 def _sizes(values: ValidValues, part: str, size: str) -> Sequence[float]:
@@ -48,7 +50,7 @@ def _sizes(values: ValidValues, part: str, size: str) -> Sequence[float]:
 def _widths(
     values: ValidValues, part: str, diameters: Sequence[float], lengths: Sequence[float]
 ) -> Iterator[Finding]:
-    given, groove = (
+    stated, groove = (
         values.get("bearings", f"{part}_width_mm"),
         values.get("bearings", f"{part}_groove_mm") or 0,
     )
@@ -56,25 +58,25 @@ def _widths(
     count = max(len(diameters), len(lengths))
     for k in range(count):
         d, length = diameters[min(k, len(diameters) - 1)], lengths[min(k, len(lengths) - 1)]
-        land = (given or length / rods) - groove
+        land = (stated or length / rods) - groove
         share = land / (2 if groove else 1) / d
         hole = values.get("bearings", "hole_mm") or 0
         if (land <= hole and not groove) or not LEAST_WIDTH <= share <= MOST_WIDTH:
-            what = (
+            problem = (
                 f"ширина {_WORDS[part]} подшипника к диаметру B/d = {number_text(round(share, 3))}:"
                 " формулы масляной плёнки для неё не проверены"
             )
-            path = ("bearings", f"{part}_{'width' if given is not None else 'groove'}_mm")
-            if given is None and not groove:
+            path = ("bearings", f"{part}_{'width' if stated is not None else 'groove'}_mm")
+            if stated is None and not groove:
                 path = ("crankshaft", f"{part}_diameter_mm")
             hint = f"нужно {span_text(LEAST_WIDTH, MOST_WIDTH)} и шире масляного отверстия"
-            yield Finding(path, what, hint)
+            yield Finding(path, problem, hint)
             return
 
 
 def _rods(values: ValidValues) -> int:
-    places = arrangement_given(values)
-    return rods_beside(places, 0) if places else 1
+    placement = arrangement_given(values)
+    return rods_beside(placement, 0) if placement else 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,9 +263,9 @@ def _told(pair: Pair, values: ValidValues) -> Iterator[Finding]:
                 continue
             said = {"less": number_text(less[1]), "more": number_text(more[1])}
             ratio = number_text(round(less[1] / more[1], 6)) if more[1] else "∞"
-            what = pair.what.format(ratio=ratio, **said)
+            problem = pair.what.format(ratio=ratio, **said)
             path = (less if blamed == "less" else more)[0]
-            yield Finding(path, what, pair.hint.format(**said), warning=pair.warning)
+            yield Finding(path, problem, pair.hint.format(**said), warning=pair.warning)
             return
 
 

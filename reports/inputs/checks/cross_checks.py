@@ -29,25 +29,27 @@ Check = Callable[[ValidValues], Iterator[Finding]]
 
 def check_cycle(values: ValidValues) -> Iterator[Finding]:
     """Yield missing and superfluous keys of [cycle], [gas], [geometry], [regime]."""
-    source, given = values.get("gas", "source"), "cycle" in values.sections
-    if source == "cycle" and not given and "cycle" not in values.unsure:
+    source, has_cycle = values.get("gas", "source"), "cycle" in values.sections
+    if source == "cycle" and not has_cycle and "cycle" not in values.unsure:
         hint = "добавьте раздел [cycle] или выберите другой gas.source"
         yield Finding(("cycle",), "нет раздела, а gas.source = cycle", hint)
-    if not given:
+    if not has_cycle:
         return
     if source is not None and source != "cycle":
-        what = f"задан расчёт цикла, а gas.source = {source}"
-        yield Finding(("gas", "source"), what, "запишите source = cycle или уберите [cycle]")
+        problem = f"задан расчёт цикла, а gas.source = {source}"
+        yield Finding(("gas", "source"), problem, "запишите source = cycle или уберите [cycle]")
     if values.get("regime", "indicated_power_kw") is not None:
-        what = "индикаторная мощность следует из расчёта цикла"
-        yield Finding(("regime", "indicated_power_kw"), what, "уберите ключ")
+        problem = "индикаторная мощность следует из расчёта цикла"
+        yield Finding(("regime", "indicated_power_kw"), problem, "уберите ключ")
     if values.get("regime", "fullness") not in (None, 1.0):
-        what = "полнота диаграммы при расчёте цикла задаётся в cycle.fullness"
-        yield Finding(("regime", "fullness"), what, "уберите ключ")
+        problem = "полнота диаграммы при расчёте цикла задаётся в cycle.fullness"
+        yield Finding(("regime", "fullness"), problem, "уберите ключ")
     for key in ("crank_offset_mm", "pin_offset_mm"):
         if values.get("geometry", key):
-            what = "расчёт цикла ведётся для центрального механизма"
-            yield Finding(("geometry", key), what, "уберите ключ или задайте давления газов сами")
+            problem = "расчёт цикла ведётся для центрального механизма"
+            yield Finding(
+                ("geometry", key), problem, "уберите ключ или задайте давления газов сами"
+            )
     yield from _engine(values)
     yield from _groups(values)
 
@@ -59,15 +61,15 @@ def _has(values: ValidValues, key: str) -> bool:
 def _together(
     values: ValidValues,
     why: str,
-    wanted: bool,
+    required: bool,
     needed: tuple[str, ...],
     extra: tuple[str, ...] = (),
 ) -> Iterator[Finding]:
     """All of ``needed`` when wanted; none of them, nor of ``extra``, when not."""
     for key in (*needed, *extra):
-        if wanted and key in needed and not _has(values, key):
+        if required and key in needed and not _has(values, key):
             yield Finding(("cycle", key), f"обязательный ключ не задан ({why})", "добавьте его")
-        elif not wanted and _has(values, key):
+        elif not required and _has(values, key):
             yield Finding(("cycle", key), f"лишний ключ: {why}", "уберите его")
 
 
@@ -101,19 +103,19 @@ def _groups(values: ValidValues) -> Iterator[Finding]:
         keys = ("friction_a_mpa", "friction_b_mpa_s_m")
         yield from _together(values, "потери A + B·c_m", True, keys)
         if values.get("regime", "mechanical_efficiency") not in (None, 1.0):
-            what = "заданы и механический КПД, и потери A + B·c_m"
-            yield Finding(("regime", "mechanical_efficiency"), what, "оставьте одно из двух")
+            problem = "заданы и механический КПД, и потери A + B·c_m"
+            yield Finding(("regime", "mechanical_efficiency"), problem, "оставьте одно из двух")
     if _has(values, "adaptability") and not _has(values, "torque_speed_rpm"):
-        what = "обязательный ключ не задан (задан K = adaptability)"
-        yield Finding(("cycle", "torque_speed_rpm"), what, "добавьте частоту n_M")
+        problem = "обязательный ключ не задан (задан K = adaptability)"
+        yield Finding(("cycle", "torque_speed_rpm"), problem, "добавьте частоту n_M")
 
 
 def check_reference(values: ValidValues) -> Iterator[Finding]:
     """Yield errors in the list of λ."""
     count = values.counts.get(("reference", "lambdas"))
     if count is not None and not 1 <= count <= MOST_LAMBDAS:
-        what = f"значений {count}, а нужно от 1 до {MOST_LAMBDAS}"
-        yield Finding(("reference", "lambdas"), what, "исправьте список")
+        problem = f"значений {count}, а нужно от 1 до {MOST_LAMBDAS}"
+        yield Finding(("reference", "lambdas"), problem, "исправьте список")
 
 
 def _geometry(values: ValidValues) -> Iterator[Finding]:
@@ -126,20 +128,20 @@ def _geometry(values: ValidValues) -> Iterator[Finding]:
         return
     radius, stroke, rod, lam = (values.get("geometry", key) for key in keys)
     if radius is not None and stroke is not None and abs(stroke - 2 * radius) > 1e-9 * stroke:
-        what = f"ход {number_text(stroke)} мм не равен 2r = {number_text(2 * radius)} мм"
-        yield Finding(("geometry", "stroke_mm"), what, "оставьте один из двух ключей")
+        problem = f"ход {number_text(stroke)} мм не равен 2r = {number_text(2 * radius)} мм"
+        yield Finding(("geometry", "stroke_mm"), problem, "оставьте один из двух ключей")
         return
     pair = radius_and_rod(values)
     if pair is None:
-        what = "размеров недостаточно: нужны любые два из crank_radius_mm (или stroke_mm), "
-        yield Finding(("geometry",), what + "rod_length_mm, lambda", "добавьте недостающий ключ")
+        problem = "размеров недостаточно: нужны любые два из crank_radius_mm (или stroke_mm), "
+        yield Finding(("geometry",), problem + "rod_length_mm, lambda", "добавьте недостающий ключ")
         return
     r, rod_length = pair
     ratio = r / rod_length
-    given = radius if radius is not None else None if stroke is None else stroke / 2
-    if None not in (given, rod, lam) and abs(ratio - lam) > LENGTH_TOLERANCE * lam:
-        what = f"λ = {number_text(lam)} не согласуется с r/L = {number_text(round(ratio, 6))}"
-        yield Finding(("geometry", "lambda"), what, "оставьте любые два из r, L, λ")
+    stated_radius = radius if radius is not None else None if stroke is None else stroke / 2
+    if None not in (stated_radius, rod, lam) and abs(ratio - lam) > LENGTH_TOLERANCE * lam:
+        problem = f"λ = {number_text(lam)} не согласуется с r/L = {number_text(round(ratio, 6))}"
+        yield Finding(("geometry", "lambda"), problem, "оставьте любые два из r, L, λ")
         return
     yield from _ratio(ratio, ("geometry", "lambda" if lam is not None else "rod_length_mm"))
 
@@ -149,11 +151,11 @@ def _ratio(ratio: float, path: Path) -> Iterator[Finding]:
     if ratio >= 1:
         return
     if not LAMBDA_MIN <= ratio <= LAMBDA_MAX:
-        what = f"λ = r/L = {text} вне допустимых пределов"
-        yield Finding(path, what, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
+        problem = f"λ = r/L = {text} вне допустимых пределов"
+        yield Finding(path, problem, f"допустимо λ {span_text(LAMBDA_MIN, LAMBDA_MAX)}")
     elif not is_within(ratio, LAMBDA.span):
-        what = f"λ = {text} необычно"
-        yield Finding(path, what, LAMBDA.usual, warning=True)
+        problem = f"λ = {text} необычно"
+        yield Finding(path, problem, LAMBDA.usual, warning=True)
 
 
 def _arms(values: ValidValues) -> Iterator[Finding]:
@@ -163,9 +165,9 @@ def _arms(values: ValidValues) -> Iterator[Finding]:
         right = arms.l5_mm + arms.l6_mm + arms.right_web_mm
         if left <= 0 or right <= 0:
             whole = number_text(sum(lengths))
-            what = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {whole})"
+            problem = f"длина колена с одной стороны шатуна равна нулю (сумма плеч {whole})"
             hint = "задайте l1, l2 и l5, l6 больше нуля"
-            yield Finding(("crankshaft", "arms", index), what, hint)
+            yield Finding(("crankshaft", "arms", index), problem, hint)
 
 
 CHECKS: tuple[Check, ...] = (

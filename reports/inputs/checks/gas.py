@@ -55,8 +55,8 @@ def check_rounded(values: ValidValues) -> Iterator[Finding]:
     """Yield points of figure 22 that cannot be joined."""
     strokes = values.get("engine", "strokes")
     if strokes is not None and int(strokes) != 4:
-        what = "скруглённая диаграмма построена только для четырёхтактного двигателя"
-        yield Finding(("gas", "source"), what, "задайте точки или политропы")
+        problem = "скруглённая диаграмма построена только для четырёхтактного двигателя"
+        yield Finding(("gas", "source"), problem, "задайте точки или политропы")
         return
     kind = values.get("gas", "kind")
     if kind is None:
@@ -70,21 +70,21 @@ def check_rounded(values: ValidValues) -> Iterator[Finding]:
 def _angles(values: ValidValues, kind: str) -> Iterator[Finding]:
     start = _start(values)
     if start is not None and not 181 < start < FIRING_TDC_DEG:
-        what = f"сгорание начинается при {number_text(start)}°"
+        problem = f"сгорание начинается при {number_text(start)}°"
         hint = "точка c' должна лежать до ВМТ: уменьшите задержку воспламенения"
-        yield Finding(("gas", "ignition_delay_deg"), what, hint)
+        yield Finding(("gas", "ignition_delay_deg"), problem, hint)
     peak, join = (
         _place(values, "peak_after_tdc_deg", PEAK_DEG[kind]),
         _place(values, "expansion_after_tdc_deg", JOIN_DEG[kind]),
     )
     if join <= peak:
-        what = f"выход на линию расширения при {number_text(join)}° не позже точки z_д"
+        problem = f"выход на линию расширения при {number_text(join)}° не позже точки z_д"
         hint = f"задайте больше {number_text(peak)}°"
-        yield Finding(("gas", "expansion_after_tdc_deg"), what, hint)
+        yield Finding(("gas", "expansion_after_tdc_deg"), problem, hint)
     before = values.get("gas", "exhaust_start_before_bdc_deg")
     if before is not None and BDC_DEG - before <= FIRING_TDC_DEG + join:
-        what = "выпуск начинается раньше линии расширения"
-        yield Finding(("gas", "exhaust_start_before_bdc_deg"), what, "уменьшите угол")
+        problem = "выпуск начинается раньше линии расширения"
+        yield Finding(("gas", "exhaust_start_before_bdc_deg"), problem, "уменьшите угол")
 
 
 def _rounded_pressures(values: ValidValues, kind: str) -> Iterator[Finding]:
@@ -122,10 +122,10 @@ def _rounded_pressures(values: ValidValues, kind: str) -> Iterator[Finding]:
         ("p_r не ниже давления в b''", ("gas", "residual_pressure_mpa"), p_r, bottom,
          "уменьшите p_r"),
     )  # fmt: skip
-    for what, path, low, high, hint in chain:
+    for words, path, low, high, hint in chain:
         if not low < high:
             numbers = f" ({MPA.text(round(low, 3))} и {MPA.text(round(high, 3))})"
-            yield Finding(path, what + numbers, hint)
+            yield Finding(path, words + numbers, hint)
             return
 
 
@@ -174,18 +174,18 @@ def _timing(values: ValidValues) -> Iterator[Finding]:
     if ignition is not None and advance is not None:
         path, start = ignition
         if start > FIRING_TDC_DEG:
-            what = f"сгорание начинается при {number_text(start)}°, после ВМТ"
-            yield Finding(path, what, "допустимо не позже 360°: уменьшите задержку")
+            problem = f"сгорание начинается при {number_text(start)}°, после ВМТ"
+            yield Finding(path, problem, "допустимо не позже 360°: уменьшите задержку")
         elif start < FIRING_TDC_DEG - advance:
-            what = f"сгорание начинается при {number_text(start)}°, раньше впрыска"
+            problem = f"сгорание начинается при {number_text(start)}°, раньше впрыска"
             hint = f"допустимо от {number_text(FIRING_TDC_DEG - advance)} до 360°"
-            yield Finding(path, what, hint)
+            yield Finding(path, problem, hint)
     before = values.get("gas", "exhaust_start_before_bdc_deg")
     after = values.get("gas", "exhaust_end_after_bdc_deg")
     if before is not None and after is not None and before + after <= 0:
-        what = "начало и конец выпуска совпадают"
+        problem = "начало и конец выпуска совпадают"
         hint = "сумма углов до и после НМТ должна быть больше 0"
-        yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, hint)
+        yield Finding(("gas", "exhaust_end_after_bdc_deg"), problem, hint)
 
 
 def _pressures(values: ValidValues) -> Iterator[Finding]:
@@ -208,14 +208,14 @@ def _pressures(values: ValidValues) -> Iterator[Finding]:
     pure = intake * begin**exponent
     path = ("gas", "max_pressure_mpa")
     if highest < end:
-        what = (
+        problem = (
             f"p_z = {MPA.text(highest)} ниже давления конца сжатия {MPA.text(round(end, 3))} "
             f"(при {number_text(start)}°)"
         )
-        yield Finding(path, what, "увеличьте p_z или уменьшите p_a, ε, n_1")
+        yield Finding(path, problem, "увеличьте p_z или уменьшите p_a, ε, n_1")
     elif highest < pure:
-        what = f"p_z = {MPA.text(highest)} ниже давления чистого сжатия в ВМТ"
-        yield Finding(path, what, f"оно равно {MPA.text(round(pure, 3))}", warning=True)
+        problem = f"p_z = {MPA.text(highest)} ниже давления чистого сжатия в ВМТ"
+        yield Finding(path, problem, f"оно равно {MPA.text(round(pure, 3))}", warning=True)
 
 
 def _odd_pressures(values: ValidValues) -> Iterator[Finding]:
@@ -226,9 +226,9 @@ def _odd_pressures(values: ValidValues) -> Iterator[Finding]:
         return
     highest = 1.5 * max(intake, ambient)
     if not ambient <= residual <= highest:
-        what = f"давление остаточных газов {MPA.text(residual)} необычно"
+        problem = f"давление остаточных газов {MPA.text(residual)} необычно"
         hint = f"обычно от {number_text(ambient)} до {MPA.text(round(highest, 4))}"
-        yield Finding(("gas", "residual_pressure_mpa"), what, hint, warning=True)
+        yield Finding(("gas", "residual_pressure_mpa"), problem, hint, warning=True)
 
 
 def _table(values: ValidValues) -> Iterator[Finding]:
@@ -242,49 +242,51 @@ def _table(values: ValidValues) -> Iterator[Finding]:
     for index in range(1, len(points)):
         before, here = points[index - 1][0], points[index][0]
         if here <= before:
-            what = f"угол {number_text(here)}° не больше предыдущего {number_text(before)}°"
-            yield Finding((*path, index), what, "углы должны строго возрастать")
+            problem = f"угол {number_text(here)}° не больше предыдущего {number_text(before)}°"
+            yield Finding((*path, index), problem, "углы должны строго возрастать")
     first, last = points[0], points[-1]
     cycle = 180 * (values.get("engine", "strokes") or 4)
     if first[0] != 0 or last[0] != cycle:
-        what = (
+        problem = (
             f"точки не покрывают цикл: от {number_text(first[0])} до {number_text(last[0])}°, "
             f"а нужно от 0 до {cycle}°"
         )
-        yield Finding(path, what, "добавьте крайние точки")
+        yield Finding(path, problem, "добавьте крайние точки")
     elif abs(first[1] - last[1]) > PRESSURE_TOLERANCE_MPA:
-        what = f"давление при {cycle}° {MPA.text(last[1])} не равно давлению при 0° "
-        yield Finding((*path, len(points) - 1), what + MPA.text(first[1]), "цикл должен замыкаться")
+        problem = f"давление при {cycle}° {MPA.text(last[1])} не равно давлению при 0° "
+        yield Finding(
+            (*path, len(points) - 1), problem + MPA.text(first[1]), "цикл должен замыкаться"
+        )
 
 
 def _central_only(values: ValidValues) -> Iterator[Finding]:
     keys = ("crank_offset_mm", "pin_offset_mm")
     others = [key for key in keys if values.get("geometry", key) is not None]
     if others or "articulated" in values.sections:
-        what = "скруглённая диаграмма построена только для центрального механизма"
-        yield Finding(("gas", "source"), what, "задайте точки или политропы")
+        problem = "скруглённая диаграмма построена только для центрального механизма"
+        yield Finding(("gas", "source"), problem, "задайте точки или политропы")
 
 
 def _two_stroke(values: ValidValues) -> Iterator[Finding]:
     strokes = values.get("engine", "strokes")
     if strokes == 2 and values.get("gas", "source") == "cycle":
-        what = "рабочий цикл рассчитывается только для четырёхтактного двигателя"
-        yield Finding(("gas", "source"), what, 'задайте source = "polytropic" или "table"')
+        problem = "рабочий цикл рассчитывается только для четырёхтактного двигателя"
+        yield Finding(("gas", "source"), problem, 'задайте source = "polytropic" или "table"')
     if values.get("gas", "source") != "polytropic" or strokes is None:
         return
     path = ("gas", "scavenge_start_before_bdc_deg")
     scavenge = values.get(*path)
     if strokes == 4:
         if scavenge is not None:
-            what = "продувка есть только у двухтактного двигателя"
-            yield Finding(path, what, "удалите ключ или задайте strokes = 2")
+            problem = "продувка есть только у двухтактного двигателя"
+            yield Finding(path, problem, "удалите ключ или задайте strokes = 2")
         return
     closes = values.get("gas", "exhaust_end_after_bdc_deg")
     if scavenge is None and values.sure("gas", path[1]):
         yield Finding(path, "начало продувки не задано", "двухтактному двигателю оно нужно")
     if closes is not None and closes + (scavenge or 0.0) <= 0:
-        what = "продувка и выпуск кончаются там же, где начинаются"
-        yield Finding(("gas", "exhaust_end_after_bdc_deg"), what, "увеличьте угол")
+        problem = "продувка и выпуск кончаются там же, где начинаются"
+        yield Finding(("gas", "exhaust_end_after_bdc_deg"), problem, "увеличьте угол")
 
 
 @dataclass(frozen=True, slots=True)
@@ -354,21 +356,21 @@ def _causes(figures: DiagramFigures, path: Path) -> Iterator[Finding]:
     if n_1 is not None and not is_within(n_1, (usual.low, usual.high)):
         yield _odd_compression(n_1, n_2, figures, path)
     if n_2 is not None and not is_within(n_2, bands.TRACE_EXPANSION.span):
-        what = f"показатель расширения по точкам {_short(n_2)} необычен"
+        problem = f"показатель расширения по точкам {_short(n_2)} необычен"
         hint = f"{_usual(bands.TRACE_EXPANSION)}; проверьте ВМТ, единицу и степень сжатия"
-        yield Finding(path, what, hint, warning=True)
+        yield Finding(path, problem, hint, warning=True)
     intake = bands.band_of("gas.intake_pressure_mpa")
     if figures.intake is not None and not is_within(figures.intake, intake.span):
-        what = f"на впуске в среднем {MPA.text(_rounded(figures.intake))}, это необычно"
+        problem = f"на впуске в среднем {MPA.text(_rounded(figures.intake))}, это необычно"
         hint = f"{_usual(intake)} МПа; нужно абсолютное давление"
-        yield Finding(path, what, hint, warning=True)
+        yield Finding(path, problem, hint, warning=True)
 
 
 def _turned(figures: DiagramFigures, path: Path) -> Iterator[Finding]:
     """Peak far from the TDC of combustion, or negative work."""
     if abs(figures.peak_deg) <= FARTHEST_PEAK_DEG and figures.work > 0:
         return
-    what = (
+    problem = (
         f"наибольшее давление стоит при {number_text(figures.peak_at)}°, "
         f"работа цикла p_i = {MPA.text(_rounded(figures.work))}"
     )
@@ -378,7 +380,7 @@ def _turned(figures: DiagramFigures, path: Path) -> Iterator[Finding]:
         hint = "похоже, за ВМТ сгорания принята ВМТ газообмена: сдвиньте углы на 360°"
     elif turn:
         hint = f"похоже, ВМТ сдвинута примерно на {abs(turn)}°"
-    yield Finding(path, what, f"{hint} (firing_tdc_deg у файла)", warning=True)
+    yield Finding(path, problem, f"{hint} (firing_tdc_deg у файла)", warning=True)
 
 
 def _odd_compression(n_1: float, n_2: float | None, figures: DiagramFigures, path: Path) -> Finding:
@@ -394,8 +396,8 @@ def _odd_compression(n_1: float, n_2: float | None, figures: DiagramFigures, pat
         cause, mend = f"ВМТ принята {late} действительной", "проверьте firing_tdc_deg"
     elif not high:
         cause, mend = "нуль давления завышен или ВМТ сдвинута", "проверьте их и степень сжатия"
-    what = f"похоже, что {cause}: показатель сжатия {_short(n_1)}{level}"
-    return Finding(path, what, f"{_usual(bands.TRACE_COMPRESSION)}; {mend}", warning=True)
+    problem = f"похоже, что {cause}: показатель сжатия {_short(n_1)}{level}"
+    return Finding(path, problem, f"{_usual(bands.TRACE_COMPRESSION)}; {mend}", warning=True)
 
 
 def _usual(band: bands.Band) -> str:

@@ -59,25 +59,27 @@ def _banks(values: ValidValues) -> Iterator[Finding]:
     if layout is None:
         return
     if layout != "inline" and cylinders is not None and cylinders % 2:
-        what = f"число цилиндров {cylinders} нечётное, а рядов два"
-        yield Finding(("engine", "cylinders"), what, 'задайте чётное число или layout = "inline"')
+        problem = f"число цилиндров {cylinders} нечётное, а рядов два"
+        yield Finding(
+            ("engine", "cylinders"), problem, 'задайте чётное число или layout = "inline"'
+        )
     if layout == "v" and bank is None and values.sure("crankshaft", "bank_angle_deg"):
-        what = "угол развала не задан"
-        yield Finding(("crankshaft", "bank_angle_deg"), what, "V-образному двигателю он нужен")
+        problem = "угол развала не задан"
+        yield Finding(("crankshaft", "bank_angle_deg"), problem, "V-образному двигателю он нужен")
     if layout == "inline":
         for key, value in (("bank_angle_deg", bank), ("split_pin_deg", split)):
             if value is not None:
-                what = "у рядного двигателя один ряд цилиндров"
-                yield Finding(("crankshaft", key), what, 'удалите ключ или задайте layout = "v"')
+                problem = "у рядного двигателя один ряд цилиндров"
+                yield Finding(("crankshaft", key), problem, 'удалите ключ или задайте layout = "v"')
     if layout == "opposed":
         if bank is not None and bank != OPPOSED_BANK_DEG:
-            what = f"угол развала {number_text(bank)}°, а у оппозитного двигателя он 180°"
+            problem = f"угол развала {number_text(bank)}°, а у оппозитного двигателя он 180°"
             hint = 'удалите ключ или задайте layout = "v"'
-            yield Finding(("crankshaft", "bank_angle_deg"), what, hint)
+            yield Finding(("crankshaft", "bank_angle_deg"), problem, hint)
         if split is not None:
-            what = "у оппозитного двигателя на каждой шейке один шатун"
+            problem = "у оппозитного двигателя на каждой шейке один шатун"
             yield Finding(
-                ("crankshaft", "split_pin_deg"), what, 'удалите ключ: он для layout = "v"'
+                ("crankshaft", "split_pin_deg"), problem, 'удалите ключ: он для layout = "v"'
             )
 
 
@@ -86,7 +88,7 @@ def _counts(values: ValidValues) -> Iterator[Finding]:
     if cylinders is None or (layout != "inline" and cylinders % 2):
         return
     throws = cylinders // 2 if layout == "v" else cylinders
-    wanted = {
+    required = {
         "firing_offsets_deg": (cylinders, "по одному на цилиндр"),
         "throw_angles_deg": (throws, "по одному на колено"),
         "pin_diameters_mm": (throws, "по одному на колено"),
@@ -97,13 +99,13 @@ def _counts(values: ValidValues) -> Iterator[Finding]:
         "webs": (2 * throws, "по две щеки на колено"),
         "arms": (throws, "по одной записи на колено"),
     }
-    for key, (count, rule) in wanted.items():
+    for key, (count, rule) in required.items():
         written = values.counts.get(("crankshaft", key))
         if written is not None and written != count:
-            what = f"записей {written}, а нужно {count}"
+            problem = f"записей {written}, а нужно {count}"
             knees = f", колен {throws}" if throws != cylinders else ""
             hint = f"{rule}, цилиндров {cylinders}{knees}"
-            yield Finding(("crankshaft", key), what, hint)
+            yield Finding(("crankshaft", key), problem, hint)
 
 
 def _sizes(values: ValidValues) -> Iterator[Finding]:
@@ -112,14 +114,14 @@ def _sizes(values: ValidValues) -> Iterator[Finding]:
         one = each.replace("s_mm", "_mm")
         if not values.sure("crankshaft", one, each):
             continue
-        given = [key for key in (one, each) if values.get("crankshaft", key) is not None]
-        if len(given) == 2:
-            what = f"размер задан дважды: {one} и {each}"
-            yield Finding(("crankshaft", each), what, "оставьте один ключ")
-        elif not given:
-            what = "обязательный ключ не задан"
+        stated = [key for key in (one, each) if values.get("crankshaft", key) is not None]
+        if len(stated) == 2:
+            problem = f"размер задан дважды: {one} и {each}"
+            yield Finding(("crankshaft", each), problem, "оставьте один ключ")
+        elif not stated:
+            problem = "обязательный ключ не задан"
             hint = f"один размер для всех шеек, или список {each}, если они разные"
-            yield Finding(("crankshaft", one), what, hint)
+            yield Finding(("crankshaft", one), problem, hint)
 
 
 def _phases(values: ValidValues) -> Iterator[Finding]:
@@ -127,72 +129,76 @@ def _phases(values: ValidValues) -> Iterator[Finding]:
     angles = values.get("crankshaft", "throw_angles_deg")
     for key, listed in (("firing_offsets_deg", offsets), ("throw_angles_deg", angles)):
         if listed and listed[0] != 0:
-            what = f"первое значение {number_text(listed[0])}°, а нужно 0"
-            yield Finding(("crankshaft", key, 0), what, "углы отсчитываются от первого цилиндра")
+            problem = f"первое значение {number_text(listed[0])}°, а нужно 0"
+            yield Finding(("crankshaft", key, 0), problem, "углы отсчитываются от первого цилиндра")
     if values.get("crankshaft", "force_offsets_deg") is not None:
         yield from _forced(values)
     strokes = values.get("engine", "strokes")
     for index, offset in enumerate(offsets or ()):
         if strokes == 2 and offset >= 360:
-            what = f"начало рабочего хода {number_text(offset)}° вне цикла двухтактного двигателя"
-            yield Finding(("crankshaft", "firing_offsets_deg", index), what, "допустимо до 360°")
+            problem = (
+                f"начало рабочего хода {number_text(offset)}° вне цикла двухтактного двигателя"
+            )
+            yield Finding(("crankshaft", "firing_offsets_deg", index), problem, "допустимо до 360°")
         first = offsets.index(offset) if strokes == 4 else index
         if first < index:
-            what = f"начало рабочего хода то же, что у цилиндра {first + 1}: {number_text(offset)}°"
+            problem = (
+                f"начало рабочего хода то же, что у цилиндра {first + 1}: {number_text(offset)}°"
+            )
             hint = "проверьте порядок работы: обычно цилиндры работают по очереди"
-            yield Finding(("crankshaft", "firing_offsets_deg", index), what, hint, warning=True)
-    places = arrangement_given(values)
-    if not offsets or not angles or places is None or len(offsets) != len(places):
+            yield Finding(("crankshaft", "firing_offsets_deg", index), problem, hint, warning=True)
+    placement = arrangement_given(values)
+    if not offsets or not angles or placement is None or len(offsets) != len(placement):
         return
-    if len(angles) != 1 + max(cylinder.throw for cylinder in places):
+    if len(angles) != 1 + max(cylinder.throw for cylinder in placement):
         return
-    for index, (cylinder, offset) in enumerate(zip(places, offsets, strict=True)):
-        finding = _phase(places, index, float(offset), float(angles[cylinder.throw]))
+    for index, (cylinder, offset) in enumerate(zip(placement, offsets, strict=True)):
+        finding = _phase(placement, index, float(offset), float(angles[cylinder.throw]))
         if finding is not None:
             yield finding
             if cylinder.axis or cylinder.pin_angle:
                 return  # a wrong bank angle is one mistake for the whole bank
 
 
-def _phase(places: Arrangement, index: int, offset: float, angle: float) -> Finding | None:
+def _phase(placement: Arrangement, index: int, offset: float, angle: float) -> Finding | None:
     """Finding where a throw contradicts its cylinder's firing offset."""
-    fitting = math.degrees(throw_angle(places[index], math.radians(offset)))
+    fitting = math.degrees(throw_angle(placement[index], math.radians(offset)))
     if index == 0 or abs(math.remainder(angle - fitting, 360.0)) <= ANGLE_TOLERANCE_DEG:
         return None
-    what = (
+    problem = (
         f"угол колена {number_text(angle)}° не соответствует началу рабочего хода "
         f"{number_text(offset)}° (firing_offsets_deg[{index + 1}])"
     )
     rule = "γ = −θ"
-    axis, pin = math.degrees(places[index].axis), math.degrees(places[index].pin_angle)
+    axis, pin = math.degrees(placement[index].axis), math.degrees(placement[index].pin_angle)
     if axis or pin:
         rule = f"γ = {number_text(round(axis, 6))}° − θ"
         rule += f" − δ, δ = {number_text(round(pin, 6))}°," if pin else ""
     hint = f"по {rule} (mod 360) нужно {fitting_angle(fitting)}°"
-    return Finding(("crankshaft", "throw_angles_deg", places[index].throw), what, hint)
+    return Finding(("crankshaft", "throw_angles_deg", placement[index].throw), problem, hint)
 
 
 def _forced(values: ValidValues) -> Iterator[Finding]:
     path = ("crankshaft", "force_offsets_deg")
     if values.get("engine", "layout") not in ("inline", None):
-        what = "особые фазы сил возможны только у рядного двигателя"
-        yield Finding(path, what, "удалите ключ")
+        problem = "особые фазы сил возможны только у рядного двигателя"
+        yield Finding(path, problem, "удалите ключ")
         return
-    what = "фазы сил заданы отдельно и могут противоречить валу"
+    problem = "фазы сил заданы отдельно и могут противоречить валу"
     hint = "ключ нужен только для воспроизведения таблицы П4.3"
-    yield Finding(path, what, hint, warning=True)
+    yield Finding(path, problem, hint, warning=True)
 
 
 def offset_of(values: ValidValues) -> tuple[str, float] | None:
     """Return the key to name and the whole offset e [mm], if one is given."""
-    given = {
+    stated = {
         key: values.get("geometry", key)
         for key in ("crank_offset_mm", "pin_offset_mm")
         if values.get("geometry", key) is not None
     }
-    if not given:
+    if not stated:
         return None
-    return next(iter(given)), float(sum(given.values()))
+    return next(iter(stated)), float(sum(stated.values()))
 
 
 def _offset(values: ValidValues) -> Iterator[Finding]:
@@ -203,44 +209,46 @@ def _offset(values: ValidValues) -> Iterator[Finding]:
     radius, rod = pair
     path = ("geometry", key)
     if radius < rod <= radius + abs(offset):
-        what = (
+        problem = (
             f"смещение {number_text(offset)} мм не меньше L − r = "
             f"{number_text(round(rod - radius, 6))} мм: механизм не провернётся"
         )
-        yield Finding(path, what, "уменьшите смещение или удлините шатун")
+        yield Finding(path, problem, "уменьшите смещение или удлините шатун")
         return
     if offset and values.get("geometry", "stroke_mm") is not None:
         way = math.sqrt((rod + radius) ** 2 - offset**2) - math.sqrt(
             (rod - radius) ** 2 - offset**2
         )
-        what = (
+        problem = (
             f"при смещении stroke_mm понимается как 2r, действительный ход поршня "
             f"{number_text(round(way, 3))} мм"
         )
         hint = "задайте радиус кривошипа crank_radius_mm"
-        yield Finding(("geometry", "stroke_mm"), what, hint, warning=True)
+        yield Finding(("geometry", "stroke_mm"), problem, hint, warning=True)
     if abs(offset) > _MOST_OFFSET * radius:
-        what = f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
-        yield Finding(path, what, OFFSET.usual, warning=True)
+        problem = (
+            f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
+        )
+        yield Finding(path, problem, OFFSET.usual, warning=True)
 
 
 def _articulated(values: ValidValues) -> Iterator[Finding]:
     if "articulated" not in values.sections:
         return
     if values.get("engine", "layout") not in ("v", None):
-        what = "прицепные шатуны бывают только у V-образного двигателя"
-        yield Finding(("articulated",), what, 'удалите раздел или задайте layout = "v"')
+        problem = "прицепные шатуны бывают только у V-образного двигателя"
+        yield Finding(("articulated",), problem, 'удалите раздел или задайте layout = "v"')
         return
     if values.get("crankshaft", "split_pin_deg") is not None:
-        what = "прицепной шатун висит на главном, а не на шейке"
+        problem = "прицепной шатун висит на главном, а не на шейке"
         yield Finding(
-            ("crankshaft", "split_pin_deg"), what, "удалите ключ или раздел [articulated]"
+            ("crankshaft", "split_pin_deg"), problem, "удалите ключ или раздел [articulated]"
         )
     pair, bank = radius_and_rod(values), values.get("crankshaft", "bank_angle_deg")
-    own = [values.get("articulated", key) for key in ("rod_length_mm", "radius_mm", "angle_deg")]
-    if pair is None or bank is None or None in own or pair[0] >= pair[1]:
+    sizes = [values.get("articulated", key) for key in ("rod_length_mm", "radius_mm", "angle_deg")]
+    if pair is None or bank is None or None in sizes or pair[0] >= pair[1]:
         return
-    length, radius, angle = (float(value) for value in own)
+    length, radius, angle = (float(value) for value in sizes)
     keyed = offset_of(values)
     offset = keyed[1] if keyed else 0.0
     if pair[1] <= pair[0] + abs(offset):
@@ -249,12 +257,12 @@ def _articulated(values: ValidValues) -> Iterator[Finding]:
         return
     reach = side_reach(*pair, offset, radius, math.radians(angle), math.radians(bank))
     if reach >= length:
-        what = (
+        problem = (
             f"прицепной шатун {number_text(length)} мм не достаёт до оси своего цилиндра: "
             f"его палец отходит от неё на {number_text(round(reach, 2))} мм"
         )
         hint = "удлините шатун или поставьте палец ближе к углу развала"
-        yield Finding(("articulated", "rod_length_mm"), what, hint)
+        yield Finding(("articulated", "rod_length_mm"), problem, hint)
 
 
 def check_room(model: InputFile, accepted: Keys) -> Iterator[Finding]:
@@ -276,13 +284,13 @@ def _tight(
     """Error for an excessive length, a warning where it may be accepted."""
     tight = [entry for entry in entries if entry[1] > most * entry[2]]
     for (path, length, room), *others in in_lines(tight, accepted or frozenset()):
-        what = (
+        problem = (
             f"{noun} длиной {number_text(round(length, 2))} мм не помещается в колено: "
             f"по плечам {arms} для неё {number_text(round(room, 2))} мм"
         )
         alike = f"; в списке таких ещё {len(others)}" if others else ""
         hint = "проверьте длину шейки и плечи колена"
-        yield Finding(path, what + alike, hint, warning=accepted is not None)
+        yield Finding(path, problem + alike, hint, warning=accepted is not None)
 
 
 def check_one_rod(model: InputFile, accepted: Keys) -> Iterator[Finding]:
@@ -297,13 +305,13 @@ def check_one_rod(model: InputFile, accepted: Keys) -> Iterator[Finding]:
     ]
     for (path, length, room, diameter), *_ in in_lines(short, accepted):
         share = length / rods
-        what = (
+        problem = (
             f"шатунов на шейке рядом {rods}, и каждому достаётся {number_text(round(share, 2))} мм "
             f"её длины ({number_text(round(share / diameter, 2))} d), а плечи l2…l5 оставляют "
             f"шейке {number_text(round(room, 2))} мм"
         )
         hint = "нужна длина всей шейки: если задана под одним шатуном, впишите "
-        yield Finding(path, what, hint + number_text(round(rods * length, 6)), warning=True)
+        yield Finding(path, problem, hint + number_text(round(rods * length, 6)), warning=True)
 
 
 def check_neighbours(model: InputFile, bore_mm: float) -> Iterator[Finding]:
@@ -329,13 +337,13 @@ def check_neighbours(model: InputFile, bore_mm: float) -> Iterator[Finding]:
     ]
     between, number, other = min(beside, default=(math.inf, 0, 0))
     if between < bore_mm:
-        what = (
+        problem = (
             f"цилиндры {number} и {other} перекрываются: между их осями по плечам колен "
             f"{number_text(round(between, 2))} мм, а диаметр цилиндра "
             f"{number_text(round(bore_mm, 2))} мм"
         )
         hint = "проверьте плечи колен и диаметр цилиндра"
-        yield Finding(("crankshaft", "arms"), what, hint, warning=True)
+        yield Finding(("crankshaft", "arms"), problem, hint, warning=True)
 
 
 def _mains(model: InputFile) -> Iterator[Fitted]:
@@ -355,8 +363,8 @@ def _pins(model: InputFile) -> Iterator[tuple[Path, float, float, float]]:
     shaft = model.crankshaft
     for index, arm in enumerate(shaft.arms):
         room = arm.l2_mm + arm.l3_mm + arm.l4_mm + arm.l5_mm
-        own = shaft.pin_diameters_mm
-        diameter = own[index] if own else shaft.pin_diameter_mm or 0.0
+        diameters = shaft.pin_diameters_mm
+        diameter = diameters[index] if diameters else shaft.pin_diameter_mm or 0.0
         if shaft.pin_lengths_mm:
             path: Path = ("crankshaft", "pin_lengths_mm", index)
             yield path, shaft.pin_lengths_mm[index], room, diameter

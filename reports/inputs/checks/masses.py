@@ -28,23 +28,23 @@ def check_masses(values: ValidValues) -> Iterator[Finding]:
     keys = (*DIRECT, *PARTS, *CENTRE, *_REST)
     if not values.sure("masses", *keys):
         return
-    given = {key for key in keys if values.get("masses", key) is not None}
-    wrong = list(_ways(given))
+    stated = {key for key in keys if values.get("masses", key) is not None}
+    wrong = list(_ways(stated))
     yield from wrong
     if wrong:
         return
-    yield from _shaft_masses(values, estimated="estimate_fuel" in given)
-    if "estimate_fuel" in given:
-        yield from _estimated(values, given)
+    yield from _shaft_masses(values, estimated="estimate_fuel" in stated)
+    if "estimate_fuel" in stated:
+        yield from _estimated(values, stated)
     yield from _centre(values)
     yield from _swung(values)
     yield from _inertia(values)
 
 
-def _ways(given: set[str]) -> Iterator[Finding]:
+def _ways(stated: set[str]) -> Iterator[Finding]:
     """Whether the keys belong to one way and are complete."""
     path = ("masses",)
-    rest = given - set(DIRECT)
+    others = stated - set(DIRECT)
     centres = [
         name
         for name, keys in (
@@ -52,26 +52,26 @@ def _ways(given: set[str]) -> Iterator[Finding]:
             ("взвешивание", WEIGHED),
             ("качания", SWUNG),
         )
-        if given & set(keys)
+        if stated & set(keys)
     ]
-    estimate = "estimate_fuel" in given
-    if given & set(DIRECT) and rest - {"estimate_fuel", *ESTIMATE_EXTRA}:
+    estimate = "estimate_fuel" in stated
+    if stated & set(DIRECT) and others - {"estimate_fuel", *ESTIMATE_EXTRA}:
         yield Finding(path, "смешаны два способа задания масс", _ADVICE)
-    elif not estimate and given & set(ESTIMATE_EXTRA):
-        key = sorted(given & set(ESTIMATE_EXTRA))[0]
+    elif not estimate and stated & set(ESTIMATE_EXTRA):
+        key = sorted(stated & set(ESTIMATE_EXTRA))[0]
         yield Finding((*path, key), "ключ нужен только при оценке", "добавьте estimate_fuel")
     elif len(centres) > 1:
         yield Finding(path, f"заданы и {centres[0]}, и {centres[1]}", _ADVICE)
-    elif set(SWUNG) & given and not set(SWUNG) <= given:
-        missing = next(key for key in SWUNG if key not in given)
+    elif set(SWUNG) & stated and not set(SWUNG) <= stated:
+        missing = next(key for key in SWUNG if key not in stated)
         yield Finding((*path, missing), "не хватает данных качаний", "нужны " + ", ".join(SWUNG))
-    elif "swing_edges_mm" in given and "rod_inertia_kg_m2" in given:
+    elif "swing_edges_mm" in stated and "rod_inertia_kg_m2" in stated:
         hint = "оставьте что-нибудь одно"
         yield Finding((*path, "rod_inertia_kg_m2"), "I_ш следует из качаний", hint)
     elif not (
-        set(DIRECT) <= given
-        or (estimate and not given & set(DIRECT))
-        or (set(PARTS) <= given and centres)
+        set(DIRECT) <= stated
+        or (estimate and not stated & set(DIRECT))
+        or (set(PARTS) <= stated and centres)
     ):
         yield Finding(path, "масс недостаточно", _ADVICE + _MORE)
 
@@ -84,13 +84,13 @@ def _webs(values: ValidValues) -> Iterator[Finding]:
     for index, web in enumerate(values.get("crankshaft", "webs") or ()):
         actual = web.actual_mass_kg is not None
         if actual != (web.centre_mm is not None) or (actual and web.mass_kg is not None):
-            what = "нужна либо mass_kg, либо actual_mass_kg с centre_mm"
-            yield Finding(("crankshaft", "webs", index), what, "уберите лишний ключ")
+            problem = "нужна либо mass_kg, либо actual_mass_kg с centre_mm"
+            yield Finding(("crankshaft", "webs", index), problem, "уберите лишний ключ")
             return
         ways.add((actual, web.mass_kg is None))
     if len(ways) > 1:
-        what = "массы щёк заданы разными способами"
-        yield Finding(("crankshaft", "webs"), what, "задайте все щёки одинаково")
+        problem = "массы щёк заданы разными способами"
+        yield Finding(("crankshaft", "webs"), problem, "задайте все щёки одинаково")
 
 
 def _shaft_masses(values: ValidValues, *, estimated: bool) -> Iterator[Finding]:
@@ -101,19 +101,19 @@ def _shaft_masses(values: ValidValues, *, estimated: bool) -> Iterator[Finding]:
     hint = "впишите массу или задайте masses.estimate_fuel для оценки"
     if estimated or not values.sure("crankshaft", "pin_mass_kg", "webs"):
         return
-    what = "масса не задана"
+    problem = "масса не задана"
     if lacks_pin:
-        yield Finding(("crankshaft", "pin_mass_kg"), what, hint)
+        yield Finding(("crankshaft", "pin_mass_kg"), problem, hint)
     if bare:
-        yield Finding(("crankshaft", "webs", bare[0], "mass_kg"), what, hint)
+        yield Finding(("crankshaft", "webs", bare[0], "mass_kg"), problem, hint)
 
 
-def _estimated(values: ValidValues, given: set[str]) -> Iterator[Finding]:
+def _estimated(values: ValidValues, stated: set[str]) -> Iterator[Finding]:
     webs = values.get("crankshaft", "webs") or ()
-    lacking = [] if given & set(DIRECT) else [
+    lacking = [] if stated & set(DIRECT) else [
         name
         for key, name in (("piston_group_kg", "поршневая группа"), ("rod_kg", "шатун"))
-        if key not in given
+        if key not in stated
     ]  # fmt: skip
     if values.get("crankshaft", "pin_mass_kg") is None:
         lacking.append("шатунная шейка")
@@ -123,8 +123,8 @@ def _estimated(values: ValidValues, given: set[str]) -> Iterator[Finding]:
     if not lacking:
         yield Finding(path, "оценивать нечего: все массы заданы", "уберите estimate_fuel")
         return
-    what = f"оценены по таблице 4 учебника: {', '.join(lacking)}"
-    yield Finding(path, what, "замените их массами вашего двигателя", warning=True)
+    problem = f"оценены по таблице 4 учебника: {', '.join(lacking)}"
+    yield Finding(path, problem, "замените их массами вашего двигателя", warning=True)
 
 
 def _centre(values: ValidValues) -> Iterator[Finding]:
@@ -142,9 +142,9 @@ def _centre(values: ValidValues) -> Iterator[Finding]:
             return
         share = 1 - centre / pair[1]
     if share is not None and not is_within(share, SMALL_END.span):
-        what = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
+        problem = f"доля массы шатуна у пальца {number_text(round(share, 4))} необычна"
         hint = SMALL_END.usual
-        yield Finding(("masses", key), what, hint, warning=True)
+        yield Finding(("masses", key), problem, hint, warning=True)
 
 
 def _swung(values: ValidValues) -> Iterator[Finding]:
@@ -163,20 +163,20 @@ def _swung(values: ValidValues) -> Iterator[Finding]:
     centre = arm - radius
     pair = radius_and_rod(values)
     if not 0 < arm < edges or centre <= 0 or (pair is not None and centre >= pair[1]):
-        what = f"по качаниям l1 = {number_text(round(centre, 2))} мм, вне шатуна"
+        problem = f"по качаниям l1 = {number_text(round(centre, 2))} мм, вне шатуна"
         length = "" if pair is None else f"длина шатуна {number_text(pair[1])} мм; "
-        yield Finding(path, what, length + "проверьте n_A, n_C, r_1 и l_3")
+        yield Finding(path, problem, length + "проверьте n_A, n_C, r_1 и l_3")
         return
     if k_a * arm - arm**2 <= 0:
-        what = "по качаниям момент инерции шатуна отрицателен"
-        yield Finding(path, what, "проверьте n_A, n_C, r_1 и l_3")
+        problem = "по качаниям момент инерции шатуна отрицателен"
+        yield Finding(path, problem, "проверьте n_A, n_C, r_1 и l_3")
         return
     if pair is not None and not is_within(1 - centre / pair[1], SMALL_END.span):
         share = number_text(round(1 - centre / pair[1], 4))
-        what = f"доля массы шатуна у пальца {share} необычна"
+        problem = f"доля массы шатуна у пальца {share} необычна"
         yield Finding(
             path,
-            what,
+            problem,
             SMALL_END.usual,
             warning=True,
         )
@@ -184,13 +184,13 @@ def _swung(values: ValidValues) -> Iterator[Finding]:
 
 def _inertia(values: ValidValues) -> Iterator[Finding]:
     """A moment of inertia that two masses on the ends cannot exceed by much."""
-    given, rod = values.get("masses", "rod_inertia_kg_m2"), values.get("masses", "rod_kg")
+    inertia, rod = values.get("masses", "rod_inertia_kg_m2"), values.get("masses", "rod_kg")
     pair = radius_and_rod(values)
-    if None in (given, rod) or pair is None:
+    if None in (inertia, rod) or pair is None:
         return
-    ratio = given / (rod * (pair[1] / 1000) ** 2)
+    ratio = inertia / (rod * (pair[1] / 1000) ** 2)
     if not is_within(ratio, ROD_INERTIA.span):
-        what = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
+        problem = f"I_ш/(m_ш·l²) = {number_text(round(ratio, 4))} необычно"
         path = ("masses", "rod_inertia_kg_m2")
         hint = f"{ROD_INERTIA.usual}: проверьте кг·м²"
-        yield Finding(path, what, hint, warning=True)
+        yield Finding(path, problem, hint, warning=True)

@@ -90,9 +90,9 @@ def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
         "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.piston_area,
         "n": float(model.regime.speed_rpm),
     }  # fmt: skip
-    own = {band.key for band in BANDS if band.kind and band.kind == kind}
+    keys_of_kind = {band.key for band in BANDS if band.kind and band.kind == kind}
     for band in BANDS:
-        if band.kind not in ("", kind) or (not band.kind and band.key in own):
+        if band.kind not in ("", kind) or (not band.kind and band.key in keys_of_kind):
             continue
         for path, value in values_at(model, band.key):
             if not (band.zero and value == 0):
@@ -113,9 +113,9 @@ def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, floa
     elif isinstance(part, BaseModel) and keys:
         field = {"lambda": "lambda_"}.get(keys[0], keys[0])
         value = getattr(part, field, None)
-        about = type(part).model_fields.get(field)
+        spec = type(part).model_fields.get(field)
         # What the house has chosen itself is no slip of a person.
-        if value is not None and about is not None and value != about.default:
+        if value is not None and spec is not None and value != spec.default:
             yield from _values(value, keys[1:], (*path, keys[0]))
     elif isinstance(part, int | float) and not isinstance(part, bool) and not keys:
         yield path, float(part)
@@ -124,19 +124,19 @@ def _values(part: Any, keys: list[str], path: Path) -> Iterator[tuple[Path, floa
 def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
     unit = f" {band.unit}" if band.unit and band.unit != "°" else band.unit
     more = f", в списке таких ещё {others}" if others else ""
-    what = f"{band.words} = {_short(value)}{unit} необычно{more}"
+    problem = f"{band.words} = {_short(value)}{unit} необычно{more}"
     hint = f"обычно от {_short(band.low)} до {_short(band.high)}{unit} ({band.source})"
-    return Finding(path, what, f"{hint}; проверьте единицу и запятую", warning=True)
+    return Finding(path, problem, f"{hint}; проверьте единицу и запятую", warning=True)
 
 
 def _burning(model: InputFile) -> Iterator[Finding]:
     """The compression ratio of a diesel that only its ρ makes one."""
     ratio, rho = _ratio(model), diesel_rho(model)
     if rho and not is_within(ratio, (bands.DIESEL.low, bands.DIESEL.high)):
-        what = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {_short(rho)}"
+        problem = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {_short(rho)}"
         span = f"обычно от {_short(bands.DIESEL.low)} до {_short(bands.DIESEL.high)}"
         hint = f"{span}; если двигатель бензиновый, назовите его так в engine.name"
-        yield Finding(("geometry", "compression_ratio"), what, hint, warning=True)
+        yield Finding(("geometry", "compression_ratio"), problem, hint, warning=True)
 
 
 def _short(value: float) -> str:
@@ -162,14 +162,14 @@ def _stroke_path(model: InputFile) -> Path:
 
 
 def _wrong_bore(model: InputFile, sizes: Sizes, off: int, tested: int) -> Finding:
-    what = (
+    problem = (
         f"D = {_short(sizes.bore)} мм не вяжется с другими данными: S/D = "
         f"{_short(2 * sizes.radius / sizes.bore)}, необычны {off} из {tested} размеров и масс"
     )
     if getattr(model.geometry, "bore_mm", None) is None:
         hint = "диаметр найден по мощности: проверьте её и частоту вращения"
-        return Finding(("cycle", "power_kw"), what, hint, warning=True)
-    return Finding(("geometry", "bore_mm"), what, "проверьте диаметр цилиндра", warning=True)
+        return Finding(("cycle", "power_kw"), problem, hint, warning=True)
+    return Finding(("geometry", "bore_mm"), problem, "проверьте диаметр цилиндра", warning=True)
 
 
 def _speed(model: InputFile, sizes: Sizes) -> Iterator[Finding]:
@@ -228,14 +228,14 @@ def _entries(model: InputFile, keys: tuple[str, ...]) -> list[tuple[Path, float]
 
 # --- pressures and power ---
 def _gas(model: InputFile, gas: GasSection, path: Path) -> Iterator[Finding]:
-    own = (*path, "gas")
+    gas_path = (*path, "gas")
     if isinstance(gas, TableGasSection):
-        yield from _points(gas, own)
+        yield from _points(gas, gas_path)
     elif not isinstance(gas, CycleGasSection):
-        yield from _polytropes(gas, _ratio(model), own)
+        yield from _polytropes(gas, _ratio(model), gas_path)
         if not path:
             work = mean_pressure(gas, _ratio(model))
-            yield from _judged((*own, "max_pressure_mpa"), bands.MEAN_PRESSURE, work)
+            yield from _judged((*gas_path, "max_pressure_mpa"), bands.MEAN_PRESSURE, work)
 
 
 def _ratio(model: InputFile) -> float:
@@ -297,12 +297,12 @@ def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:
     yield from findings
     named = {finding.path for finding in findings}
     for index in range(1, len(pressures) - 1):
-        near = (pressures[index - 1], pressures[index + 1])
+        neighbours = (pressures[index - 1], pressures[index + 1])
         factor = bands.LONE_POINT
         if gas.points[index + 1][0] - gas.points[index - 1][0] > 2 * bands.NEAR_DEG:
             factor = bands.LONE_POINT_FAR
-        lone = not min(near) / factor <= pressures[index] <= max(near) * factor
+        lone = not min(neighbours) / factor <= pressures[index] <= max(neighbours) * factor
         if lone and (*here, index) not in named:
-            what = f"давление {_short(pressures[index])} МПа выпадает из соседних точек"
-            hint = f"рядом {_short(near[0])} и {_short(near[1])} МПа; проверьте запятую"
-            yield Finding((*here, index), what, hint, warning=True)
+            problem = f"давление {_short(pressures[index])} МПа выпадает из соседних точек"
+            hint = f"рядом {_short(neighbours[0])} и {_short(neighbours[1])} МПа; проверьте запятую"
+            yield Finding((*here, index), problem, hint, warning=True)

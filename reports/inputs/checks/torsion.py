@@ -38,8 +38,10 @@ def check_torsion(values: ValidValues) -> Iterator[Finding]:
         yield from _train(masses, throws)
         for key in _EQUIVALENT:
             if values.get("torsion", key) is not None:
-                what = "схема задана массами, этот ключ к ней не относится"
-                yield Finding(("torsion", key), what, "удалите ключ или записи [[torsion.masses]]")
+                problem = "схема задана массами, этот ключ к ней не относится"
+                yield Finding(
+                    ("torsion", key), problem, "удалите ключ или записи [[torsion.masses]]"
+                )
     elif throws is not None:
         yield from _counts(values, throws)
     yield from _peaks(values)
@@ -47,13 +49,13 @@ def check_torsion(values: ValidValues) -> Iterator[Finding]:
 
 def _train(masses: Sequence[MassSection], throws: int | None) -> Iterator[Finding]:
     if not 2 <= len(masses) <= MOST_MASSES:
-        what = f"масс {len(masses)}, а нужно от 2 до {MOST_MASSES}"
-        yield Finding(("torsion", "masses"), what, "исправьте записи [[torsion.masses]]")
+        problem = f"масс {len(masses)}, а нужно от 2 до {MOST_MASSES}"
+        yield Finding(("torsion", "masses"), problem, "исправьте записи [[torsion.masses]]")
     for index, mass in enumerate(masses[:-1]):
         if mass.stiffness_nm_rad == 0:
-            what = "жёсткость участка между массами не задана"
+            problem = "жёсткость участка между массами не задана"
             hint = "0 допустим только за последней массой"
-            yield Finding(("torsion", "masses", index, "stiffness_nm_rad"), what, hint)
+            yield Finding(("torsion", "masses", index, "stiffness_nm_rad"), problem, hint)
     seen: set[float] = set()
     for index, mass in enumerate(masses):
         path = ("torsion", "masses", index, "throw")
@@ -62,33 +64,35 @@ def _train(masses: Sequence[MassSection], throws: int | None) -> Iterator[Findin
             continue
         if number != int(number) or (throws is not None and number > throws):
             upto = f"от 0 до {throws}" if throws is not None else "целое"
-            what = f"нет колена {number_text(number)}"
-            yield Finding(path, what, f"нужно число {upto}")
+            problem = f"нет колена {number_text(number)}"
+            yield Finding(path, problem, f"нужно число {upto}")
         elif number in seen:
             yield Finding(path, f"колено {number_text(number)} названо дважды", "оставьте одно")
         seen.add(number)
 
 
 def _counts(values: ValidValues, throws: int) -> Iterator[Finding]:
-    wanted = {"throws_kg_m2": throws, "throws_nm_rad": throws - 1}
-    for key, count in wanted.items():
+    required = {"throws_kg_m2": throws, "throws_nm_rad": throws - 1}
+    for key, count in required.items():
         written = values.counts.get(("torsion", key))
         if written is not None and written != count:
-            what = f"значений {written}, а нужно {count}"
-            yield Finding(("torsion", key), what, f"колен {throws}")
+            problem = f"значений {written}, а нужно {count}"
+            yield Finding(("torsion", key), problem, f"колен {throws}")
     if values.get("torsion", "driven_nm_rad") is not None and (
         values.get("torsion", "driven_kg_m2") is None
     ):
-        what = "жёсткость за маховиком задана, а массы за ним нет"
-        yield Finding(("torsion", "driven_nm_rad"), what, "задайте driven_kg_m2 или удалите ключ")
+        problem = "жёсткость за маховиком задана, а массы за ним нет"
+        yield Finding(
+            ("torsion", "driven_nm_rad"), problem, "задайте driven_kg_m2 или удалите ключ"
+        )
 
 
 def _peaks(values: ValidValues) -> Iterator[Finding]:
     peaks = values.get("torsion", "peaks") or ()
     for index, (before, after) in enumerate(pairwise(peaks), 1):
         if after.speed_rpm <= before.speed_rpm:
-            what = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
-            yield Finding(("torsion", "peaks", index, "speed_rpm"), what, f"запишите {_RISING}")
+            problem = f"частота {number_text(after.speed_rpm)} мин⁻¹ не больше предыдущей"
+            yield Finding(("torsion", "peaks", index, "speed_rpm"), problem, f"запишите {_RISING}")
 
 
 def train_values(model: InputFile, sizes: Sizes) -> Iterator[tuple[Path, Band, float]]:
@@ -111,8 +115,8 @@ def train_values(model: InputFile, sizes: Sizes) -> Iterator[tuple[Path, Band, f
 
 
 def _inertias(section: TorsionSection) -> Iterator[Entry]:
-    for index, given in enumerate(section.throws_kg_m2 or ()):
-        yield (*_PATH, "throws_kg_m2", index), given
+    for index, inertia in enumerate(section.throws_kg_m2 or ()):
+        yield (*_PATH, "throws_kg_m2", index), inertia
     for index, mass in enumerate(section.masses):
         if mass.throw:
             yield (*_PATH, "masses", index, "inertia_kg_m2"), mass.inertia_kg_m2
@@ -120,8 +124,8 @@ def _inertias(section: TorsionSection) -> Iterator[Entry]:
 
 def _stiffnesses(section: TorsionSection) -> Iterator[Entry]:
     """Stiffnesses of the shaft from throw to throw, and of its own ends [N·m/rad]."""
-    for index, given in enumerate(section.throws_nm_rad or ()):
-        yield (*_PATH, "throws_nm_rad", index), given
+    for index, stiffness in enumerate(section.throws_nm_rad or ()):
+        yield (*_PATH, "throws_nm_rad", index), stiffness
     for key in ("nose_nm_rad", "rear_nm_rad"):
         if (end := getattr(section, key)) is not None:
             yield (*_PATH, key), end
@@ -133,7 +137,7 @@ def _stiffnesses(section: TorsionSection) -> Iterator[Entry]:
 def _shaft_stiffness(model: InputFile, section: TorsionSection, sizes: Sizes) -> float:
     """GI_p/l of a plain shaft of the main journals between two cylinders [N·m/rad]."""
     shaft = model.crankshaft
-    given = shaft.main_diameters_mm or (shaft.main_diameter_mm or 0.0,)
-    mean = sum(given) / len(given) / 1000
+    diameters = shaft.main_diameters_mm or (shaft.main_diameter_mm or 0.0,)
+    mean = sum(diameters) / len(diameters) / 1000
     modulus = MPA.to_si(section.shear_modulus_mpa)
     return modulus * math.pi * mean**4 / 32 / (_SPACING * sizes.bore / 1000)

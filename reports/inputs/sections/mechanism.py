@@ -254,11 +254,11 @@ class BalanceSection(Strictly, usual=(Balancing,)):
 
     @model_validator(mode="before")
     @classmethod
-    def _only_what_is_named(cls, given: object) -> object:
+    def _only_what_is_named(cls, data: object) -> object:
         """Drop the usual shares of the other devices where one is named."""
-        if isinstance(given, dict) and _SHARES & given.keys():
-            return dict.fromkeys(_SHARES, 0.0) | given
-        return given
+        if isinstance(data, dict) and _SHARES & data.keys():
+            return dict.fromkeys(_SHARES, 0.0) | data
+        return data
 
     @property
     def asked(self) -> set[str]:

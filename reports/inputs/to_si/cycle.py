@@ -108,8 +108,8 @@ def _paths() -> dict[str, Path]:
         "speed_ratio": ("cycle", "torque_speed_rpm"),
     }
     for name, model in _SECTIONS.items():
-        for key, about in hints(model).items():
-            for meta in about.metas[:1]:
+        for key, spec in hints(model).items():
+            for meta in spec.metas[:1]:
                 paths.setdefault(solver_name(key, meta), (name, key))
     return paths
 
@@ -138,10 +138,10 @@ def _out_of_range(remark: Remark) -> str:
     meta = _meta(path_of(remark.field))
     low, value, high = (remark.numbers[name] for name in ("low", "value", "high"))
     verb = "увеличьте" if value < low else "уменьшите" if value > high else "задайте число:"
-    shown = [short(meta.unit.from_si(number), 4) for number in (value, low, high)]
+    numbers = [short(meta.unit.from_si(number), 4) for number in (value, low, high)]
     label = f" {meta.unit.label}" if meta.unit.label else ""
     return (
-        f"{meta.symbol} = {shown[0]}{label}: допускается от {shown[1]} до {shown[2]}; "
+        f"{meta.symbol} = {numbers[0]}{label}: допускается от {numbers[1]} до {numbers[2]}; "
         f"{verb} {meta.symbol}{_REASONS[remark.key]}"
     )
 
@@ -160,12 +160,12 @@ def cycle_run(model: InputFile) -> CycleRun | None:
     section = model.cycle
     if section is None or not isinstance(model.gas, CycleGasSection):
         return None
-    wanted = None
+    target = None
     if section.power_kw is not None and section.stroke_bore is not None:
-        wanted = Wanted(**solver_values(section, Wanted))
+        target = Wanted(**solver_values(section, Wanted))
     return run_cycle(
         cycle_inputs(model, section, model.gas),
-        wanted,
+        target,
         speed_law(model, section),
         omega_torque=RPM.given(section.torque_speed_rpm),
         omega_idle=RPM.given(section.idle_speed_rpm),
@@ -242,5 +242,5 @@ def cycle_and_findings(model: InputFile) -> tuple[CycleRun | None, list[Finding]
 
 
 def _finding(remark: Remark) -> Finding:
-    what, _, hint = text_of(remark).partition("; ")
-    return Finding(path_of(remark.field), what, hint)
+    problem, _, hint = text_of(remark).partition("; ")
+    return Finding(path_of(remark.field), problem, hint)

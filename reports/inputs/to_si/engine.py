@@ -146,14 +146,14 @@ def to_engine(model: InputFile) -> Engine:
 
 
 def engine_and_cycle(
-    model: InputFile, kept: KeptParts | None = None
+    model: InputFile, cache: KeptParts | None = None
 ) -> tuple[Engine, CycleRun | None]:
     """Return the engine in SI units and the cycle calculation that its gas comes from.
 
-    ``kept`` parts are those of engines before, of inputs that share sections.
+    ``cache`` parts are those of engines before, of inputs that share sections.
     """
     run = cycle_run(model)
-    return _engine(model, run, kept or _called), run
+    return _engine(model, run, cache or _called), run
 
 
 def smallness_of(model: InputFile) -> int:
@@ -185,28 +185,28 @@ def _called(function: Callable[..., Any], *arguments: object) -> Any:  # noqa: A
     return function(*arguments)
 
 
-def _engine(model: InputFile, run: CycleRun | None, kept: Callable[..., Any] = _called) -> Engine:
-    geometry = kept(_geometry, model.geometry, run)
-    shaft = kept(with_masses, model.crankshaft, model.masses, geometry.bore, geometry.crank_radius)
-    places = kept(places_of, model.engine, model.crankshaft, model.articulated)
+def _engine(model: InputFile, run: CycleRun | None, cache: Callable[..., Any] = _called) -> Engine:
+    geometry = cache(_geometry, model.geometry, run)
+    shaft = cache(with_masses, model.crankshaft, model.masses, geometry.bore, geometry.crank_radius)
+    placement = cache(places_of, model.engine, model.crankshaft, model.articulated)
     values: dict[str, Any] = {}
     for section in (model.engine, model.calculation, model.regime, model.reference):
-        values |= {} if section is None else kept(_numbers, section)
+        values |= {} if section is None else cache(_numbers, section)
     composed = {
         "geometry": geometry,
-        "gas": kept(_gas, model.gas, run, model.engine.strokes),
-        "masses": kept(to_masses, model.masses, geometry),
-        "crankshaft": kept(_crankshaft, shaft),
-        "arrangement": places,
-        "articulated": kept(_articulated, model.articulated, len(hung(places))),
-        "torsion": kept(to_torsion, model.torsion),
-        "bearings": kept(to_bearings, model.bearings),
-        "strength": kept(to_parts, model.strength),
-        "balancing": kept(_balancing, model.balance, model.strength, geometry.bore),
+        "gas": cache(_gas, model.gas, run, model.engine.strokes),
+        "masses": cache(to_masses, model.masses, geometry),
+        "crankshaft": cache(_crankshaft, shaft),
+        "arrangement": placement,
+        "articulated": cache(_articulated, model.articulated, len(hung(placement))),
+        "torsion": cache(to_torsion, model.torsion),
+        "bearings": cache(to_bearings, model.bearings),
+        "strength": cache(to_parts, model.strength),
+        "balancing": cache(_balancing, model.balance, model.strength, geometry.bore),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,
     }
-    return Engine(**values | kept(_numbers, shaft) | composed | _power(run))
+    return Engine(**values | cache(_numbers, shaft) | composed | _power(run))
 
 
 def _numbers(section: BaseModel) -> dict[str, Any]:
@@ -233,21 +233,21 @@ def _articulated(section: ArticulatedSection | None, count: int) -> tuple[Articu
     return (ArticulatedRod(**solver_values(section, ArticulatedRod)),) * count
 
 
-def _geometry(given: GeometrySection | DesignGeometrySection, run: CycleRun | None) -> Geometry:
+def _geometry(section: GeometrySection | DesignGeometrySection, run: CycleRun | None) -> Geometry:
     crank_offset = pin_offset = None
-    if isinstance(given, GeometrySection):
+    if isinstance(section, GeometrySection):
         crank_offset, pin_offset = (
-            None if value is None or not given.is_offset else MM.to_si(value)
-            for value in (given.crank_offset_mm, given.pin_offset_mm)
+            None if value is None or not section.is_offset else MM.to_si(value)
+            for value in (section.crank_offset_mm, section.pin_offset_mm)
         )
-        bore = MM.to_si(given.bore_mm)
-        radius, rod = MM.to_si(crank_radius_mm(given)), MM.to_si(rod_length_mm(given))
+        bore = MM.to_si(section.bore_mm)
+        radius, rod = MM.to_si(crank_radius_mm(section)), MM.to_si(rod_length_mm(section))
     else:
         if run is None or run.design is None:
             raise ValueError("geometry without bore needs a wanted power")
         bore, radius = run.design.bore, run.design.stroke / 2
-        rod = radius / given.lambda_
-    ratio = float(given.compression_ratio)
+        rod = radius / section.lambda_
+    ratio = float(section.compression_ratio)
     return Geometry(bore, radius, rod, ratio, crank_offset, pin_offset)
 
 

@@ -75,49 +75,49 @@ def rod_length_mm(geometry: GeometrySection) -> float:
     return crank_radius_mm(geometry) / geometry.lambda_
 
 
-def to_masses(given: MassesSection, geometry: Geometry) -> Masses:
+def to_masses(section: MassesSection, geometry: Geometry) -> Masses:
     """Masses of one cylinder in SI units."""
-    if given.reciprocating_kg is not None and given.rod_big_end_kg is not None:
-        return DirectMasses(**solver_values(given, DirectMasses))
-    estimate = to_estimate(given)
-    piston, rod = given.piston_group_kg, given.rod_kg
+    if section.reciprocating_kg is not None and section.rod_big_end_kg is not None:
+        return DirectMasses(**solver_values(section, DirectMasses))
+    estimate = to_estimate(section)
+    piston, rod = section.piston_group_kg, section.rod_kg
     if estimate is not None:
-        near = area_masses(estimate, geometry.bore, 2 * geometry.crank_radius)
+        area_estimate = area_masses(estimate, geometry.bore, 2 * geometry.crank_radius)
         area = geometry.piston_area
-        piston = near.piston * area if piston is None else piston
-        rod = near.rod * area if rod is None else rod
+        piston = area_estimate.piston * area if piston is None else piston
+        rod = area_estimate.rod * area if rod is None else rod
     if piston is None or rod is None:
         raise ValueError("masses are incomplete")
     mass, length = KG.to_si(rod), geometry.rod_length
-    known = KG_M2.given(given.rod_inertia_kg_m2)
+    inertia = KG_M2.given(section.rod_inertia_kg_m2)
     basis: Weighing | Swinging | Estimate | None = estimate
-    if given.rod_weighed_small_end_kg is not None:
-        basis = Weighing(mass, KG.to_si(given.rod_weighed_small_end_kg))
+    if section.rod_weighed_small_end_kg is not None:
+        basis = Weighing(mass, KG.to_si(section.rod_weighed_small_end_kg))
         centre = weighed_centre(basis, length)
-    elif given.swing_edges_mm is not None:
-        basis = to_swinging(given, mass)
-        centre, known = swung_centre(basis), swung_inertia(basis)
-    elif given.rod_centre_mm is not None:
-        centre = MM.to_si(given.rod_centre_mm)
-    elif given.rod_small_end_share is not None:
-        centre = (1 - given.rod_small_end_share) * length  # m_1/m = (l − l_1)/l, Gots (20)
+    elif section.swing_edges_mm is not None:
+        basis = to_swinging(section, mass)
+        centre, inertia = swung_centre(basis), swung_inertia(basis)
+    elif section.rod_centre_mm is not None:
+        centre = MM.to_si(section.rod_centre_mm)
+    elif section.rod_small_end_share is not None:
+        centre = (1 - section.rod_small_end_share) * length  # m_1/m = (l − l_1)/l, Gots (20)
     elif estimate is not None:
         centre = (1 - ROD_SHARE) * length
     else:
         raise ValueError("masses do not fix the rod's centre of mass")
-    return RodMasses(KG.to_si(piston), mass, centre, known, basis)
+    return RodMasses(KG.to_si(piston), mass, centre, inertia, basis)
 
 
-def to_swinging(given: MassesSection, mass: float) -> Swinging:
+def to_swinging(section: MassesSection, mass: float) -> Swinging:
     """The swings of the rod in SI units."""
-    return Swinging(mass=mass, **solver_values(given, Swinging))
+    return Swinging(mass=mass, **solver_values(section, Swinging))
 
 
-def to_estimate(given: MassesSection) -> Estimate | None:
+def to_estimate(section: MassesSection) -> Estimate | None:
     """Entries of table 4, None where nothing is estimated."""
-    if given.estimate_fuel is None:
+    if section.estimate_fuel is None:
         return None
-    return Estimate(**solver_values(given, Estimate))
+    return Estimate(**solver_values(section, Estimate))
 
 
 def with_masses(
@@ -133,8 +133,8 @@ def with_masses(
     estimate = to_estimate(masses)
     throw = share = 0.0
     if estimate is not None:
-        near = area_masses(estimate, bore, 2 * radius)
-        throw, share = near.throw * math.pi * bore**2 / 4, estimate.pin_share
+        area_estimate = area_masses(estimate, bore, 2 * radius)
+        throw, share = area_estimate.throw * math.pi * bore**2 / 4, estimate.pin_share
     webs = []
     for web in shaft.webs:
         mass = web.mass_kg

@@ -29,12 +29,10 @@ def scope_of(sample: str = "gots-diesel") -> Scope:
     return Scope(load_toml(samples_dir() / f"{sample}.toml").model)
 
 
-def read(
-    text: str, folder: Path, scope: Scope | None = None, **places: dict[str, BookLine]
-) -> Part:
+def read(text: str, folder: Path, scope: Scope | None = None, **lines: dict[str, BookLine]) -> Part:
     (folder / "own.book").write_text(text, encoding="utf-8")
     return read_book(
-        "own.book", names_of(scope or scope_of()), Shelf((folder, *house_shelf().folders)), **places
+        "own.book", names_of(scope or scope_of()), Shelf((folder, *house_shelf().folders)), **lines
     )
 
 
@@ -117,7 +115,7 @@ def test_a_mistake_is_told_where_it_stands(case: str, tmp_path: Path):
 def test_what_only_the_model_shows(text: str, line: int, column: int, words: str, tmp_path: Path):
     places: dict[str, BookLine] = {}
     scope = scope_of()
-    part = read(text, tmp_path, scope, places=places)
+    part = read(text, tmp_path, scope, lines=places)
     model = build_model(scope.input)
     kept = [b for b in model.blocks if b.id not in ("geometry", "t", "a")]
     whole = type(model)(model.input, model.inputs, (*kept, *part.blocks), ())

@@ -20,6 +20,7 @@ from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import Quantity, quantity
 from kshm.results.regimes import regime_key
 from kshm.results.solution import Solution, solve
+from reports.inputs.messages import meta_at
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import ReportSection, WorkbookSection
 from reports.inputs.to_si.engine import engine_and_cycle, smallness_of
@@ -28,6 +29,7 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.russian import NBSP, fixed, written
 from reports.shared.standing import Notice, Severity
 
+_STEP = ("calculation", "step_deg")
 # Sections that change no number.
 _PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSection()}
 _MEND_FILM = "проверьте зазоры, вязкость и температуру масла, ширину"
@@ -69,7 +71,7 @@ def solved(model: InputFile, source: str = "") -> Solution:
 def _solution(model: InputFile) -> Solution:
     solution = solve(*engine_and_cycle(model))
     if model.bearings is not None:
-        _ = solution.columns  # results wait until they are asked for; orbits may refuse
+        _ = solution.columns  # results wait until they are title_of_step for; orbits may refuse
     return solution
 
 
@@ -273,10 +275,11 @@ def grid_remark(model: InputFile) -> str:
     first = max(used, key=lambda error: abs(error.percent))
     coarse, fine, unit = _written(first)
     others = f"; других таких результатов: {len(errors) - 1}" if len(errors) > 1 else ""
-    step = fixed(model.calculation.step_deg, 0)
+    step, meta = fixed(model.calculation.step_deg, 0), meta_at(InputFile, _STEP)
+    title_of_step = meta.title if meta is not None else ""
     return (
         f"Шаг таблиц {step}°: {first.title}: {coarse}{unit}, с шагом 1° {fine}{unit}{others}; "
-        "шаг задаёт calculation.step_deg"
+        f"шаг меняют в исходных данных: «{title_of_step}»"
     )
 
 

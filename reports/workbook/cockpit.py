@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import groupby
-from math import inf, isfinite
 
 from openpyxl.formatting.rule import FormulaRule
 from openpyxl.styles import Alignment, Border, PatternFill, Protection, Side
@@ -13,17 +12,14 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
-from kshm.nomenclature.quantity import Quantity
-from reports.inputs.fields import Field
 from reports.model.blocks import Model
 from reports.model.contents import Contents
-from reports.model.shape import Shape, pin_figure, pin_name
-from reports.shared.russian import capital
+from reports.model.shape import pin_figure
 from reports.tables.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
 from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
-from reports.workbook.inputs import shown
+from reports.workbook.key_values import key_values, results_of, worst_pin
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -42,13 +38,13 @@ from reports.workbook.places import (
     anchor,
     column_px,
     flow,
-    lines_of,
     raise_row,
     top_of,
     wrap_across,
 )
 from reports.workbook.sheets import BlockWriter, link
-from reports.workbook.verdict import GOOD, STRUCTURE_CHANGED, UNUSUAL, fade
+from reports.workbook.tiles import SPANS, write_tiles
+from reports.workbook.verdict import Verdict, colour_verdict, fade
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -57,28 +53,12 @@ DATA = (
     "geometry_lambda", "geometry_bore_mm", "cyc_D", "geometry_stroke_mm",
     "geometry_crank_radius_mm", "cyc_S", "V_engine",
 )  # fmt: skip
-RESULTS = (
-    "cyc_N_e", "N_e_calc", "M_mean", "M_e", "N_i_calc", "p_i_calc", "M_max", "phi_M_max_deg",
-    "M_min", "c_m", "j_tdc",
-    "worst_pin_load", "Rpin_mean", "Rpin_max", "q_pin_max", "hole_pin_deg", "worst_main_load",
-    "worst_main_torque", "delta_work", "I_flywheel",
-)  # fmt: skip
-# Of the crankpins: where there are several, the most loaded one's.
-_OF_PINS = {
-    "Rpin_mean": "Rpin{}_mean", "Rpin_max": "Rpin{}_max", "q_pin_max": "q_pin{}_max",
-    "hole_pin_deg": "hole_pin{}_deg",
-}  # fmt: skip
-CHARTS = ("p_phi", "fig49", "fig50", "fig52")
+CHARTS = ("fig50", "fig49", "p_phi", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
 BESIDE = ("fig49", "fig50")
-_CHECKS = "Проверки расчёта"
-_WORST = "worst_pin_load"
-_WORST_PIN = (
-    ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
-)  # fmt: skip
-_WIDTHS = {"A": 51, "B": 10, "C": 13, "D": 8, "E": 1.5}
-_TOP = 2
-_LINKS, _ACROSS, _EACH = 6, 3, 3  # first column, chapters in a row, columns that each takes
+_WIDTHS = {"A": 31, "B": 9, "C": 11, "D": 7, "E": 1.5}
+_PEOPLE_ROW = 2
+_VERDICT_HEIGHT = 30.0  # pt: two lines
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 SHEET = "Что если"
@@ -97,56 +77,43 @@ def write_cockpit(
     model: Model,
     writer: BlockWriter,
     legend: Sequence[tuple[str, str]],
-    verdict: tuple[str, str] | None,
+    verdict: Verdict | None,
 ) -> list[Box]:
     """Fill the first sheet; the places of its charts."""
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
-    sheet.row_dimensions[1].height = TITLE_HEIGHT
     title = model.input.report.title or "Кинематика и динамика КШМ"
     styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
-    row = _people(sheet, model, _TOP)
-    row = _verdict(sheet, writer, row, verdict)
+    sheet.row_dimensions[1].height = TITLE_HEIGHT
+    styles.as_text(sheet.cell(_PEOPLE_ROW, 1, _people(model))).style = styles.LINE
+    row = _verdict(sheet, writer, _PEOPLE_ROW + 1, verdict)
+    top, row = row, write_tiles(sheet, writer, row)
+    if verdict is not None:
+        fade(sheet, area(Cell("", top + 1, 1), Cell("", row - 1, SPANS[-1][1])))
+    row = _chapters(sheet, titles, contents_for(model), row) + 1
+    boxes = _charts(sheet, model, writer, row)
     row = _samples(sheet, legend, row)
     row = _values(sheet, writer, row + 1, "Исходные данные: щёлкните, чтобы изменить", DATA)
     top, row = row + 2, _values(sheet, writer, row + 1, "Главные результаты", results_of(model))
     if verdict is not None and row > top:
         fade(sheet, area(Cell("", top, 3), Cell("", row - 1, 3)))
-    boxes = _charts(sheet, model, writer, _chapters(sheet, titles, contents_for(model)) + 1)
     row = _sheets(sheet, titles, model, row + 1)
     row = _left_out(sheet, writer, row)
     _legend(sheet, model, legend, row + 1)
     return boxes
 
 
-def results_of(model: Model) -> tuple[str, ...]:
-    """Keys of what came out; the oil hole is where the film puts it, as the report says."""
-    if "oil_film1_deg" not in model.scalars:
-        return RESULTS
-    key = "crankshaft_oil_hole_deg"
-    hole = (key,) if key in model.fields else ("oil_film1_deg", "oil_film2_deg")
-    at = RESULTS.index("hole_pin_deg")
-    return (*RESULTS[:at], *hole, *RESULTS[at + 1 :])
-
-
-def _people(sheet: Worksheet, model: Model, row: int) -> int:
+def _people(model: Model) -> str:
+    """The engine, and whose work this is."""
     report = model.input.report
     people = (
-        ("Двигатель", model.input.engine.name),
-        ("Студент", report.student),
-        ("Группа", report.group),
-        ("Вариант", report.variant),
-        ("Руководитель", report.supervisor),
+        ("студент", report.student),
+        ("группа", report.group),
+        ("вариант", report.variant),
+        ("руководитель", report.supervisor),
     )
-    for label, text in people:
-        if text:
-            sheet.cell(row, 1, label).style = styles.TEXT
-            styles.as_text(sheet.cell(row, 2, text)).style = styles.LINE
-            if lines_of(text, sum(_WIDTHS[letter] for letter in "BCD")) > 1:
-                wrap_across(sheet, row, 2, 4)  # the charts stand beside it
-                sheet.cell(row, 1).alignment = Alignment(vertical="top")
-            row += 1
-    return row
+    names = (f"{label} {text}" for label, text in people if text)
+    return " · ".join((model.input.engine.name, *names))
 
 
 def _samples(sheet: Worksheet, legend: Sequence[tuple[str, str]], row: int) -> int:
@@ -160,7 +127,7 @@ def _samples(sheet: Worksheet, legend: Sequence[tuple[str, str]], row: int) -> i
     return row + 1
 
 
-def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> int:
+def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents, top: int) -> int:
     """Links to the sheets of the first chapter and to the first ones of the others; last row."""
     others = [title for title in titles if title != sheet.title]
     firsts = {title: chapter_of(title, contents) for title in others[:3]}
@@ -169,47 +136,35 @@ def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents) -> in
         if chapter not in firsts.values():
             firsts[title] = chapter
     for number, (title, chapter) in enumerate(firsts.items()):
-        row, across = divmod(number, _ACROSS)
-        at = Cell(sheet.title, _TOP + row, _LINKS + _EACH * across)
-        text = title if number < 3 else chapter.title
-        link(sheet, at, text, title)
-        for column in range(at.column, at.column + _EACH):
+        down, across = divmod(number, len(SPANS))
+        (first, last), row = SPANS[across], top + down
+        link(sheet, Cell(sheet.title, row, first), title if number < 3 else chapter.title, title)
+        for column in range(first, last + 1):
             under = Side(style="medium", color=chapter.colour)
-            sheet.cell(at.row, column).border = Border(bottom=under)
-        sheet.merged_cells.add(CellRange(min_row=at.row, max_row=at.row, min_col=at.column,
-                                         max_col=at.column + _EACH - 1))  # fmt: skip
-    return _TOP + (len(firsts) - 1) // _ACROSS
+            sheet.cell(row, column).border = Border(bottom=under)
+        if last > first:
+            sheet.merged_cells.add(CellRange(min_row=row, max_row=row, min_col=first, max_col=last))
+    return top + (len(firsts) - 1) // len(SPANS)
 
 
-def _verdict(
-    sheet: Worksheet, writer: BlockWriter, row: int, verdict: tuple[str, str] | None
-) -> int:
-    """Whether the numbers of the book hold; nothing where no checks are in it."""
+def _verdict(sheet: Worksheet, writer: BlockWriter, row: int, verdict: Verdict | None) -> int:
+    """What holds of the numbers of the book and what does not; nothing where it has no checks."""
     if verdict is None:
         return row
-    sheet.cell(row, 1, _CHECKS).style = styles.TEXT
-    writer.formula(sheet, row, 2, *verdict)
-    sheet.cell(row, 2).style = styles.LINE
-    # Not bold: the longest verdict ends before the charts.
-    _colour(sheet, f"B{row}:D{row}", f"$B{row}", "")
+    writer.formula(sheet, row, 1, verdict.formula, verdict.text)
+    last = SPANS[-1][1]
+    wrap_across(sheet, row, 1, last)
+    sheet.cell(row, 1).style = styles.LINE
+    sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center", indent=1)
+    sheet.row_dimensions[row].height = _VERDICT_HEIGHT
+    colour_verdict(sheet, area(Cell("", row, 1), Cell("", row, last)))
     # Beside what is changed as well.
-    inputs, at = sheet.parent[INPUT_SHEET], Cell(sheet.title, row, 2).absolute
-    here = Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
-    text, (_, value) = f"{_CHECKS}: ", verdict
-    said = f'=IF({STRUCTURE_CHANGED}>0,{at},"{text}"&{at})'
-    writer.formula(inputs, here.row, here.column, said, f"{text}{value}")
+    inputs, here = sheet.parent[INPUT_SHEET], Cell(INPUT_SHEET, NOTE_ROW, VALUE_COLUMN)
+    text = Cell(sheet.title, row, 1).absolute
+    writer.formula(inputs, here.row, here.column, f"={text}", verdict.text)
     inputs.cell(here.row, here.column).style = styles.LINE
-    mark = here.absolute.partition("!")[2]
-    _colour(inputs, area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)), mark, text)
+    colour_verdict(inputs, area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)))
     return row + 1
-
-
-def _colour(sheet: Worksheet, cells: str, mark: str, before: str) -> None:
-    """Fill of a verdict that is not good."""
-    odd = FormulaRule([f'{mark}="{before}{UNUSUAL}"'], stopIfTrue=True, fill=styles.odd()["fill"])
-    wrong = FormulaRule([f'{mark}<>"{before}{GOOD}"'], fill=styles.wrong()["fill"])
-    for rule in (odd, wrong):
-        sheet.conditional_formatting.add(cells, rule)
 
 
 def _values(
@@ -217,7 +172,7 @@ def _values(
 ) -> int:
     """Values that stand elsewhere, with symbol and unit."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, measure, formula, value, unit, look in known(writer, keys):
+    for text, measure, formula, value, unit, look in key_values(writer, keys):
         row += 1
         raise_row(sheet, row, {text: _WIDTHS["A"]})
         writer.symbol(sheet, row, 2, measure)
@@ -228,60 +183,11 @@ def _values(
         if key in writer.layout.model.fields:
             at = writer.layout.cells[key]
             link(sheet, Cell(sheet.title, row, 1), text, at.sheet, at.coordinate)
+            sheet.cell(row, 1).alignment = Alignment(vertical="center", wrap_text=True)
         writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
         sheet.cell(row, 3).number_format = look
     return row + 1
-
-
-def known(
-    writer: BlockWriter, keys: Sequence[str]
-) -> Iterator[tuple[str, Field | Quantity, str, float | str, str, str]]:
-    """Title, whose symbol, formula, value, unit and number format of what the book has."""
-    model, values = writer.layout.model, writer.values.scalars
-    known_keys = [key for key in keys if key in model.scalars and _finite(values.get(key, inf))]
-    typed = [model.fields[key].value for key in keys if key in model.fields]
-    decimals = styles.decimals_of([*typed, *(model.scalars[key].quantity for key in known_keys)])
-    for key in keys:
-        if key in model.fields:
-            field = model.fields[key]
-            yield (
-                field.title,
-                field,
-                f"={key}",
-                shown(field),
-                field.unit,
-                styles.typed_format(field.value, decimals),
-            )
-        elif key in known_keys:
-            quantity = model.scalars[key].quantity
-            look = styles.excel_format(quantity, decimals)
-            formula, value = _of_worst_pin(writer, key)
-            title = capital(quantity.title)
-            if formula != f"={key}":
-                for words, more in _WORST_PIN:
-                    title = title.replace(words, f"{more} {words}")
-            yield title, quantity, formula, value, quantity.unit_label, look
-
-
-def _of_worst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
-    """Formula and value of a scalar, of the most loaded pin where each has its own."""
-    values = writer.values.scalars
-    if key not in _OF_PINS or _WORST not in values:
-        return f"={key}", values[key]
-    count = len(Shape.of(writer.layout.model.input).pins)
-    keys = [_OF_PINS[key].format(pin_name(number)) for number in range(1, count + 1)]
-    return f"=CHOOSE({_WORST},{','.join(keys)})", values[keys[_worst_pin(writer) - 1]]
-
-
-def _worst_pin(writer: BlockWriter) -> int:
-    """The number of the most loaded pin; the first where a student is to find it."""
-    worst = float(writer.values.scalars.get(_WORST, 1))
-    return round(worst) if isfinite(worst) else 1
-
-
-def _finite(value: float | str) -> bool:
-    return isinstance(value, str) or isfinite(value)
 
 
 def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
@@ -306,7 +212,7 @@ def _drawn(
     room: tuple[int, int, int],
 ) -> list[Box]:  # fmt: skip
     """Charts of one size from left to right and down; of several pins the most loaded one's."""
-    worst = _worst_pin(writer)
+    worst = worst_pin(writer)
     charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in wanted]
     specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
     boxes = flow([(WIDE, HIGH)] * len(specs), *room)
@@ -404,7 +310,7 @@ def _part(
 ) -> int:
     """Lines of some values; the row behind them."""
     sheet.cell(row, 1, title).style = styles.SUBTITLE
-    for text, measure, formula, value, unit, look in known(writer, keys):
+    for text, measure, formula, value, unit, look in key_values(writer, keys):
         if isinstance(value, str):
             continue
         row += 1

@@ -108,7 +108,7 @@ def as_text(cell: Cell) -> Cell:
 def add_styles(book: Workbook) -> None:
     """Register all named styles in a workbook."""
     rule = Border(bottom=Side(style="thin", color="E4E4E4"))
-    under = Border(bottom=Side(style="medium", color="7F7F7F"))
+    under = Border(bottom=Side(style="medium", color="595959"))
     centre = Alignment(horizontal="center", vertical="center", wrap_text=True)
 
     def style(name: str, **parts: object) -> None:
@@ -130,7 +130,7 @@ def add_styles(book: Workbook) -> None:
     style(HELPER, border=rule, alignment=middle, font=Font(name=FONT, size=SIZE, color="595959"))
     bold = Font(name=FONT, size=SIZE, bold=True, color="000000")
     style(HEADER, border=under, alignment=centre, font=bold)
-    grey = Font(name=FONT, size=SIZE - 2, color="7F7F7F")
+    grey = Font(name=FONT, size=SIZE - 2, color="595959")
     style(NUMBER, border=rule, alignment=centre, font=grey)
     style(TITLE, font=Font(name=FONT, size=14, bold=True))
     style(SUBTITLE, font=Font(name=FONT, size=11, bold=True))
@@ -140,7 +140,7 @@ def add_styles(book: Workbook) -> None:
         UNIT,
         border=rule,
         alignment=Alignment(horizontal="left", vertical="center", indent=1),
-        font=Font(name=FONT, size=SIZE, color="7F7F7F"),
+        font=Font(name=FONT, size=SIZE, color="595959"),
     )
     style(LINE, alignment=middle)
     style(

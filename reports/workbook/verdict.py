@@ -6,28 +6,35 @@ All three stand on the sheet of checks; the first sheet says the gravest.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from openpyxl.formatting.rule import CellIsRule, FormulaRule
+from openpyxl.formatting.rule import CellIsRule, FormulaRule, Rule
 from openpyxl.styles import PatternFill
-from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.utils import (
+    absolute_coordinate,
+    column_index_from_string,
+    coordinate_to_tuple,
+    get_column_letter,
+)
 from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.formula.excel import number
-from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
-from reports.inputs.fields import Field, regime_suffix
-from reports.model.blocks import NO, YES, Held, Model, ScalarTable
-from reports.tables.verdicts import outcomes
+from reports.inputs.fields import Field
+from reports.model.blocks import NO, YES, Held, Model, Scalar, ScalarTable
+from reports.shared.russian import capital
+from reports.tables.verdicts import outcomes, reasons_of
 from reports.workbook import styles
+from reports.workbook.conditions import Condition, conditions
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     KEY_COLUMN,
+    SOURCE_COLUMN,
     TITLE_COLUMN,
     UNIT_COLUMN,
     VALUE_COLUMN,
@@ -39,130 +46,60 @@ from reports.workbook.layout import (
 )
 from reports.workbook.sheets import BlockWriter, CacheValues, link
 
-_Fields = Mapping[str, Sequence[Field]]
-_POINTS = Pair("gas.points", "gas.points", "Углы точек диаграммы возрастают")
-GOOD, _WHERE = "все выполнены", ", см. «Проверки»"
-_BAD, _UNUSUAL, _OUTSIDE, _BLANK = "не все", "есть необычное", "вне пределов", "не посчитаны"
-BAD, UNUSUAL, BEYOND, UNKNOWN = (f"{words}{_WHERE}" for words in (_BAD, _UNUSUAL, _OUTSIDE, _BLANK))
-RESHAPED = "структура изменена: выполните build"
+GOOD, ACCEPTED = "Проверки выполнены", "Принято: "
+UNUSUAL, BAD, BEYOND = "Есть необычное: ", "Не выполнено: ", "Исходные данные вне пределов: "
+UNKNOWN, RESHAPED = "Не посчитано: ", "Структура изменена: выполните build"
 STRUCTURE_CHANGED = "structure_changed"  # name of the cell that counts what was changed
 ODD, _UNKNOWN = "необычно", "—"
+# What stands beside a verdict that is not good.
+_OPEN, _TAKEN = "требует внимания", "принято"
 _BEYOND = "Строки: 1 — вне пределов, 2 — необычно, от 10 — структура изменена"
-_WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов или противоречит другим"
-_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах"
+_WITHIN = f"{INPUT_SHEET}: сколько строк вне пределов"
+_PAIRS = f"{INPUT_SHEET}: сколько противоречий"
+_FAILED, _BROKEN = "сколько не так", "На скольких листах ошибки в формулах, листов всего {}"
 _RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
 _WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
-_LISTS = 4  # rows before those of lists: a title and counts
 _CHECKS = "checks"  # the list of the house; a department's book may have checks too
+_REASON_COLUMN = SOURCE_COLUMN + 1
+# Columns of a count: words on the first of what it counts and on the first accepted one, where
+# both stand in their list, the words of the whole sheet.
+_WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I")
+_FURTHER = 4  # rows of counts besides those of lists
+_FEW = "0.00##"  # number format of what a check measures
+_DIGITS = 3  # decimals of a value in the words
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
-    """A pair of this book: what its formula tests, and the cells that it is about."""
+class Verdict:
+    """What the first sheet says of the numbers: its formula and the text that it has now."""
 
-    pair: Pair
-    title: str
     formula: str
-    fields: tuple[Field, ...]
-    holds: bool  # with the values that the book is built with
-
-
-def conditions(
-    model: Model, layout: Layout, scalars: Mapping[str, float | str]
-) -> Iterator[Condition]:
-    """Every pair both of whose sides stand in the book, those of further regimes as well."""
-    main, further = _by_key(model.inputs)
-    for number_, regime in ((1, main), *further.items()):
-        suffix, whose = (regime_suffix(number_), f", режим {number_}") if number_ > 1 else ("", "")
-        shared = {key: of_key for key, of_key in main.items() if not suffix or not _of_regime(key)}
-        fields = {**shared, **regime}
-        for pair in PAIRS:
-            if not is_of(pair, model.input.engine.strokes, fields.get):
-                continue
-            less, more = (
-                _side(side, end, fields, layout, scalars, suffix)
-                for side, end in ((pair.less, "MAX"), (pair.more, "MIN"))
-            )
-            if less is None or more is None or not (less.own or more.own):
-                continue
-            cells = (*less.fields, *more.fields)
-            # A further regime is held to its own gas; what rests on a speed rests on the first.
-            if suffix and not any(field.path[2:3] == ("gas",) for field in cells):
-                continue
-            sign = "<" if pair.strict else "<="
-            text, holds = f"{less.text}{sign}{more.text}", pair.holds(less.value, more.value)
-            yield Condition(pair, pair.title + whose, text, cells, holds)
-        if angles := tuple(item for item in regime.get(_POINTS.less, ()) if item.path[-1] == 0):
-            title = _POINTS.title + whose
-            yield Condition(_POINTS, title, _rising(angles, layout), angles, holds=True)
-
-
-def _rising(fields: Sequence[Field], layout: Layout) -> str:
-    """That each of several cells of a column is greater than the one above it."""
-    first, last = (layout.cells[item.name] for item in (fields[0], fields[-1]))
-    above = column_range(first.sheet, first.column, first.row, last.row - 1)
-    below = column_range(first.sheet, first.column, first.row + 1, last.row)
-    return f"SUMPRODUCT(1*({below}<={above}))=0"
-
-
-def _by_key(inputs: Sequence[Field]) -> tuple[_Fields, dict[int, _Fields]]:
-    """Fields by their keys without numbers: the main ones, and those of each further regime."""
-    grouped: dict[int, dict[str, list[Field]]] = defaultdict(lambda: defaultdict(list))
-    for item in inputs:
-        path, regime = item.path, 1
-        if path[0] == "regimes":
-            regime, path = int(path[1]) + 2, path[2:]
-            path = path if path[0] == "gas" else ("regime", *path)
-        key = ".".join(part for part in path if isinstance(part, str))
-        grouped[regime][key].append(item)
-    return grouped.pop(1), {key: dict(fields) for key, fields in grouped.items()}
-
-
-def _of_regime(key: str) -> bool:
-    """Whether each regime has this key for itself."""
-    return key.startswith(("regime.", "gas."))
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
-class _Side:
-    text: str
-    value: float
-    fields: tuple[Field, ...]
-    own: bool
+class _Count:
+    """A count that must be zero: its row, its verdict and words as they are now."""
+
+    row: int
+    verdict: str
+    words: str
+    accepted: str | None = None  # None where the input accepts nothing of the list
 
 
-def _side(
-    side: str,
-    end: str,
-    fields: _Fields,
-    layout: Layout,
-    scalars: Mapping[str, float | str],
-    suffix: str,
-) -> _Side | None:
-    """The first term of a side that the book holds, with its cells."""
-    for index, term in enumerate(terms_of(side)):
-        name = term.key.removeprefix("=") + suffix
-        if term.key[0] == "=" and name in layout.model.scalars:
-            value = term.of(float(scalars[name]))
-            return _Side(_scaled(layout.name_of(name), term), value, (), False)
-        if cells := tuple(fields.get(term.key, ())):
-            values = [float(item.value) for item in cells]
-            value = term.of(max(values) if end == "MAX" else min(values))
-            return _Side(_scaled(_cells(cells, end, layout), term), value, cells, not index)
-    return None
+@dataclass(frozen=True, slots=True)
+class _Judged:
+    """A list with verdicts as cells: those of a column, and the lines that are not good."""
 
+    block: ScalarTable
+    first: int
+    last: int
+    sheet: str
 
-def _cells(fields: Sequence[Field], end: str, layout: Layout) -> str:
-    """One cell by its name, the end of several of a column."""
-    if len(fields) == 1:
-        return layout.name_of(fields[0].name)
-    first, last = (layout.cells[item.name] for item in (fields[0], fields[-1]))
-    return f"{end}({column_range(first.sheet, first.column, first.row, last.row)})"
-
-
-def _scaled(text: str, term: Term) -> str:
-    power = "" if term.power == 1 else f"^{number(term.power)}"
-    return text + power if term.times == 1 else f"{number(term.times)}*{text}{power}"
+    def cells(self, column: int) -> str:
+        """Cells of a column of the list, as a formula of the sheet of checks names them."""
+        cells = column_range(self.block.sheet, column, self.first, self.last)
+        return cells.rpartition("!")[2] if self.block.sheet == self.sheet else cells
 
 
 _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
@@ -177,8 +114,12 @@ def judged_lists(writer: BlockWriter) -> list[ScalarTable]:
     return lists if whole and _CHECKS in judged else []
 
 
-def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[str, str] | None:
-    """Formula and value of what the first sheet says of the numbers; nothing without checks."""
+def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> Verdict | None:
+    """Write counts and verdicts below the checks; return what the first sheet says of them.
+
+    What the counts sum up of conditions and of sheets is folded below them.  A book without
+    checks has no verdict.
+    """
     lists = judged_lists(writer)
     if not lists:
         return None
@@ -191,83 +132,230 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> tuple[st
     }
     for title, cells in areas.items():
         fade(book[title], cells.rpartition("!")[2])
-    held, sheet = list(conditions(model, layout, writer.values.scalars)), book[first.sheet]
-    row = sheet.max_row + 2
-    pairs_row = row + _LISTS + len(lists)
-    states = _limits(book[INPUT_SHEET], model, writer, _in_order(sheet, pairs_row, held, writer))
+    sheet = book[first.sheet]
+    for scalar, _ in checks.pairs:
+        whole = float(writer.values.scalars[scalar.key]).is_integer()
+        at = layout.cells[scalar.key].coordinate
+        sheet[at].number_format = "General" if whole else _FEW
+    held = list(conditions(model, layout, writer.values.scalars))
     titles = {title: areas[title] for title in book.sheetnames if title in areas}
-    sheets = _without_errors(sheet, pairs_row + len(held), titles, writer)
-    said = _inputs_and_sheets(sheet, row, states, sheets, writer)
-    verdicts = {_of_list(sheet, at, block, writer) for at, block in enumerate(lists, row + _LISTS)}
-    colour_verdicts(sheet, row + 1, pairs_row - 1 + len(held) + len(titles), YES, NO)
-    final = BAD if NO in verdicts else UNUSUAL if ODD in verdicts else GOOD
-    at = Cell(sheet.title, row, UNIT_COLUMN)
-    writer.formula(sheet, row, at.column, _gravest(row, row + _LISTS, pairs_row - 1), final)
-    sheet.cell(row, at.column).style = styles.LINE
-    return f"=IF({STRUCTURE_CHANGED}>0,{said},{at.absolute})", final
-
-
-def _inputs_and_sheets(
-    sheet: Worksheet, row: int, states: str, sheets: str, writer: BlockWriter
-) -> str:
-    """Counts of wrong inputs, of sheets with errors and of changes; where the last is judged."""
-    sheet.cell(row, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
-    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
-    _counted(sheet, row + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
-    _counted(sheet, row + 2, _BROKEN, sheet.title, f'=COUNTIF({sheets},"{NO}")', writer)
+    top = sheet.max_row + 2
+    below = top + 1 + len(lists)
+    details = below + _FURTHER
+    sheets_row = details + len(held)
+    sheet.cell(top, TITLE_COLUMN, "Исходные данные и листы").style = styles.SUBTITLE
+    counts = [_of_list(book, sheet, row, block, writer) for row, block in enumerate(lists, top + 1)]
+    tests = _in_order(sheet, details, held, writer)
+    counts.append(_of_pairs(sheet, below, details, held, writer))
+    states, names = _limits(book[INPUT_SHEET], model, writer, tests)
     reshaped = f'=COUNTIF({states},">={RESHAPED_ROW}")'
-    said = _counted(sheet, row + 3, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED)
-    count = DefinedName(
-        STRUCTURE_CHANGED, attr_text=Cell(sheet.title, row + 3, VALUE_COLUMN).absolute
+    changed = _counted(
+        sheet, below + 3, _RESHAPED_ROWS, INPUT_SHEET, reshaped, writer, bad=RESHAPED
     )
-    sheet.parent.defined_names[STRUCTURE_CHANGED] = count
-    return said
+    book.defined_names[STRUCTURE_CHANGED] = DefinedName(STRUCTURE_CHANGED, attr_text=changed)
+    wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
+    _counted(sheet, below + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
+    out = f"IFERROR({_match(_WRONG_ROW, states)},{_match(_WRONG_ROW + RESHAPED_ROW, states)})"
+    _first(sheet, below + 1, (_AT, _WORDS), out, names, writer)
+    verdicts = _without_errors(sheet, sheets_row, titles, writer)
+    broken = _BROKEN.format(len(titles))
+    _counted(sheet, below + 2, broken, sheet.title, f'=COUNTIF({verdicts},"{NO}")', writer)
+    of_sheets = column_range(sheet.title, TITLE_COLUMN, sheets_row, sheets_row + len(titles) - 1)
+    _first(sheet, below + 2, (_AT, _WORDS), _match(NO, verdicts), of_sheets, writer)
+    colour_verdicts(sheet, top + 1, sheets_row + len(titles) - 1, YES, NO)
+    _fold_rows(sheet, details, sheets_row + len(titles) - 1)
+    return _sentence(sheet, top, below, counts, writer)
 
 
-def _gravest(row: int, first: int, last: int) -> str:
-    """The gravest of the counts below a row and of the verdicts on lists."""
-    letter, value = get_column_letter(UNIT_COLUMN), get_column_letter(VALUE_COLUMN)
-    lists = f"{letter}{first}:{letter}{last}"
-    wrong, odd = (f'COUNTIF({lists},"{words}")' for words in (NO, ODD))
-    outside, blank = f"{value}{row + 1}", f"{value}{row + 2}"
-    worst = f'IF({blank},"{_BLANK}",IF({outside},"{_OUTSIDE}",IF({wrong},"{_BAD}","{_UNUSUAL}")))'
-    return f'=IF({blank}+{outside}+{wrong}+{odd}=0,"{GOOD}",{worst}&"{_WHERE}")'
+def _sentence(
+    sheet: Worksheet, top: int, below: int, counts: Sequence[_Count], writer: BlockWriter
+) -> Verdict:
+    """The gravest of the counts in words, in folded cells beside the heading."""
+    judged, words = (f"{letter}{top + 1}:{letter}{below}"
+                     for letter in (get_column_letter(UNIT_COLUMN), _WORDS))  # fmt: skip
+    taken = "".join(each.accepted or "" for each in counts)
+    cells = "&".join(f"{_ACCEPTED}{each.row}" for each in counts if each.accepted is not None)
+    text = f"{GOOD}. {ACCEPTED}{taken}" if taken else GOOD
+    formula = f'=IF({cells}="","{GOOD}","{GOOD}. {ACCEPTED}"&{cells})' if cells else f'="{GOOD}"'
+    for letter, following, bad, start in zip(
+        _HELP, (*_HELP[1:], ""), (ODD, NO, ""), (UNUSUAL, BAD, ""), strict=True
+    ):
+        writer.formula(sheet, top, column_index_from_string(letter), formula, text)
+        sheet[f"{letter}{top}"].style = styles.HELPER
+        sheet.column_dimensions[letter].outlineLevel = 1
+        sheet.column_dimensions[letter].hidden = True
+        if not following:
+            break
+        first = next((each.words for each in counts if each.verdict == bad), None)
+        text = text if first is None else start + first
+        named = f'INDEX({words},MATCH("{bad}",{judged},0))'
+        formula = f'=IFERROR("{start}"&{named},{letter}{top})'
+    here = quoted(sheet.title)
+    broken, beyond = (f"{here}!${_WORDS}${row}" for row in (below + 2, below + 1))
+    last = f"{here}!${_HELP[-1]}${top}"
+    fine = f'IF({beyond}<>"","{BEYOND}"&{beyond},{last})'
+    unknown = f'IF({broken}<>"","{UNKNOWN}"&{broken},{fine})'
+    return Verdict(f'=IF({STRUCTURE_CHANGED}>0,"{RESHAPED}",{unknown})', text)
 
 
-def _of_list(sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter) -> str:
-    """How many values of a list are not as they should be; the verdict on it."""
-    cells = [writer.layout.cells[verdict.key] for _, verdict in block.pairs]
-    within = column_range(block.sheet, cells[0].column, cells[0].row, cells[-1].row)
-    good = (block.verdicts or (YES, NO))[0]
-    values = writer.values.scalars
-    count = sum(values[verdict.key] != good for _, verdict in block.pairs)
+def colour_verdict(sheet: Worksheet, cells: str) -> None:
+    """Colour cells by the verdict in the first: red, yellow if unusual or accepted, green."""
+    mark = absolute_coordinate(cells.partition(":")[0])
+    good = {"fill": PatternFill(bgColor="E2EFDA")}
+    for test, look in (
+        (f'{mark}="{GOOD}"', good),
+        (f'LEFT({mark},{len(GOOD)})="{GOOD}"', styles.odd()),
+        (f'LEFT({mark},{len(UNUSUAL)})="{UNUSUAL}"', styles.odd()),
+        (f'{mark}<>""', styles.wrong()),
+    ):
+        sheet.conditional_formatting.add(cells, FormulaRule([test], stopIfTrue=True, **look))
+
+
+def _fold_rows(sheet: Worksheet, first: int, last: int) -> None:
+    """Fold rows whose counts stand above them."""
+    sheet.sheet_properties.outlinePr.summaryBelow = False
+    for row in range(first, last + 1):
+        sheet.row_dimensions[row].outlineLevel = 1
+        sheet.row_dimensions[row].hidden = True
+
+
+def _of_list(
+    book: Workbook, sheet: Worksheet, row: int, block: ScalarTable, writer: BlockWriter
+) -> _Count:
+    """Count what is not as it should be in a list and name the first; accepted ones apart."""
+    layout, values = writer.layout, writer.values.scalars
+    rows = [layout.cells[verdict.key].row for _, verdict in block.pairs]
+    judged = _Judged(block, rows[0], rows[-1], sheet.title)
+    good, worse = block.verdicts or (YES, NO)
+    failing = [pair for pair in block.pairs if values[pair[1].key] != good]
+    reasons = _accepted_of(block, layout)
+    left = [pair for pair in failing if pair[1].key not in reasons]
+    verdicts = judged.cells(UNIT_COLUMN)
+    marks = (_OPEN, judged.cells(SOURCE_COLUMN)) if reasons else (worse, verdicts)
+    count = f'COUNTIF({marks[1]},"{_OPEN}")' if reasons else f'COUNTIF({verdicts},"<>{good}")'
     bad = ODD if block.held is Held.USUAL else NO
-    _counted(
-        sheet, row, f"{block.title}: {_FAILED}", block.sheet,
-        f'=COUNTIF({within},"<>{good}")', writer, count, bad=bad,
+    title = f"{block.title}: {_FAILED}"
+    _counted(sheet, row, title, block.sheet, f"={count}", writer, len(left), bad=bad)
+    words = _named(sheet, row, (_AT, _WORDS), marks, judged, left, writer)
+    verdict = bad if left else YES
+    if not reasons:
+        return _Count(row, verdict, words)
+    _mark_accepted(book[block.sheet], block, reasons, writer)
+    taken = [pair for pair in failing if pair[1].key in reasons]
+    marks = (_TAKEN, judged.cells(SOURCE_COLUMN))
+    said = _named(
+        sheet, row, (_ACCEPTED_AT, _ACCEPTED), marks, judged, taken, writer,
+        reason=reasons[taken[0][1].key] if taken else "",
     )  # fmt: skip
-    return bad if count else YES
+    return _Count(row, verdict, words, said)
+
+
+def _accepted_of(block: ScalarTable, layout: Layout) -> dict[str, str]:
+    """Reasons that the input gives for verdicts of a list, by key; beside a table is no room."""
+    if layout.places[block.id].column > 1:
+        return {}
+    reasons = reasons_of(layout.model.input)
+    names = {verdict.key: verdict.key.partition("_")[2] for _, verdict in block.pairs}
+    return {key: reasons[name] for key, name in names.items() if name in reasons}
+
+
+def _mark_accepted(
+    sheet: Worksheet, block: ScalarTable, reasons: Mapping[str, str], writer: BlockWriter
+) -> None:
+    """Say beside every verdict that is not good whether it is accepted, and why."""
+    good, _ = block.verdicts or (YES, NO)
+    letter = get_column_letter(SOURCE_COLUMN)
+    for _, verdict in block.pairs:
+        at = writer.layout.cells[verdict.key]
+        mark = _TAKEN if verdict.key in reasons else _OPEN
+        said = "" if writer.values.scalars[verdict.key] == good else mark
+        formula = f'=IF({at.coordinate}="{good}","","{mark}")'
+        writer.formula(sheet, at.row, SOURCE_COLUMN, formula, said)
+        sheet.cell(at.row, SOURCE_COLUMN).style = styles.TEXT
+        if reason := reasons.get(verdict.key):
+            styles.as_text(sheet.cell(at.row, _REASON_COLUMN, reason)).style = styles.NOTE
+    rows = [writer.layout.cells[verdict.key].row for _, verdict in block.pairs]
+    cells = area(Cell("", rows[0], UNIT_COLUMN), Cell("", rows[-1], SOURCE_COLUMN))
+    before(sheet, cells, FormulaRule([f'${letter}{rows[0]}="{_TAKEN}"'], stopIfTrue=True,
+                                     **styles.odd()))  # fmt: skip
+
+
+def _named(
+    sheet: Worksheet, row: int, columns: tuple[str, str], marks: tuple[str, str],
+    judged: _Judged, pairs: Sequence[tuple[Scalar, Scalar]], writer: BlockWriter, reason: str = "",
+) -> str:  # fmt: skip
+    """Name the first line of a list that has a mark: title, value and reason; else nothing."""
+    at, text = f"{columns[0]}{row}", ""
+    values = f'" = "&ROUND(INDEX({judged.cells(VALUE_COLUMN)},{at}),{_DIGITS})'
+    if columns[1] == _ACCEPTED:
+        values += f'&" — "&INDEX({judged.cells(_REASON_COLUMN)},{at})'
+    if pairs:
+        scalar, verdict = pairs[0]
+        value = round(float(writer.values.scalars[scalar.key]), _DIGITS)
+        title = capital(scalar.label or scalar.quantity.title)
+        text = f"{title} = {value:.15g}" + (f" — {reason}" if reason else "")
+        line = writer.layout.cells[verdict.key].row - judged.first + 1
+    _first(
+        sheet, row, columns, _match(*marks), judged.cells(TITLE_COLUMN), writer, f"&{values}",
+        (line, text) if pairs else (0, ""),
+    )  # fmt: skip
+    return text
+
+
+def _first(
+    sheet: Worksheet, row: int, columns: tuple[str, str], match: str, titles: str,
+    writer: BlockWriter, more: str = "", now: tuple[int, str] = (0, ""),
+) -> None:  # fmt: skip
+    """Name the line that ``match`` finds, if any; its number stands in a folded cell."""
+    place, words = columns
+    formula = f"=IFERROR({match},0)"
+    writer.formula(sheet, row, column_index_from_string(place), formula, float(now[0]))
+    sheet[f"{place}{row}"].style = styles.HELPER
+    text = f'=IF({place}{row}=0,"",INDEX({titles},{place}{row}){more})'
+    writer.formula(sheet, row, column_index_from_string(words), text, now[1])
+    sheet[f"{words}{row}"].style = styles.LINE
+
+
+def _match(mark: str | int, cells: str) -> str:
+    return f"MATCH({number(mark)},{cells},0)"
+
+
+def _of_pairs(
+    sheet: Worksheet, row: int, first: int, held: Sequence[Condition], writer: BlockWriter
+) -> _Count:
+    """Count the conditions of the inputs that do not hold; those that are odd only name one."""
+    last = first + max(len(held), 1) - 1
+    cells = column_range(sheet.title, UNIT_COLUMN, first, last).rpartition("!")[2]
+    titles = column_range(sheet.title, TITLE_COLUMN, first, last).rpartition("!")[2]
+    wrong = [each for each in held if not each.holds and not each.pair.warning]
+    odd = [each for each in held if not each.holds and each.pair.warning]
+    verdict, count = NO if wrong else ODD if odd else YES, len(wrong)
+    link(sheet, Cell(sheet.title, row, TITLE_COLUMN), _PAIRS, INPUT_SHEET)
+    writer.formula(sheet, row, VALUE_COLUMN, f'=COUNTIF({cells},"{NO}")', float(count))
+    sheet.cell(row, VALUE_COLUMN).style = styles.FORMULA
+    at = Cell("", row, VALUE_COLUMN).coordinate
+    said = f'=IF({at}>0,"{NO}",IF(COUNTIF({cells},"{ODD}")>0,"{ODD}","{YES}"))'
+    _say(sheet, Cell(sheet.title, row, UNIT_COLUMN), said, writer, verdict)
+    worst = (wrong or odd)[:1]
+    number_ = held.index(worst[0]) + 1 if worst else 0
+    match = f"IFERROR({_match(NO, cells)},{_match(ODD, cells)})"
+    words = worst[0].title if worst else ""
+    _first(sheet, row, (_AT, _WORDS), match, titles, writer, now=(number_, words))
+    return _Count(row, verdict, words)
 
 
 def _counted(
-    sheet: Worksheet,
-    row: int,
-    title: str,
-    target: str,
-    formula: str,
-    writer: BlockWriter,
-    count: float = 0.0,
-    *,
-    bad: str = NO,
-) -> str:
-    """A count that must be zero, and whether it is; the address of the verdict."""
+    sheet: Worksheet, row: int, title: str, target: str, formula: str, writer: BlockWriter,
+    count: float = 0.0, *, bad: str = NO,
+) -> str:  # fmt: skip
+    """A count that must be zero, and whether it is; the address of the count."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), title, target)
     at, cell = (Cell(sheet.title, row, column) for column in (VALUE_COLUMN, UNIT_COLUMN))
     writer.formula(sheet, row, at.column, formula, float(count))
     sheet.cell(row, at.column).style = styles.FORMULA
     verdict = f'=IF({at.coordinate}=0,"{YES}","{bad}")'
     _say(sheet, cell, verdict, writer, bad if count else YES)
-    return cell.absolute
+    return at.absolute
 
 
 def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: BlockWriter) -> _Tests:
@@ -286,13 +374,12 @@ def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: Blo
 
 
 def _without_errors(sheet: Worksheet, row: int, areas: dict[str, str], writer: BlockWriter) -> str:
-    """A verdict for each sheet; their range."""
+    """Whether each sheet has no errors in its formulas; the range of the verdicts."""
     for at, (title, area_of) in enumerate(areas.items(), row):
-        text = f"{title}: без ошибок в формулах"
         if sheet.parent[title].sheet_state == "visible":
-            link(sheet, Cell(sheet.title, at, TITLE_COLUMN), text, title)
+            link(sheet, Cell(sheet.title, at, TITLE_COLUMN), title, title)
         else:
-            sheet.cell(at, TITLE_COLUMN, text).style = styles.TEXT
+            sheet.cell(at, TITLE_COLUMN, title).style = styles.TEXT
         formula = f'=IF(ISERROR(SUM({area_of})),"{NO}","{YES}")'
         _say(sheet, Cell(sheet.title, at, UNIT_COLUMN), formula, writer)
     return column_range(sheet.title, UNIT_COLUMN, row, row + len(areas) - 1)
@@ -308,10 +395,15 @@ def colour_verdicts(sheet: Worksheet, first: int, last: int, good: str, bad: str
 
 def fade(sheet: Worksheet, cells: str) -> None:
     """Results grey while they follow a structure that is not theirs, before other formats."""
-    for places in sheet.conditional_formatting:
-        for rule in places.rules:
-            rule.priority += 1
     rule = FormulaRule([f"{STRUCTURE_CHANGED}>0"], stopIfTrue=True, **styles.outdated())
+    before(sheet, cells, rule)
+
+
+def before(sheet: Worksheet, cells: str, rule: Rule) -> None:
+    """Add a conditional format before all others of a sheet."""
+    for entry in sheet.conditional_formatting:
+        for other in entry.rules:
+            other.priority += 1
     rule.priority = 1
     sheet.conditional_formatting.add(cells, rule)
 
@@ -334,8 +426,10 @@ def _areas(caches: CacheValues) -> dict[str, str]:
     return areas
 
 
-def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Tests) -> str:
-    """A folded column that says which rows are wrong, and which odd; its range."""
+def _limits(
+    sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Tests
+) -> tuple[str, str]:
+    """A folded column that says which rows are wrong, and which odd; its range and the titles'."""
     layout = writer.layout
     rows: dict[int, list[Field]] = defaultdict(list)
     for item in model.inputs:
@@ -369,7 +463,10 @@ def _limits(sheet: Worksheet, model: Model, writer: BlockWriter, in_order: _Test
     ):
         rule = FormulaRule([f"${letter}{min(rows)}{test_of}"], **look)
         sheet.conditional_formatting.add(" ".join(marked), rule)
-    return column_range(sheet.title, column, min(rows), max(rows))
+    states, titles = (
+        column_range(sheet.title, each, min(rows), max(rows)) for each in (column, TITLE_COLUMN)
+    )
+    return states, titles
 
 
 def _changed(item: Field, layout: Layout) -> str:

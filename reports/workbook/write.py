@@ -18,6 +18,7 @@ from reports.model.contents import Contents
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
 from reports.shared.gc_pause import uncollected
+from reports.tables.verdicts import accepted_checks
 from reports.workbook import cockpit, motion, styles
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, contents_for, diagrams_of, heading, ordered
@@ -166,6 +167,7 @@ def write_texts(book: Workbook, model: Model) -> None:
         row += len(lines) + 2
     sheet.sheet_properties.tabColor = chapter_of(OWN_SHEET, contents).colour
     set_page(sheet, ())
+    sheet.sheet_state = "veryHidden"  # nobody changes it here: the book's own file is changed
 
 
 def assemble(
@@ -265,7 +267,9 @@ def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
             if block.verdicts is not None:
                 colour_verdicts(sheet, HEADER_ROW, HEADER_ROW + _MOST_CHECKS, *block.verdicts)
             if block.id == "checks":
-                _remarks(sheet, model.remarks)
+                # Beside its check stands why a discrepancy is accepted.
+                accepted = accepted_checks(model.input, model.blocks)
+                _remarks(sheet, [text for text in model.remarks if text not in accepted])
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
 

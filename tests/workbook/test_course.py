@@ -14,9 +14,9 @@ from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.blocks import Model
 from reports.tables.registry import build_model
+from reports.workbook.conditions import conditions
 from reports.workbook.course import short_model
 from reports.workbook.layout import CONTENTS_SHEET, INPUT_SHEET, WAVES_SHEET, Layout
-from reports.workbook.verdict import conditions
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.workbook.made import coarse_book, coarse_model, coarse_values

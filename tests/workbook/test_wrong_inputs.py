@@ -19,9 +19,10 @@ from reports.shared.errors import InputError
 from reports.shared.russian import capital, uncapital
 from reports.tables.registry import build_model
 from reports.workbook.cockpit import SHEET
+from reports.workbook.conditions import conditions
 from reports.workbook.inputs import options, shown
 from reports.workbook.layout import INPUT_SHEET, Layout
-from reports.workbook.verdict import ODD, RESHAPED, RESHAPED_ROW, conditions
+from reports.workbook.verdict import ODD, RESHAPED, RESHAPED_ROW
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.cover import charts, quantities, samples_with

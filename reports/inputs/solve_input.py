@@ -71,7 +71,7 @@ def solved(model: InputFile, source: str = "") -> Solution:
 def _solution(model: InputFile) -> Solution:
     solution = solve(*engine_and_cycle(model))
     if model.bearings is not None:
-        _ = solution.columns  # results wait until they are title_of_step for; orbits may refuse
+        _ = solution.columns  # results wait until they are asked for; orbits may refuse
     return solution
 
 
@@ -276,10 +276,10 @@ def grid_remark(model: InputFile) -> str:
     coarse, fine, unit = _written(first)
     others = f"; других таких результатов: {len(errors) - 1}" if len(errors) > 1 else ""
     step, meta = fixed(model.calculation.step_deg, 0), meta_at(InputFile, _STEP)
-    title_of_step = meta.title if meta is not None else ""
+    title = meta.title if meta is not None else ""
     return (
         f"Шаг таблиц {step}°: {first.title}: {coarse}{unit}, с шагом 1° {fine}{unit}{others}; "
-        f"шаг меняют в исходных данных: «{title_of_step}»"
+        f"шаг меняют в исходных данных: «{title}»"
     )
 
 

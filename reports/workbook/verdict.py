@@ -63,7 +63,7 @@ _CHECKS = "checks"  # the list of the house; a department's book may have checks
 _REASON_COLUMN = SOURCE_COLUMN + 1
 # Columns of a count: words on the first of what it counts and on the first accepted one, where
 # both stand in their list, the words of the whole sheet.
-_WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I")
+_WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I", "J")
 _FURTHER = 4  # rows of counts besides those of lists
 _FEW = "0.00##"  # number format of what a check measures
 _DIGITS = 3  # decimals of a value in the words
@@ -177,25 +177,22 @@ def _sentence(
     cells = "&".join(f"{_ACCEPTED}{each.row}" for each in counts if each.accepted is not None)
     text = f"{GOOD}. {ACCEPTED}{taken}" if taken else GOOD
     formula = f'=IF({cells}="","{GOOD}","{GOOD}. {ACCEPTED}"&{cells})' if cells else f'="{GOOD}"'
-    for letter, following, bad, start in zip(
-        _HELP, (*_HELP[1:], ""), (ODD, NO, ""), (UNUSUAL, BAD, ""), strict=True
-    ):
-        writer.formula(sheet, top, column_index_from_string(letter), formula, text)
+    for letter in _HELP:
         sheet[f"{letter}{top}"].style = styles.HELPER
         sheet.column_dimensions[letter].outlineLevel = 1
         sheet.column_dimensions[letter].hidden = True
-        if not following:
-            break
+    for letter, bad, start in zip(_HELP, (ODD, NO, ""), (UNUSUAL, BAD, ""), strict=False):
+        writer.formula(sheet, top, column_index_from_string(letter), formula, text)
         first = next((each.words for each in counts if each.verdict == bad), None)
         text = text if first is None else start + first
         named = f'INDEX({words},MATCH("{bad}",{judged},0))'
         formula = f'=IFERROR("{start}"&{named},{letter}{top})'
-    here = quoted(sheet.title)
-    broken, beyond = (f"{here}!${_WORDS}${row}" for row in (below + 2, below + 1))
-    last = f"{here}!${_HELP[-1]}${top}"
-    fine = f'IF({beyond}<>"","{BEYOND}"&{beyond},{last})'
-    unknown = f'IF({broken}<>"","{UNKNOWN}"&{broken},{fine})'
-    return Verdict(f'=IF({STRUCTURE_CHANGED}>0,"{RESHAPED}",{unknown})', text)
+    broken, beyond = (f"{_WORDS}{row}" for row in (below + 2, below + 1))
+    fine = f'IF({beyond}<>"","{BEYOND}"&{beyond},{_HELP[-2]}{top})'
+    whole = Cell(sheet.title, top, column_index_from_string(_HELP[-1]))
+    formula = f'=IF({broken}<>"","{UNKNOWN}"&{broken},{fine})'
+    writer.formula(sheet, top, whole.column, formula, text)
+    return Verdict(f'=IF({STRUCTURE_CHANGED}>0,"{RESHAPED}",{whole.absolute})', text)
 
 
 def colour_verdict(sheet: Worksheet, cells: str) -> None:

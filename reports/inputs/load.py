@@ -69,14 +69,12 @@ def inside(index: int, path: Path) -> Path:
     return ("regimes", index, *path)
 
 
-def check_regime(values: ValidValues, regime_values: ValidValues) -> Iterator[Finding]:
+def check_regime(values: ValidValues, regime: ValidValues) -> Iterator[Finding]:
     """Findings about a regime's gas in the engine of the file."""
-    both = replace(regime_values, sections={**values.sections, **regime_values.sections})
+    both = replace(regime, sections={**values.sections, **regime.sections})
     both.sections.pop("cycle", None)
     yield from check_gas(both)
-    yield from (
-        finding for finding in check_pairs(both) if finding.path[0] in regime_values.sections
-    )
+    yield from (finding for finding in check_pairs(both) if finding.path[0] in regime.sections)
 
 
 def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:

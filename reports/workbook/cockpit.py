@@ -44,7 +44,7 @@ from reports.workbook.places import (
 )
 from reports.workbook.sheets import BlockWriter, link
 from reports.workbook.tiles import SPANS, write_tiles
-from reports.workbook.verdict import Verdict, colour_verdict, fade
+from reports.workbook.verdict import BookVerdict, colour_verdict, fade
 
 # Inputs and scalars that say which engine this is, and what came out; those that there are.
 DATA = (
@@ -77,7 +77,7 @@ def write_cockpit(
     model: Model,
     writer: BlockWriter,
     legend: Sequence[tuple[str, str]],
-    verdict: Verdict | None,
+    verdict: BookVerdict | None,
 ) -> list[Box]:
     """Fill the first sheet; the places of its charts."""
     for letter, width in _WIDTHS.items():
@@ -147,7 +147,7 @@ def _chapters(sheet: Worksheet, titles: Sequence[str], contents: Contents, top: 
     return top + (len(firsts) - 1) // len(SPANS)
 
 
-def _verdict(sheet: Worksheet, writer: BlockWriter, row: int, verdict: Verdict | None) -> int:
+def _verdict(sheet: Worksheet, writer: BlockWriter, row: int, verdict: BookVerdict | None) -> int:
     """What holds of the numbers of the book and what does not; nothing where it has no checks."""
     if verdict is None:
         return row

@@ -70,7 +70,7 @@ _DIGITS = 3  # decimals of a value in the words
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class BookVerdict:
     """What the first sheet says of the numbers: its formula and the text that it has now."""
 
     formula: str
@@ -84,7 +84,7 @@ class _Count:
     row: int
     verdict: str
     words: str
-    accepted: str | None = None  # None where the input accepts nothing of the list
+    accepted: str | None = None  # words; None where the input accepts nothing of the list
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +94,12 @@ class _Judged:
     block: ScalarTable
     first: int
     last: int
+    shift: int  # columns that it stands further right than a list of its own sheet
     sheet: str
 
     def cells(self, column: int) -> str:
         """Cells of a column of the list, as a formula of the sheet of checks names them."""
-        cells = column_range(self.block.sheet, column, self.first, self.last)
+        cells = column_range(self.block.sheet, self.shift + column, self.first, self.last)
         return cells.rpartition("!")[2] if self.block.sheet == self.sheet else cells
 
 
@@ -114,7 +115,7 @@ def judged_lists(writer: BlockWriter) -> list[ScalarTable]:
     return lists if whole and _CHECKS in judged else []
 
 
-def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> Verdict | None:
+def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> BookVerdict | None:
     """Write counts and verdicts below the checks; return what the first sheet says of them.
 
     What the counts sum up of conditions and of sheets is folded below them.  A book without
@@ -155,7 +156,7 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> Verdict 
     book.defined_names[STRUCTURE_CHANGED] = DefinedName(STRUCTURE_CHANGED, attr_text=changed)
     wrong = "+".join(f"COUNTIF({states},{_WRONG_ROW + more})" for more in (0, RESHAPED_ROW))
     _counted(sheet, below + 1, _WITHIN, INPUT_SHEET, f"={wrong}", writer)
-    out = f"IFERROR({_match(_WRONG_ROW, states)},{_match(_WRONG_ROW + RESHAPED_ROW, states)})"
+    out = _match(_WRONG_ROW, states, _match(_WRONG_ROW + RESHAPED_ROW, states))
     _first(sheet, below + 1, (_AT, _WORDS), out, names, writer)
     verdicts = _without_errors(sheet, sheets_row, titles, writer)
     broken = _BROKEN.format(len(titles))
@@ -169,14 +170,16 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> Verdict 
 
 def _sentence(
     sheet: Worksheet, top: int, below: int, counts: Sequence[_Count], writer: BlockWriter
-) -> Verdict:
+) -> BookVerdict:
     """The gravest of the counts in words, in folded cells beside the heading."""
     judged, words = (f"{letter}{top + 1}:{letter}{below}"
                      for letter in (get_column_letter(UNIT_COLUMN), _WORDS))  # fmt: skip
-    taken = "".join(each.accepted or "" for each in counts)
-    cells = "&".join(f"{_ACCEPTED}{each.row}" for each in counts if each.accepted is not None)
-    text = f"{GOOD}. {ACCEPTED}{taken}" if taken else GOOD
-    formula = f'=IF({cells}="","{GOOD}","{GOOD}. {ACCEPTED}"&{cells})' if cells else f'="{GOOD}"'
+    text, formula = GOOD, f'"{GOOD}"'
+    for each in reversed([each for each in counts if each.accepted is not None]):
+        cell = f"{_ACCEPTED}{each.row}"
+        formula = f'IF({cell}<>"{_UNKNOWN}","{GOOD}. {ACCEPTED}"&{cell},{formula})'
+        text = text if each.accepted == _UNKNOWN else f"{GOOD}. {ACCEPTED}{each.accepted}"
+    formula = f"={formula}"
     for letter in _HELP:
         sheet[f"{letter}{top}"].style = styles.HELPER
         sheet.column_dimensions[letter].outlineLevel = 1
@@ -185,14 +188,14 @@ def _sentence(
         writer.formula(sheet, top, column_index_from_string(letter), formula, text)
         first = next((each.words for each in counts if each.verdict == bad), None)
         text = text if first is None else start + first
-        named = f'INDEX({words},MATCH("{bad}",{judged},0))'
-        formula = f'=IFERROR("{start}"&{named},{letter}{top})'
+        named = f'"{start}"&INDEX({words},MATCH("{bad}",{judged},0))'
+        formula = f'=IF(COUNTIF({judged},"{bad}")=0,{letter}{top},{named})'
     broken, beyond = (f"{_WORDS}{row}" for row in (below + 2, below + 1))
-    fine = f'IF({beyond}<>"","{BEYOND}"&{beyond},{_HELP[-2]}{top})'
+    fine = f'IF({beyond}<>"{_UNKNOWN}","{BEYOND}"&{beyond},{_HELP[-2]}{top})'
     whole = Cell(sheet.title, top, column_index_from_string(_HELP[-1]))
-    formula = f'=IF({broken}<>"","{UNKNOWN}"&{broken},{fine})'
+    formula = f'=IF({broken}<>"{_UNKNOWN}","{UNKNOWN}"&{broken},{fine})'
     writer.formula(sheet, top, whole.column, formula, text)
-    return Verdict(f'=IF({STRUCTURE_CHANGED}>0,"{RESHAPED}",{whole.absolute})', text)
+    return BookVerdict(f'=IF({STRUCTURE_CHANGED}>0,"{RESHAPED}",{whole.absolute})', text)
 
 
 def colour_verdict(sheet: Worksheet, cells: str) -> None:
@@ -222,7 +225,8 @@ def _of_list(
     """Count what is not as it should be in a list and name the first; accepted ones apart."""
     layout, values = writer.layout, writer.values.scalars
     rows = [layout.cells[verdict.key].row for _, verdict in block.pairs]
-    judged = _Judged(block, rows[0], rows[-1], sheet.title)
+    shift = layout.places[block.id].column - 1
+    judged = _Judged(block, rows[0], rows[-1], shift, sheet.title)
     good, worse = block.verdicts or (YES, NO)
     failing = [pair for pair in block.pairs if values[pair[1].key] != good]
     reasons = _accepted_of(block, layout)
@@ -265,8 +269,8 @@ def _mark_accepted(
     for _, verdict in block.pairs:
         at = writer.layout.cells[verdict.key]
         mark = _TAKEN if verdict.key in reasons else _OPEN
-        said = "" if writer.values.scalars[verdict.key] == good else mark
-        formula = f'=IF({at.coordinate}="{good}","","{mark}")'
+        said = _UNKNOWN if writer.values.scalars[verdict.key] == good else mark
+        formula = f'=IF({at.coordinate}="{good}","{_UNKNOWN}","{mark}")'
         writer.formula(sheet, at.row, SOURCE_COLUMN, formula, said)
         sheet.cell(at.row, SOURCE_COLUMN).style = styles.TEXT
         if reason := reasons.get(verdict.key):
@@ -282,7 +286,7 @@ def _named(
     judged: _Judged, pairs: Sequence[tuple[Scalar, Scalar]], writer: BlockWriter, reason: str = "",
 ) -> str:  # fmt: skip
     """Name the first line of a list that has a mark: title, value and reason; else nothing."""
-    at, text = f"{columns[0]}{row}", ""
+    at, text = f"{columns[0]}{row}", _UNKNOWN
     values = f'" = "&ROUND(INDEX({judged.cells(VALUE_COLUMN)},{at}),{_DIGITS})'
     if columns[1] == _ACCEPTED:
         values += f'&" — "&INDEX({judged.cells(_REASON_COLUMN)},{at})'
@@ -294,27 +298,29 @@ def _named(
         line = writer.layout.cells[verdict.key].row - judged.first + 1
     _first(
         sheet, row, columns, _match(*marks), judged.cells(TITLE_COLUMN), writer, f"&{values}",
-        (line, text) if pairs else (0, ""),
+        (line, text) if pairs else (0, _UNKNOWN),
     )  # fmt: skip
     return text
 
 
 def _first(
     sheet: Worksheet, row: int, columns: tuple[str, str], match: str, titles: str,
-    writer: BlockWriter, more: str = "", now: tuple[int, str] = (0, ""),
+    writer: BlockWriter, more: str = "", now: tuple[int, str] = (0, _UNKNOWN),
 ) -> None:  # fmt: skip
     """Name the line that ``match`` finds, if any; its number stands in a folded cell."""
     place, words = columns
-    formula = f"=IFERROR({match},0)"
+    formula = f"={match}"
     writer.formula(sheet, row, column_index_from_string(place), formula, float(now[0]))
     sheet[f"{place}{row}"].style = styles.HELPER
-    text = f'=IF({place}{row}=0,"",INDEX({titles},{place}{row}){more})'
+    text = f'=IF({place}{row}=0,"{_UNKNOWN}",INDEX({titles},{place}{row}){more})'
     writer.formula(sheet, row, column_index_from_string(words), text, now[1])
     sheet[f"{words}{row}"].style = styles.LINE
 
 
-def _match(mark: str | int, cells: str) -> str:
-    return f"MATCH({number(mark)},{cells},0)"
+def _match(mark: str | int, cells: str, other: str = "0") -> str:
+    """Number of the first cell that holds a mark, else ``other``; IFERROR not all programs have."""
+    word = number(mark)
+    return f"IF(COUNTIF({cells},{word})=0,{other},MATCH({word},{cells},0))"
 
 
 def _of_pairs(
@@ -335,8 +341,8 @@ def _of_pairs(
     _say(sheet, Cell(sheet.title, row, UNIT_COLUMN), said, writer, verdict)
     worst = (wrong or odd)[:1]
     number_ = held.index(worst[0]) + 1 if worst else 0
-    match = f"IFERROR({_match(NO, cells)},{_match(ODD, cells)})"
-    words = worst[0].title if worst else ""
+    match = _match(NO, cells, _match(ODD, cells))
+    words = worst[0].title if worst else _UNKNOWN
     _first(sheet, row, (_AT, _WORDS), match, titles, writer, now=(number_, words))
     return _Count(row, verdict, words)
 

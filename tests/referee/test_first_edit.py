@@ -35,7 +35,7 @@ PYTHON = "/usr/bin/python3"
 ENGINES = ("two-stroke", *(("gots-diesel", "yamz-238", "ecoboost-10") if ALL else ()))
 COMPUTED = "mwm-6"  # with values that the program computes: they do not follow an open book
 # Cells of the flywheel, whose correction for the step of the tables is that of the build.
-OF_THE_BUILD = {"Маховик": 6, "Момент инерции": 30, "Содержание": 1}
+OF_THE_BUILD = {"Маховик": 6, "Момент инерции": 30, "Содержание": 2}
 INPUTS = {"geometry_rod_length_mm": 1.08, "regime_speed_rpm": 0.95, "geometry_bore_mm": 1.03}
 
 

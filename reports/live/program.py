@@ -57,6 +57,13 @@ class LiveProgram:
         }  # fmt: skip
 
     @cached_property
+    def inputs_read(self) -> frozenset[str]:
+        """Values that the steps read and no step gives."""
+        cells = {self.keys[i] for step in self.steps for i in step[3]}
+        cells |= {each for key in cells & self.runs.keys() for each in self.runs[key]}
+        return frozenset(cells & self.values.keys())
+
+    @cached_property
     def size(self) -> int:
         """Letters of the functions and the data."""
         return len(self.script()) + len(json.dumps(self.data(), ensure_ascii=False))

@@ -287,7 +287,7 @@ def _print_summary(scalars: Mapping[str, tuple[Quantity, float | str]]) -> None:
     help="Папка для результатов (по умолчанию текущая).",
 )
 @click.option(
-    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet"]), multiple=True,
+    "--only", type=click.Choice(["xlsx", "pdf", "html", "docx", "sheet", "live"]), multiple=True,
     help="Только этот вид документа; можно повторить.",
 )  # fmt: skip
 @path_option("--style", metavar="ФАЙЛ", help="Оформление отчёта: файл кафедры .toml.")

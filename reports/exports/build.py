@@ -37,6 +37,7 @@ ENDINGS: dict[Kind, tuple[str, ...]] = {
     "html": (".html",),
     "docx": (".docx",),
     "sheet": ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf"),
+    "live": ("-live.html",),
 }
 Input = tuple[Path, Loaded]
 Chapters = Callable[[Path, Loaded], Further]
@@ -131,7 +132,11 @@ def build(
         making = _Making(
             path, folder, model, values, style, further, progress, has_report, "sheet" in kinds
         )
-        book = making.workbook(beside="pdf" in kinds) if {"xlsx", "pdf"} & set(kinds) else bytes
+        book = (
+            making.workbook(beside="pdf" in kinds)
+            if {"xlsx", "pdf", "live"} & set(kinds)
+            else bytes
+        )
         if "pdf" in kinds:
             try:
                 making.pdf(book)
@@ -141,6 +146,8 @@ def build(
             making.docx()
         if "sheet" in kinds:
             making.sheet()
+        if "live" in kinds:
+            making.live(book())
         if "xlsx" in kinds:
             making.written(".xlsx", book(), first=True)
         if wants_html:
@@ -214,6 +221,12 @@ class _Making:
     def html(self) -> None:
         self.progress.step("Отчёт HTML")
         self.written(".html", self.report.page("screen").encode())
+
+    def live(self, book: bytes) -> None:
+        from reports.live.page import live_page
+
+        self.progress.step("Живая страница")
+        self.written("-live.html", live_page(self.model, book, self.path.stem))
 
     @cached_property
     def report(self) -> Report:

@@ -69,6 +69,20 @@ def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value])
     return repacked(data, {name: text.encode() for name, text in changed.items()})
 
 
+def without_caches(data: bytes) -> bytes:
+    """A workbook whose formulas have no saved values: all is calculated when it is opened.
+
+    Raises:
+        UnicodeDecodeError: a part is not in UTF-8.
+    """
+    with zipfile.ZipFile(BytesIO(data)) as archive:
+        parts = [*sheet_parts(archive).values(), _BOOK]
+        texts = {part: archive.read(part).decode("utf-8") for part in parts}
+    changed = {part: _unsaved(text) for part, text in texts.items() if part != _BOOK}
+    changed[_BOOK] = _calculated(texts[_BOOK])
+    return repacked(data, {name: text.encode() for name, text in changed.items()})
+
+
 @dataclass
 class _SheetText:
     """The text of a sheet; ``lost`` are cells that had formulas."""

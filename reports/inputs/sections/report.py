@@ -51,8 +51,9 @@ FORMATS = {
     "html": "отчёт HTML",
     "docx": "записка Word",
     "sheet": "лист динамики: PDF и DXF",
+    "live": "живая страница",
 }
-Format = Literal["xlsx", "pdf", "html", "docx", "sheet"]
+Format = Literal["xlsx", "pdf", "html", "docx", "sheet", "live"]
 USUAL_FORMATS: tuple[Format, ...] = ("xlsx", "pdf")
 FILE_KEYS = ("style", "templates", "compare")  # what names files of the machine
 FRAMES = {"none": "без рамки", "eskd": "рамка и основная надпись по ГОСТ 2.104"}

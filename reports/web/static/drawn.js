@@ -19,11 +19,13 @@ export function between(xs, ys, x) { // nothing where there is no curve
 }
 
 // Curves of a chart, then those of the other engine.
+const byStroke = (own, colours) => own.strokes && {borderColor: ({p0DataIndex: i}) =>
+  colours[Math.min(Math.floor(own.path.phi[i] / 180), own.strokes.length - 1)]};
 const curvesOf = (own, other, colours) => [own, other].filter(Boolean).flatMap((chart, second) =>
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
     label: second ? `${curve.name} (второй)` : curve.name, borderColor: colours[i % colours.length],
-    borderDash: second ? [2, 4] : DASHES[i % 6], line: second ? "dotted" : i ? "dashed" : "solid",
+    borderDash: second ? [2, 4] : DASHES[i % 6], segment: !second && !i && byStroke(chart, colours) || undefined, line: second ? "dotted" : i ? "dashed" : "solid",
   })));
 
 const hidden = new Set(); // curves that a person has switched off, by chart and name
@@ -46,10 +48,68 @@ function roundAngles(axis) { // round angles, however near one looks
 // It comes when the mechanism is there already; what feels two fingers, only where there are fingers.
 let isThere = false;
 async function library() {
-  await import("./vendor/chart.umd.min.js");
-  if (navigator.maxTouchPoints) await import("./vendor/hammer.min.js");
-  await import("./vendor/chartjs-plugin-zoom.min.js");
+  if (!globalThis.Chart) { // else the page carries it
+    await import("./vendor/chart.umd.min.js");
+    if (navigator.maxTouchPoints) await import("./vendor/hammer.min.js");
+    await import("./vendor/chartjs-plugin-zoom.min.js");
+  }
+  if (!isThere) Chart.register({id: "words", afterDatasetsDraw: words});
   isThere = true;
+}
+
+// «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves.
+function write(ink, text, x, y, colour) {
+  const [name, index = "", rest = ""] = text.split(/_(\(\d+\)|[^ _,;=(/]+)/);
+  Object.assign(ink, {fillStyle: colour, strokeStyle: "#8882", lineWidth: 3, textBaseline: "middle", textAlign: "left"});
+  for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
+    ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
+    ink.fillText(part, x, y + drop);
+    x += ink.measureText(part).width;
+  }
+}
+
+// Each curve is called by its name where it stands farthest from the others; a journal's load has its
+// greatest vector, its mean as a circle and its strokes by colours.
+function words(chart) {
+  const {ctx: ink, chartArea: area, scales: {x, y}, canvas: {own}} = chart, taken = [];
+  if (!own) return;
+  const isFree = (px, py) => taken.every(([tx, ty]) => Math.abs(tx - px) > 48 || Math.abs(ty - py) > 16);
+  const sets = chart.data.datasets.map((set, i) => [set, chart.isDatasetVisible(i)]).filter(([, isVisible]) => isVisible);
+  ink.save();
+  if (own.kind === "line" && sets.length > 1) for (const [set] of sets) {
+    const points = set.data.filter(p => p.y !== null && p.x >= x.min && p.x <= x.max);
+    const far = p => Math.abs(p.y - (y.min + y.max) / 2);
+    const spots = points.toSorted((a, b) => far(b) - far(a)).map(p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)]);
+    const [px, py] = spots.find(spot => isFree(...spot)) ?? [];
+    if (px === undefined) continue;
+    taken.push([px, py]);
+    write(ink, set.label, Math.min(px + 6, area.right - 44), Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor);
+  }
+  if (own.marks) vector(ink, own, chart);
+  if (own.strokes) own.strokes.forEach((name, i) => write(ink, name, area.left + 8, area.bottom - 12 - 16 * (own.strokes.length - 1 - i), inks()[i]));
+  ink.restore();
+}
+
+function vector(ink, {marks}, {scales: {x, y}}) {
+  const {color} = getComputedStyle(document.body), at = (px, py) => [x.getPixelForValue(px), y.getPixelForValue(py)];
+  const [from, to] = [at(0, 0), at(marks.x, marks.y)], along = Math.atan2(to[1] - from[1], to[0] - from[0]);
+  Object.assign(ink, {strokeStyle: color, fillStyle: color, lineWidth: 1.5});
+  ink.beginPath();
+  ink.moveTo(...from);
+  ink.lineTo(...to);
+  ink.stroke();
+  ink.beginPath();
+  for (const turn of [0, 2.75, -2.75]) ink.lineTo(to[0] + (turn && 10 * Math.cos(along + turn)), to[1] + (turn && 10 * Math.sin(along + turn)));
+  ink.fill();
+  ink.setLineDash([2, 3]);
+  ink.lineWidth = 1;
+  ink.beginPath();
+  ink.arc(...from, Math.abs(x.getPixelForValue(marks.mean) - from[0]), 0, 2 * Math.PI);
+  ink.stroke();
+  ink.setLineDash([]);
+  const out = Math.abs(x.getPixelForValue(marks.mean) - from[0]) * Math.SQRT1_2;
+  write(ink, marks.name, to[0] + 10, to[1] + (to[1] < from[1] ? 10 : -10), color);
+  write(ink, marks.meanName, from[0] + out + 4, from[1] + out + 6, color);
 }
 
 async function drawLater(canvas, ...given) {
@@ -60,6 +120,7 @@ async function drawLater(canvas, ...given) {
 
 function draw(canvas, own, datasets, color) {
   if (canvas.datasets === datasets) return;
+  canvas.own = own;
   const chart = Chart.getChart(canvas), isLine = own.kind === "line"; // else both axes have one scale
   canvas.datasets = datasets;
   const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key]).filter(v => v !== null)));
@@ -143,7 +204,7 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
         <div class="tip" hidden /></div>
       <ul class="legend">${curves.map(curve => html`
         <li><button aria-pressed=${String(shown(curve))} style=${`--line: ${curve.line}; --ink: ${curve.borderColor}`}
-          onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output /></button></li>`)}</ul>
+          onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output aria-live="off" /></button></li>`)}</ul>
     </figure>`;
 });
 

@@ -30,12 +30,13 @@ export function section(group, change, reshape) {
   return memo(`section ${key}`, parts, () => drawn(group, change, reshape));
 }
 
-function drawn({title, key, path, entries, more, drawing, whole}, change, reshape) {
+function drawn({title, key, path, entries, more, drawing, whole, isPlain}, change, reshape) {
   const wanted = state.find.trim().toLowerCase(), all = entries.flat();
   const found = f => `${f.title} ${f.key} ${f.symbol}`.toLowerCase().includes(wanted);
   const list = path?.reduce((part, each) => part?.[each], state.raw) ?? [];
   const button = (label, at, value) => html`<button onClick=${() => change(key, at, value, true)}>${label}</button>`;
   const fields = entry => entry.filter(found).map(f => field(f, change, reshape));
+  if (isPlain) return html`<div key=${key}>${entries.map(entry => entry.map(f => field(f, change, reshape)))}</div>`;
   return html`
     <details key=${key} data-key=${key} open=${wanted || [key, ...all.map(f => f.key)].some(isWrong) || state.open.has(key)}
       hidden=${wanted && !all.some(found)}
@@ -55,16 +56,16 @@ function field(f, change, reshape) {
   const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`, reshaped = RESHAPED[f.key];
   const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
   const taken = reshaped ? {onChange: e => reshape({[reshaped]: e.target.value})} : {onInput: e => type(e.target.value)};
-  const told = {id, ...taken, title: f.key, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": String(isWrong(f.key))};
+  const told = {id, ...taken, title: f.key, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": String(isWrong(f.key)), disabled: f.fixed};
   const range = f.number && `от ${printed(f.min, 9)} до ${printed(f.max, 9)} ${f.unit}`;
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
-    <div key=${f.key} class=${f.number || f.choices ? "field" : "field wide"} data-key=${f.key}>
+    <div key=${f.key} class=${`field ${f.number || f.choices ? "" : "wide"} ${f.fixed ? "fixed" : ""}`} data-key=${f.key}>
       <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
       ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
         : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
-      <span>${f.unit}</span>${!reshaped && slider(f, text, type)}
-      <small id=${`h-${f.key}`}>${[range, f.optional && "можно не задавать"].filter(Boolean).join(" · ")}</small>
+      <span>${f.unit}</span>${!reshaped && !f.fixed && slider(f, text, type)}
+      <small id=${`h-${f.key}`}>${[f.fixed ? "нужен build" : range, f.optional && "можно не задавать"].filter(Boolean).join(" · ")}</small>
       <div id=${`e-${f.key}`}>${said(f.key)}</div>
     </div>`;
 }

@@ -4,7 +4,7 @@ import {html, memo, row, symbol, table, printed} from "./common.js";
 import {between, inks} from "./drawn.js";
 
 const range = values => [Math.min(...values), Math.max(...values)];
-const LONG = .8; // of the bore: the greatest force
+const LONG = 1.1; // of the bore: the greatest force
 const greatest = ({forces}) => Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
 const within = (angle, period) => (angle % period + period) % period;
 const head = ({joints, bore}, {rod}) => Math.max(...joints[rod].at(-1)[1]) + .5 * bore; // of a cylinder
@@ -40,7 +40,7 @@ function front(moves) { // from the nose, as the engine stands
       ${each.map((one, i) => i !== chosen && html`<g transform=${`rotate(${one.axis + upright})`}>${cylinder(moves, i, "faint")}</g>`)}
       <g transform=${`rotate(${each[chosen].axis + upright})`}>${cylinder(moves, chosen)}
         ${FORCES.map(([key, name, colour]) => html`<g class="force" data-force=${key} style=${`--ink: ${inks()[colour]}`}>
-          <path /><circle r=${bore / 28} /><text font-size=${bore / 5}>${name}</text></g>`)}</g>
+          <path /><text font-size=${bore / 6}>${name}</text></g>`)}</g>
     </svg>`;
 }
 
@@ -60,7 +60,7 @@ const star = ({throws}) => html`
   </svg>`;
 
 const values = moves => table(`Удельные силы, цилиндр ${moves.cylinder + 1}`, Object.entries(moves.forces).map(([key, f]) =>
-  row([[symbol(f.symbol)], [html`<output data-value=${key} />`, "n"], [f.unit, "s"]])));
+  row([[symbol(f.symbol)], [html`<output data-value=${key} aria-live="off" />`, "n"], [f.unit, "s"]])));
 
 export const parts = (moves, isDark, choose) => Object.fromEntries(Object.entries({front, strip, star, values})
   .map(([name, make]) => [name, memo(name, [moves, isDark], () => make(moves, choose))]));
@@ -83,7 +83,7 @@ export function pose(root, moves, phi, isTold) {
     chamber.setAttribute("transform", `translate(0 ${-heads[number]}) scale(1 ${Math.max(0, crown + heads[number])})`);
     chamber.style.opacity = .1 + .9 * Math.sqrt(share);
   }
-  arrows(root.moving, moves, phi, at[moves.cylinder]);
+  arrows(root.moving, moves, phi, at[moves.cylinder], isTold);
   for (const {node, name, angle} of throws) {
     node.setAttribute("transform", `rotate(${angle + phi + upright})`);
     name.setAttribute("transform", `rotate(${-angle - phi - upright} 0 -108)`);
@@ -103,17 +103,19 @@ const collected = (root, moves) => ({
   values: [...root.querySelectorAll("[data-value]")].map(node => [node, moves.forces[node.dataset.value]]),
 });
 
-function arrows({forces: nodes, most, upright}, {forces, phi: over, each, bore, cylinder: chosen}, phi, {points, own}) {
+function arrows({forces: nodes, most, upright}, {forces, phi: over, each, bore, cylinder: chosen}, phi, {points, own}, isTold) {
   const axis = each[chosen].axis + upright, [pin, piston] = [points[1], points.at(-1)];
   const places = [[piston, 90], [piston, 180], [pin, own], [pin, own + 90]];
   nodes.forEach((node, i) => {
-    const [place, along] = places[i], [line, dot, name] = node.children;
-    const far = LONG * bore * between(over, forces[FORCES[i][0]].values, phi) / most;
+    const [place, along] = places[i], [line, name] = node.children, [key, word] = FORCES[i];
+    const force = between(over, forces[key].values, phi), far = LONG * bore * force / most;
+    const barb = Math.sign(far) * Math.min(bore / 11, Math.abs(far)), beyond = far + Math.sign(far) * bore / 5;
     node.style.display = Math.abs(far) > bore / 40 ? "" : "none";
     node.setAttribute("transform", `translate(${place}) rotate(${along})`);
-    line.setAttribute("d", `M0 0h${far}`);
-    dot.setAttribute("cx", far);
-    name.setAttribute("transform", `translate(${far + Math.sign(far) * bore / 6} 0) rotate(${-axis - along})`);
+    line.setAttribute("d", `M0 0h${far}m${-barb} ${-barb / 2}l${barb} ${barb / 2}l${-barb} ${barb / 2}`);
+    // A word across the rod stands beside it.
+    name.setAttribute("transform", `translate(${beyond} 0) rotate(${-axis - along})${i === 0 ? ` translate(${bore * .62} 0)` : ""}`);
+    if (isTold) name.textContent = `${word} ${printed(force, 2)}`;
   });
 }
 

@@ -1,0 +1,1 @@
+"""The live page: an engine as one file of HTML that calculates itself."""

@@ -1,0 +1,156 @@
+"""The live page in Chromium: a file, no network, the numbers of a new build after every edit."""
+
+from __future__ import annotations
+
+import random
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reports.inputs.fields import key_text, to_mapping
+from reports.inputs.load import load_mapping
+from reports.model.evaluation import Evaluation
+from reports.shared.russian import fixed
+from reports.tables.registry import build_model
+from reports.workbook.course import short_model
+from reports.workbook.layout import Layout
+from reports.workbook.read import load_workbook_input
+from tests.conftest import sample
+from tests.cover import model_of, sparse
+from tests.live.conftest import Opened
+from tests.live.node import distance
+from tests.referee.changes import changed_everywhere
+from tests.web import axe
+from tests.web.conftest import until
+from tools.referees.by_libreoffice import LibreOffice
+
+MOST_BYTES = 3_000_000
+SET = "([key, value]) => { try { kshm.set(key, value) } catch (e) { return e.message } }"
+MOVING = "keys => keys.filter(key => !live.isFixed(key))"
+GET = "keys => keys.map(key => kshm.get(key))"
+NAMES = sparse(("gots-diesel", "articulated", "two-stroke", "yamz-238"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_edit_gives_the_numbers_of_a_new_build(
+    name: str, live: Opened, live_file: Callable[[str], Path]
+) -> None:
+    assert live_file(name).stat().st_size < MOST_BYTES
+    page, model = live(name), model_of(name)
+    page.wait_for_selector("#numbers")
+    changes, changed = changed_everywhere(model.input, random.Random(name), 0.02)
+    free, titles = page.evaluate("[kshm.keys(), live.state.titles]")
+    refused = []
+    for change in changes:
+        if key_text(change.field.path) not in titles:
+            continue  # nothing of the short book reads it
+        told = page.evaluate(
+            SET,
+            [key_text(change.field.path), change.value],
+        )
+        refused += [told] if told else []
+    assert "\n".join(refused) == ""
+    second = Evaluation(build_model(changed))
+    keys = page.evaluate(MOVING, [key for key in model.nodes if key in free])
+    found = page.evaluate(GET, keys)
+    far = {key: distance(np.asarray(second.value(key)).tolist(), value)
+           for key, value in zip(keys, found, strict=True)}  # fmt: skip
+    assert {key: each for key, each in far.items() if each > 1e-9} == {}
+    shown = page.inner_text("[data-key=M_mean] b")
+    assert shown == fixed(
+        float(second.value("M_mean")), model.scalars["M_mean"].quantity.digits.decimals
+    )
+    assert not page.faults
+
+
+def test_a_value_beyond_its_limits_leaves_the_last_good_engine(live: Opened) -> None:
+    page = live("gots-diesel")
+    before = page.inner_text("[data-key=M_mean] b")
+    box = page.locator("#five input").first
+    for text in ("5000", "abc"):
+        box.fill(text)
+        page.wait_for_selector("#five .error")
+        assert page.inner_text("[data-key=M_mean] b") == before
+        assert page.is_visible("#stale")
+    assert "нужно число" in page.inner_text("#five .error")
+    box.fill("90,5")
+    page.wait_for_selector("#stale", state="hidden")
+    assert page.evaluate("kshm.get('geometry_bore_mm')") == 90.5
+    assert page.inner_text("[data-key=M_mean] b") != before
+    told = page.evaluate(SET, ["engine.cylinders", 4])
+    assert told == "engine.cylinders: это строение двигателя; нужен build"
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1366, "light"), (390, "dark")])
+def test_the_page_fits_and_a_reader_of_screens_finds_its_way(
+    width: int, scheme: str, live: Opened
+) -> None:
+    page = live("gots-diesel", width, color_scheme=scheme)
+    page.wait_for_selector("#chart-fig50 canvas")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    assert axe.faults(page) == []
+    tops = page.evaluate("""["#five [data-key='geometry.bore_mm'] input", "#charts figure"]
+        .map(each => document.querySelector(each).getBoundingClientRect().top)""")
+    assert max(tops) < 2 * 844
+    page.evaluate("live.state.spoken = []; new MutationObserver(all => live.state.spoken.push("
+                  "...all.map(e => e.target.textContent).filter(Boolean)))"
+                  ".observe(document.querySelector('[role=status]'), {subtree: true, "
+                  "childList: true, characterData: true})")  # fmt: skip
+    page.get_by_role("button", name="Пуск").click()
+    page.wait_for_timeout(500)
+    assert page.evaluate("live.state.spoken.length") == 0
+    assert page.evaluate(
+        "[...document.querySelectorAll('output')].every(e => e.ariaLive === 'off')"
+    )
+    page.get_by_role("button", name="Стоп").click()
+    until(page, "new Set(live.state.spoken).size === 1")
+    assert not page.faults
+
+
+def test_without_a_script_the_results_are_there(live: Opened) -> None:
+    page = live("gots-diesel", java_script_enabled=False)
+    text = page.inner_text("#plain")
+    assert "113,5" in text
+    assert "Числа сборки" in text or "числа сборки" in text
+
+
+def test_what_is_taken_home_is_the_changed_engine(live: Opened, tmp_path: Path) -> None:
+    page = live("gots-diesel")
+    page.evaluate("kshm.set('geometry.bore_mm', 91.25)")
+    page.evaluate("kshm.set('calculation.method', 'exact')")
+    raw = to_mapping(sample("gots-diesel"))
+    raw["geometry"]["bore_mm"], raw["calculation"]["method"] = 91.25, "exact"
+    wanted = load_mapping(raw, source="").model
+    assert load_mapping(tomllib.loads(page.evaluate("live.toml()")), source="").model == wanted
+    for button, name in (("#save", "правка.toml"), ("#book", "правка.xlsx"), ("#card", ".png")):
+        with page.expect_download() as coming:
+            page.click(button)
+        assert coming.value.suggested_filename.endswith(name)
+        coming.value.save_as(tmp_path / f"taken{Path(name).suffix}")
+    assert load_workbook_input(tmp_path / "taken.xlsx").model == wanted
+    assert not page.faults
+
+
+@pytest.mark.libreoffice
+def test_libreoffice_finds_the_page_s_numbers_in_the_book_that_it_gave(
+    live: Opened, libreoffice: LibreOffice, tmp_path: Path
+) -> None:
+    page, short = live("gots-diesel"), short_model(model_of("gots-diesel"))
+    page.evaluate("kshm.set('geometry.bore_mm', 91.25)")
+    page.evaluate("kshm.set('regime.speed_rpm', 4000)")
+    with page.expect_download() as coming:
+        page.click("#book")
+    coming.value.save_as(tmp_path / "taken.xlsx")
+    (book,) = libreoffice.recalculate([(tmp_path / "taken.xlsx").read_bytes()])
+    layout = Layout.of(short)
+    keys = page.evaluate(MOVING, list(short.scalars))
+    cells = [layout.cells[key] for key in keys]
+    theirs = [book[cell.sheet][cell.coordinate] for cell in cells]
+    ours = page.evaluate(GET, keys)
+    far = [key for key, own, value in zip(keys, ours, theirs, strict=True)
+           if distance(own, value) > 1e-9]  # fmt: skip
+    assert len(keys) > 300
+    assert far == []

@@ -32,9 +32,11 @@ from reports.recalculation.grid import (
 )
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
+_STYLE = re.compile(rb'(?<=<c )(r="[A-Z]+[0-9]+") s="[0-9]+"')  # `<` stands in no text
+_ROW_STYLE = re.compile(rb'(?<=<row )(r="[0-9]+")[^>]*>')
 _UTF8 = re.compile(rb"\s*(<\?xml[^>]*encoding=[\"'](?i:utf-8)[\"'][^>]*\?>|<(?!\?))")
 _DIGITS = b"0123456789+-.eE"  # of numbers as programs save them
-_KEPT = 400  # a class of thirty has some twenty
+_MAX_FORMS = 400  # of which those of mistakes come once
 
 Slot = tuple[int, int, str, bool, str]  # row, column, kind and text of a value, of a formula or not
 Parser = Callable[[CellGrid, str, bytes, list[str]], list[Slot]]
@@ -79,9 +81,11 @@ class Forms:
 
     def fill(self, grid: CellGrid, title: str, data: bytes, strings: list[str]) -> bool:
         """Put a sheet of a known form into a grid; False where it must be parsed."""
-        form = self._known.get(_key(title, data))
+        key = _key(title, data)
+        form = self._known.get(key)
         if form is None or grid.cells + form[1] > MAX_CELLS:
             return False
+        self._known[key] = self._known.pop(key)  # used last, dropped last
         parts, cells = form
         texts = _SAVED.findall(data)
         try:
@@ -95,7 +99,7 @@ class Forms:
     def learn(self, grid: CellGrid, title: str, data: bytes, cells: int, parse: Parser) -> None:
         """Keep the form of a sheet that was just parsed, when it has come for the second time."""
         key = _key(title, data)
-        while len(self._known) >= _KEPT:
+        while len(self._known) >= _MAX_FORMS:
             self._known.pop(next(iter(self._known)))
         if key not in self._known:
             self._known[key] = None
@@ -124,7 +128,9 @@ class Forms:
 
 
 def _key(title: str, data: bytes) -> tuple[str, bytes]:
-    return title, blake2b(_SAVED.sub(b"<v/>", data)).digest()
+    """Title and digest of a sheet without its values and its looks."""
+    bare = _STYLE.sub(rb"\1", _SAVED.sub(b"<v/>", data))
+    return title, blake2b(_ROW_STYLE.sub(rb"\1>", bare)).digest()
 
 
 def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:

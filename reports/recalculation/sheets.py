@@ -32,8 +32,8 @@ from reports.recalculation.grid import (
 )
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
-_STYLE = re.compile(rb'(?<=<c )(r="[A-Z]+[0-9]+") s="[0-9]+"')  # `<` stands in no text
-_ROW_STYLE = re.compile(rb'(?<=<row )(r="[0-9]+")[^>]*>')
+_VALUES = re.compile(rb"(?<=<v>)[^<]+(?=</v>)")
+_LOOKS = re.compile(rb' (?:s|ht|spans|customFormat|customHeight|x14ac:dyDescent)="[\w.: ]*"(?=[ />])')
 _UTF8 = re.compile(rb"\s*(<\?xml[^>]*encoding=[\"'](?i:utf-8)[\"'][^>]*\?>|<(?!\?))")
 _DIGITS = b"0123456789+-.eE"  # of numbers as programs save them
 _MAX_FORMS = 400  # of which those of mistakes come once
@@ -129,8 +129,7 @@ class Forms:
 
 def _key(title: str, data: bytes) -> tuple[str, bytes]:
     """Title and digest of a sheet without its values and its looks."""
-    bare = _STYLE.sub(rb"\1", _SAVED.sub(b"<v/>", data))
-    return title, blake2b(_ROW_STYLE.sub(rb"\1>", bare)).digest()
+    return title, blake2b(_LOOKS.sub(b"", _VALUES.sub(b"#", data))).digest()
 
 
 def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:

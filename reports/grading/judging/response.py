@@ -215,7 +215,11 @@ class FormulaResponse:
         The first are lists of numbers, whatever they are made of; the second calculate.
         """
         trials = (self.tryout.own, self._between_rows)
-        turned_values = self.tryout.run([node], trials, rounded=False)[node]
+        if node not in self._turned_values:
+            calculated = (n for n in self._tried if not isinstance(self._values[n], str))
+            nodes = dict.fromkeys((node, *calculated))
+            self._turned_values.update(self.tryout.run(list(nodes), trials, rounded=False))
+        turned_values = self._turned_values[node]
         if isinstance(turned_values, str):
             nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
             return ~nowhere, nowhere
@@ -225,6 +229,11 @@ class FormulaResponse:
         change, wanted = turned_values[1] - turned_values[0], right[1] - right[0]
         near = np.abs(change - wanted) <= allowed + _NEARLY * np.abs(wanted)
         return own & ~between, near & _differ(*turned_values)
+
+    @cached_property
+    def _turned_values(self) -> dict[str, list[Array] | str]:
+        """Values at the angles of the rows and between them, of all nodes once one is asked for."""
+        return {}
 
     @cached_property
     def _between_rows(self) -> Trial:

@@ -33,7 +33,9 @@ from reports.recalculation.grid import (
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
 _VALUES = re.compile(rb"(?<=<v>)[^<]+(?=</v>)")
-_LOOKS = re.compile(rb' (?:s|ht|spans|customFormat|customHeight|x14ac:dyDescent)="[\w.: ]*"(?=[ />])')
+_LOOKS = re.compile(
+    rb' (?:s|ht|spans|customFormat|customHeight|x14ac:dyDescent)="[\w.: ]*"(?=[ />])'
+)
 _UTF8 = re.compile(rb"\s*(<\?xml[^>]*encoding=[\"'](?i:utf-8)[\"'][^>]*\?>|<(?!\?))")
 _DIGITS = b"0123456789+-.eE"  # of numbers as programs save them
 _MAX_FORMS = 400  # of which those of mistakes come once

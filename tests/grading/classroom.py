@@ -73,7 +73,7 @@ def issue_class(folder: Path, count: int, rubric: str | None = None) -> Result:
 def registered(folder: Path, count: int, rubric: str) -> Register:
     """A class whose books are made when their students open them."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(issuing, "_write", lambda *given: None)
+        patch.setattr(issuing.Handouts, "__call__", lambda *given: b"")
         return issue_class(folder, count, rubric).register
 
 

@@ -167,6 +167,8 @@ def _filled(part: _FormColumn, texts: list[bytes], strings: list[str]) -> CellCo
             raise ValueError
         if value != "":
             column.constants[row] = value
+    if form.constants and part.constants:  # texts stand among the numbers
+        column.constants = dict(sorted(column.constants.items()))
     for row, k in part.errors:
         column.errors[row] = _text(texts[k])
     return column

@@ -41,6 +41,7 @@ _LEAST_CHANGE = 0.005  # points that are printed
 @path_option("--rubric", metavar="ФАЙЛ", help="Рубрика TOML (без неё — правила по умолчанию).")
 @path_option("--ranges", metavar="ФАЙЛ", help="Диапазоны, если их нет в разделе [variants].")
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @path_option("--try-rubric", "samples", metavar="ФАЙЛ",
              help="Не выдавать, а проверить рубрику на пробных работах.")  # fmt: skip
 @verbose_option
@@ -52,6 +53,7 @@ def issue(
     rubric: Path | None,
     ranges: Path | None,
     secret: Path | None,
+    jobs: int,
     samples: Path | None,
 ) -> int:
     """Выдать каждому студенту свой вариант и рабочую книгу."""
@@ -61,10 +63,12 @@ def issue(
 
     if roster is None or folder is None:
         raise KshmError("нужны список группы (--roster) и папка для выдачи (-o)")
+    if jobs < 0:
+        raise KshmError("--jobs должно быть положительным")
 
     done = issue_books(
         source, roster, folder, seed=seed,
-        rubric_file=rubric, ranges_file=ranges, secret_file=secret,
+        rubric_file=rubric, ranges_file=ranges, secret_file=secret, jobs=jobs,
     )  # fmt: skip
     if done.new_secret is not None:
         click.echo(

@@ -113,10 +113,8 @@ class CellColumn:
 
     def cut(self, rows: set[int]) -> None:
         """Take the formulas out of some rows."""
-        runs: list[Run] = []
-        for run in self.runs:
-            runs += _without(run, rows)
-        self.runs = runs
+        if self.runs:
+            self.runs = [part for run in self.runs for part in _without(run, rows)]
 
 
 @dataclass(slots=True)
@@ -208,8 +206,11 @@ def is_backwards(run: Run, reference: Reference) -> bool:
 
 def _without(run: Run, rows: set[int]) -> list[Run]:
     """The parts of a run outside some rows."""
-    if rows.isdisjoint(range(run.first, run.last + 1)):
+    span = range(run.first, run.last + 1)
+    if rows.isdisjoint(span):
         return [run]
+    if rows.issuperset(span):
+        return []
     parts: list[Run] = []
     start = None
     for row in range(run.first, run.last + 2):

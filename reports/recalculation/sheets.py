@@ -32,9 +32,13 @@ from reports.recalculation.grid import (
 )
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
+_VALUES = re.compile(rb"(?<=<v>)[^<]+(?=</v>)")
+_LOOKS = re.compile(
+    rb' (?:s|ht|spans|customFormat|customHeight|x14ac:dyDescent)="[\w.: ]*"(?=[ />])'
+)
 _UTF8 = re.compile(rb"\s*(<\?xml[^>]*encoding=[\"'](?i:utf-8)[\"'][^>]*\?>|<(?!\?))")
 _DIGITS = b"0123456789+-.eE"  # of numbers as programs save them
-_KEPT = 400  # a class of thirty has some twenty
+_MAX_FORMS = 400  # of which those of mistakes come once
 
 Slot = tuple[int, int, str, bool, str]  # row, column, kind and text of a value, of a formula or not
 Parser = Callable[[CellGrid, str, bytes, list[str]], list[Slot]]
@@ -79,9 +83,11 @@ class Forms:
 
     def fill(self, grid: CellGrid, title: str, data: bytes, strings: list[str]) -> bool:
         """Put a sheet of a known form into a grid; False where it must be parsed."""
-        form = self._known.get(_key(title, data))
+        key = _key(title, data)
+        form = self._known.get(key)
         if form is None or grid.cells + form[1] > MAX_CELLS:
             return False
+        self._known[key] = self._known.pop(key)  # used last, dropped last
         parts, cells = form
         texts = _SAVED.findall(data)
         try:
@@ -95,7 +101,7 @@ class Forms:
     def learn(self, grid: CellGrid, title: str, data: bytes, cells: int, parse: Parser) -> None:
         """Keep the form of a sheet that was just parsed, when it has come for the second time."""
         key = _key(title, data)
-        while len(self._known) >= _KEPT:
+        while len(self._known) >= _MAX_FORMS:
             self._known.pop(next(iter(self._known)))
         if key not in self._known:
             self._known[key] = None
@@ -124,7 +130,8 @@ class Forms:
 
 
 def _key(title: str, data: bytes) -> tuple[str, bytes]:
-    return title, blake2b(_SAVED.sub(b"<v/>", data)).digest()
+    """Title and digest of a sheet without its values and its looks."""
+    return title, blake2b(_LOOKS.sub(b"", _VALUES.sub(b"#", data))).digest()
 
 
 def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:
@@ -164,6 +171,8 @@ def _filled(part: _FormColumn, texts: list[bytes], strings: list[str]) -> CellCo
             raise ValueError
         if value != "":
             column.constants[row] = value
+    if form.constants and part.constants:  # texts stand among the numbers
+        column.constants = dict(sorted(column.constants.items()))
     for row, k in part.errors:
         column.errors[row] = _text(texts[k])
     return column

@@ -6,8 +6,8 @@ numbers; the numbers are changed and everything is calculated anew, in one loade
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -38,54 +38,115 @@ class Cells:
     values: tuple[Constant, ...]
 
 
-def pinned(grid: CellGrid, cells: Iterable[Cells]) -> CellGrid:
-    """A copy of a grid with constants in some cells, whatever stood there."""
-    sheets = {
-        title: {
-            number: CellColumn(dict(c.constants), dict(c.errors), list(c.runs))
-            for number, c in columns.items()
-        }
-        for title, columns in grid.sheets.items()
-    }
+def by_column(cells: Iterable[Cells]) -> dict[tuple[str, int], list[Cells]]:
+    """Cells by the title of their sheet and the number of their column."""
+    columns: dict[tuple[str, int], list[Cells]] = {}
     for part in cells:
-        column = sheets[part.sheet].setdefault(part.column, CellColumn())
-        column.cut(set(part.rows))
-        for row, value in zip(part.rows, part.values, strict=True):
-            column.errors.pop(row, None)
-            column.constants[row] = value
+        columns.setdefault((part.sheet, part.column), []).append(part)
+    return columns
+
+
+def pinned(grid: CellGrid, cells: Iterable[Cells]) -> CellGrid:
+    """A grid with constants in some cells, whatever stood there; other columns are shared."""
+    sheets = {title: dict(columns) for title, columns in grid.sheets.items()}
+    copied: set[tuple[str, int]] = set()
+    for part in cells:
+        columns = sheets[part.sheet]
+        if (part.sheet, part.column) not in copied:
+            copied.add((part.sheet, part.column))
+            columns[part.column] = _copied(columns.get(part.column))
+        _pin(columns[part.column], part)
     return CellGrid(sheets, grid.names, grid.areas)
 
 
-def needed(grid: CellGrid, areas: Iterable[Area]) -> CellGrid:
-    """The columns of a grid with some cells, and those that their formulas read in turn.
+def _copied(column: CellColumn | None) -> CellColumn:
+    if column is None:
+        return CellColumn()
+    return CellColumn(dict(column.constants), dict(column.errors), list(column.runs))
 
-    Columns are taken whole: SUMIF may read beyond the cells that it names.
+
+def _pin(column: CellColumn, part: Cells) -> None:
+    column.cut(set(part.rows))
+    for row in column.errors.keys() & set(part.rows):
+        del column.errors[row]
+    column.constants.update(zip(part.rows, part.values, strict=True))
+
+
+@dataclass(frozen=True)
+class PinnedGrid:
+    """A grid with constants in some cells, column by column as they are asked for.
+
+    Args:
+        grid: what stands there otherwise.
+        cells: the constants of a column, by the title of its sheet and its number.
+        rounded: keep the roundings of the formulas.
     """
+
+    grid: CellGrid
+    cells: Callable[[str, int], Sequence[Cells]]
+    rounded: bool = True
+    _columns: dict[tuple[str, int], CellColumn] = field(default_factory=dict)
+
+    def column(self, sheet: str, number: int) -> CellColumn:
+        """A column with its constants."""
+        key = (sheet, number)
+        column = self._columns.get(key)
+        if column is None:
+            column = self.grid.sheets[sheet].get(number)
+            if cells := self.cells(sheet, number):
+                column = _copied(column)
+                for part in cells:
+                    _pin(column, part)
+            column = column or CellColumn()
+            column = self._columns[key] = column if self.rounded else _unrounded_column(column)
+        return column
+
+    def runs_of(self, area: Area) -> list[Run]:
+        """The runs with cells in a rectangle."""
+        columns = (self.column(area.sheet, n) for n in self.grid.columns_of(area))
+        return [run for c in columns for run in c.runs_in(area.first_row, area.last_row)]
+
+    def needed(self, areas: Iterable[Area]) -> dict[str, dict[int, CellColumn]]:
+        """The columns with some cells, and those that their formulas read in turn, by sheets."""
+        return _needed(self.grid, areas, self.column)
+
+
+def needed(grid: CellGrid, areas: Iterable[Area]) -> CellGrid:
+    """The columns of a grid with some cells, and those that their formulas read in turn."""
+    sheets = _needed(grid, areas, lambda sheet, number: grid.sheets[sheet][number])
+    return CellGrid(sheets, grid.names, grid.areas)
+
+
+def _needed(
+    grid: CellGrid, areas: Iterable[Area], column_of: Callable[[str, int], CellColumn]
+) -> dict[str, dict[int, CellColumn]]:
+    """Columns are taken whole: SUMIF may read beyond the cells that it names."""
     sheets: dict[str, dict[int, CellColumn]] = {title: {} for title in grid.sheets}
     stack = list(areas)
     while stack:
         area = stack.pop()
         for number in grid.columns_of(area):
             if number not in sheets[area.sheet]:
-                column = sheets[area.sheet][number] = grid.sheets[area.sheet][number]
+                column = sheets[area.sheet][number] = column_of(area.sheet, number)
                 for run in column.runs:
                     stack += grid.precedents(run)
                     stack += [run.array] if run.array is not None else []
-    return CellGrid(sheets, grid.names, grid.areas)
+    return sheets
 
 
 class Bench:
     """Some formulas on a grid of constants.
 
     Args:
-        grid: the cells that the formulas refer to.
+        pins: the cells that the formulas refer to.
         formulas: the formulas by a key, as runs of the grid that need not be in it.
         rounded: take the roundings out of the formulas.
     """
 
     def __init__(
-        self, grid: CellGrid, formulas: Mapping[str, Sequence[Run]], *, rounded: bool = True
+        self, pins: PinnedGrid, formulas: Mapping[str, Sequence[Run]], *, rounded: bool = True
     ) -> None:
+        grid = pins.grid
         titles = {title: f"{_SCRATCH}{i}" for i, title in enumerate(grid.sheets)}
         scratch: dict[str, dict[int, CellColumn]] = {title: {} for title in titles.values()}
         self._runs: dict[str, list[Run]] = {}
@@ -95,16 +156,17 @@ class Bench:
             for run in runs:
                 moved = copies.get(id(run))
                 if moved is None:
-                    for part in _whole_array(grid, run):
+                    for part in _whole_array(pins, run):
                         other = _moved(part, titles[run.sheet], rounded=rounded)
                         copies[id(part)] = other
                         columns = scratch[other.sheet]
                         columns.setdefault(other.column, CellColumn()).runs.append(other)
                     moved = copies[id(run)]
                 self._runs[key].append(moved)
-        read = needed(grid, (area for run in copies.values() for area in grid.precedents(run)))
-        self._engine = Evaluator(CellGrid({**read.sheets, **scratch}, grid.names, grid.areas))
-        self._read = {(title, n) for title, columns in read.sheets.items() for n in columns}
+        read = pins.needed(area for run in copies.values() for area in grid.precedents(run))
+        self._engine = Evaluator(CellGrid({**read, **scratch}, grid.names, grid.areas))
+        self.columns = [(title, number) for title, columns in read.items() for number in columns]
+        self._read = set(self.columns)
 
     def put(self, cells: Iterable[Cells]) -> None:
         """Change constants; the next values are those of the changed grid."""
@@ -127,12 +189,12 @@ class Bench:
         return numbers
 
 
-def _whole_array(grid: CellGrid, run: Run) -> list[Run]:
+def _whole_array(pins: PinnedGrid, run: Run) -> list[Run]:
     """All columns of an array formula; other runs alone."""
     if run.array is None:
         return [run]
     area = run.array
-    runs = [other for other in grid.runs_of(area) if other.array == area]
+    runs = [other for other in pins.runs_of(area) if other.array == area]
     return runs if any(other is run for other in runs) else [run]
 
 
@@ -211,22 +273,10 @@ def unrounded(formula: Formula) -> Formula:
     return Formula(tuple(tokens))
 
 
-def unrounded_grid(grid: CellGrid) -> CellGrid:
-    """A grid whose formulas do not round."""
-
-    def plain(run: Run) -> Run:
-        formula = unrounded(run.formula) if run.formula is not None else None
-        return Run(run.sheet, run.column, run.first, run.count, formula, run.text, run.problem,
-                   run.array)  # fmt: skip
-
-    sheets = {
-        title: {
-            number: CellColumn(c.constants, c.errors, [plain(run) for run in c.runs])
-            for number, c in columns.items()
-        }
-        for title, columns in grid.sheets.items()
-    }
-    return CellGrid(sheets, grid.names, grid.areas)
+def _unrounded_column(column: CellColumn) -> CellColumn:
+    """A column whose formulas do not round."""
+    runs = [replace(r, formula=unrounded(r.formula)) if r.formula else r for r in column.runs]
+    return CellColumn(column.constants, column.errors, runs)
 
 
 def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:

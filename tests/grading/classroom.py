@@ -51,7 +51,7 @@ def roster_text(count: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def issue_class(folder: Path, count: int, rubric: str | None = None) -> Result:
+def issue_class(folder: Path, count: int, rubric: str | None = None, *, jobs: int = 1) -> Result:
     """Issue variants to a class into ``folder``."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "base.toml").write_text(base_text(), encoding="utf-8")
@@ -67,13 +67,14 @@ def issue_class(folder: Path, count: int, rubric: str | None = None) -> Result:
         seed=7,
         rubric_file=rubric_file,
         secret_file=folder / "secret.key",
+        jobs=jobs,
     )
 
 
 def registered(folder: Path, count: int, rubric: str) -> Register:
     """A class whose books are made when their students open them."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(issuing, "_write", lambda *given: None)
+        patch.setattr(issuing.Handouts, "__call__", lambda *given: b"")
         return issue_class(folder, count, rubric).register
 
 

@@ -114,6 +114,19 @@ def test_an_issue_can_be_repeated_and_every_variant_passes_the_check(tmp_path):
     assert len({book.ticket for book in first.register.books}) == 3
 
 
+def test_books_written_by_two_processes_are_the_same(tmp_path):
+    alone, both = (
+        classroom.issue_class(tmp_path / str(jobs), 3, jobs=jobs).folder for jobs in (1, 2)
+    )
+    for path in sorted(alone.rglob("*.xlsx")):
+        assert path.read_bytes()[:2] == b"PK"
+        names = [zipfile.ZipFile(folder / path.relative_to(alone)) for folder in (alone, both)]
+        first, second = ({n: book.read(n) for n in book.namelist()} for book in names)
+        same = {n for n in first if first[n] == second[n]}
+        assert first.keys() == second.keys()
+        assert {"xl/styles.xml", "xl/worksheets/sheet3.xml"} <= same
+
+
 def test_a_latecomer_and_one_who_leaves_orphan_no_book(tmp_path):
     """Whatever the list becomes: a name in the middle, a mail more, another order, a return."""
     first = classroom.issue_class(tmp_path, 5).register

@@ -53,6 +53,29 @@ def test_a_sheet_of_a_known_form_is_filled_in_without_being_parsed(monkeypatch):
     assert outcome(sheet(other), forms) == wanted
 
 
+def test_sheets_that_differ_in_looks_alone_are_of_one_form(monkeypatch):
+    """Style numbers and heights of rows are each program's own."""
+    forms = Forms()
+    cells = '<c r="A1" s="{0}"><v>1</v></c><c r="B1" s="{0}" t="s"><v>1</v></c>'
+    wide = sheet(cells.format(12)).replace(b'<row r="1"', b'<row r="1" ht="15.75" spans="1:2"')
+    assert wide != sheet(cells.format(12))
+    outcome(sheet(cells.format(7)), forms)
+    wanted = outcome(wide, forms)
+    monkeypatch.setattr(sheets, "_parsed", None)
+    assert outcome(sheet(cells.format(345)), forms) == wanted
+
+
+def test_forms_used_last_are_kept(monkeypatch):
+    forms, often = Forms(), sheet('<c r="A1"><v>1</v></c>')
+    monkeypatch.setattr(sheets, "_MAX_FORMS", 3)
+    outcome(often, forms), outcome(often, forms)
+    for column in "BCDEFG":
+        outcome(sheet(f'<c r="{column}1"><v>1</v></c>'), forms)
+        assert outcome(often, forms)
+    monkeypatch.setattr(sheets, "_parsed", None)
+    assert outcome(often, forms)
+
+
 def test_whole_books_read_by_their_forms_are_the_same(monkeypatch):
     forms = Forms()
     books = [coarse_book("gots-diesel"), coarse_book("cycle-petrol")]

@@ -14,6 +14,7 @@ import zipfile
 import zlib
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from math import sqrt
 
@@ -22,6 +23,7 @@ from lxml import etree
 from numpy.typing import NDArray
 from openpyxl.packaging.custom import StringProperty
 from openpyxl.styles import Protection
+from openpyxl.styles.cell_style import StyleArray
 from openpyxl.workbook import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
@@ -191,11 +193,16 @@ def _open_cells(sheet: Worksheet, block: Block, layout: Layout, to_fill: Collect
     for node, cells in fill_cells(block, layout).items():
         if node not in to_fill:
             continue
+        looks: dict[str, StyleArray] = {}  # of openpyxl, which takes long to find one by its name
         for cell_at in cells:
             cell = sheet.cell(cell_at.row, cell_at.column)
             number_format = cell.number_format
+            if number_format in looks:
+                cell._style = copy(looks[number_format])
+                continue
             cell.style = styles.ANSWER
             cell.number_format = number_format  # the style brings its own
+            looks[number_format] = cell._style
 
 
 def _anchors(book: Workbook, model: Model, layout: Layout) -> None:

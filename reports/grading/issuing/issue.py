@@ -37,8 +37,10 @@ from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
 from reports.inputs.normalise import read_text
 from reports.inputs.own_books import with_books
 from reports.inputs.ranges import SECTION, ParameterRange, read_ranges, split_ranges
+from reports.shared.background import processors
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import atomic_dir
+from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
 from reports.tables.registry import build_model
 
@@ -200,8 +202,9 @@ def issue(
     rubric_file: Path | None = None,
     ranges_file: Path | None = None,
     secret_file: Path | None = None,
+    jobs: int = 1,
 ) -> Result:
-    """Issue a variant to each student.
+    """Issue a variant to each student; ``jobs`` processes write the books, 0 one a processor.
 
     Raises:
         InputError: everything that is wrong with the files.
@@ -226,21 +229,41 @@ def issue(
     newcomers = enumerate(zip(again.newcomers, variants, strict=True), again.first_number)
     books = (*again.kept, *(_issued(number, *one, secret, batch) for number, one in newcomers))
     register = Register(batch, seed, base.source, rubric, books, again.former, again.identity)
-    _write_all(folder, register, source)
+    _write_all(folder, register, source, jobs or processors())
     return Result(register, folder, secret_at if fresh else None, len(again.kept), roster.left)
 
 
-def _write_all(folder: Path, register: Register, source: str) -> None:
+def _write_all(folder: Path, register: Register, source: str, jobs: int) -> None:
     """Write the work-books and the register in place of what the folder held."""
+    count = len(register.books)
     with Progress("Выдача вариантов") as progress, atomic_dir(folder) as temporary:
-        first: Assignment | None = None
-        for number, book in enumerate(register.books, 1):
-            progress.step(f"Выдача вариантов: {number} из {len(register.books)}")
-            assignment = assignment_for(book, register.rubric, first)
-            first = first or assignment
-            _write(temporary, book, assignment, source)
+        files = in_order(Handouts(register.rubric, source), register.books, jobs=min(jobs, count))
+        for number, (book, data) in enumerate(zip(register.books, files, strict=True), 1):
+            progress.step(f"Выдача вариантов: {number} из {count}")
+            _write(temporary, book, data)
         (temporary / FILE).write_text(register.json_text(), encoding="utf-8")
         (temporary / "register.csv").write_text(register.csv_text(), encoding="utf-8")
+
+
+@dataclass
+class Handouts:
+    """Maker of work-books that tell no answers; most of one class have the same tables."""
+
+    rubric: Rubric
+    source: str
+    _first: Assignment | None = None
+
+    def __call__(self, book: Issued) -> bytes:
+        """The work-book of a student.
+
+        Raises:
+            InputError: it would hold answers.
+        """
+        assignment = assignment_for(book, self.rubric, self._first)
+        self._first = self._first or assignment
+        data = handout_bytes(assignment, book.ticket)
+        check_for_leaks(data, assignment, self.source)
+        return data
 
 
 def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:
@@ -267,11 +290,9 @@ def _issued(number: int, student: Student, variant: Variant, secret: bytes, batc
     return Issued(number, student, stem, file, identifier, variant.drawn, variant.raw)
 
 
-def _write(folder: Path, book: Issued, assignment: Assignment, source: str) -> None:
+def _write(folder: Path, book: Issued, data: bytes) -> None:
     own = folder / book.folder
     own.mkdir()
-    data = handout_bytes(assignment, book.ticket)
-    check_for_leaks(data, assignment, source)
     (own / book.file).write_bytes(data)
     text = tomlkit.dumps(_with_title(book.raw, book.student, book.number))
     (own / f"{book.folder}.toml").write_text(text, encoding="utf-8")

@@ -309,6 +309,16 @@ class Causes:
     def _tree(self, node: str) -> ast.expr:
         return parse(self.student.assignment.graph.expression(node) or "0")
 
+    def _text(self, node: str) -> str:
+        """The formula of a node, as changed ones are spelt."""
+        if node not in self._texts:
+            self._texts[node] = ast.unparse(self._tree(node))
+        return self._texts[node]
+
+    @cached_property
+    def _texts(self) -> dict[str, str]:
+        return {}
+
     def _names(self, node: str) -> frozenset[str]:
         return names(self.student.assignment.graph.expression(node) or "0")
 
@@ -323,9 +333,9 @@ class Causes:
         parts = []
         changed = False
         for node in item.nodes:
-            tree = self._tree(node)
-            other = change(ast.parse(ast.unparse(tree), mode="eval").body)
-            changed = changed or ast.unparse(other) != ast.unparse(tree)
+            text = self._text(node)
+            other = change(ast.parse(text, mode="eval").body)
+            changed = changed or ast.unparse(other) != text
             with np.errstate(all="ignore"):
                 value = evaluate_tree(other, run.values_for(node))
             if isinstance(value, str):

@@ -142,9 +142,9 @@ def explains(
     if there.sum() < max(1, len(at) // 2):
         return False
     # Any angle is a hundred times another, but for whole turns.
-    explained = np.abs(values - attempt)[at][there] <= allowed
-    known = close(item, attempt, right, allowed, student.expected)[at]
-    return bool(explained.all()) and not known.all()
+    if not (np.abs(values - attempt)[at][there] <= allowed).all():
+        return False
+    return not close(item, attempt, right, allowed, student.expected)[at].all()
 
 
 def values_of(item: Item, run: Evaluation) -> Array:

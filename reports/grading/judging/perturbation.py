@@ -14,8 +14,7 @@ from reports.grading.judging.trial_evaluation import Trial
 from reports.grading.reading.student import StudentBook
 from reports.model.evaluation import Evaluation
 from reports.recalculation.formulas import UnknownFormula
-from reports.recalculation.grid import CellGrid
-from reports.recalculation.trial_sheet import Bench
+from reports.recalculation.trial_sheet import Bench, PinnedGrid
 
 Array = NDArray[np.float64]
 _LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A
@@ -26,11 +25,11 @@ _SHAKES = ((0.07, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3,
 
 @dataclass(frozen=True)
 class Shaking:
-    """A work on the right numbers of an engine; ``grid`` has them in its cells, not rounded."""
+    """A work on the right numbers of an engine; ``pins`` has them in its cells, not rounded."""
 
     student: StudentBook
     trial: Trial
-    grid: CellGrid
+    pins: PinnedGrid
 
     def idle(self, nodes: Sequence[str]) -> dict[str, NDArray[np.bool_]]:
         """Mask of formulas that do not react to their precedents.
@@ -108,7 +107,7 @@ class Shaking:
     ) -> dict[str, list[Array] | None]:
         """Values of nodes before and after each change of others; None where they are unknown."""
         student = self.student
-        bench = Bench(self.grid, {node: student.runs(node) for node in nodes}, rounded=False)
+        bench = Bench(self.pins, {node: student.runs(node) for node in nodes}, rounded=False)
         results: dict[str, list[Array] | None] = {node: [] for node in nodes}
         for change in ({}, *changes):
             bench.put(part for name in change for part in student.cells_of(name, change[name]))

@@ -23,7 +23,7 @@ from reports.grading.judging.perturbation import Shaking
 from reports.grading.judging.proven import EXACT, Proofs, Signatures, settled
 from reports.grading.judging.trial_evaluation import Trial, Tryout, fixed, turned
 from reports.grading.reading.student import StudentBook
-from reports.recalculation.trial_sheet import cuts, pinned, rounded_to, unrounded_grid
+from reports.recalculation.trial_sheet import cuts, rounded_to
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -192,9 +192,8 @@ class FormulaResponse:
     @cached_property
     def shaking(self) -> Shaking:
         """The work on nobody's variant: what tells its own from others is not seen."""
-        cells = self.tryout.cells(self.trials[-1], everything=True)
-        grid = unrounded_grid(pinned(self.student.grid, cells))  # small changes show
-        return Shaking(self.student, self.trials[-1], grid)
+        pins = self.tryout.pins(self.trials[-1], rounded=False)  # small changes show
+        return Shaking(self.student, self.trials[-1], pins)
 
     def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
@@ -215,8 +214,12 @@ class FormulaResponse:
 
         The first are lists of numbers, whatever they are made of; the second calculate.
         """
-        trials = (self.tryout.own, turned(self.student.expected))
-        turned_values = self.tryout.run([node], trials, rounded=False)[node]
+        trials = (self.tryout.own, self._between_rows)
+        if node not in self._turned_values:
+            calculated = (n for n in self._tried if not isinstance(self._values[n], str))
+            nodes = dict.fromkeys((node, *calculated))
+            self._turned_values.update(self.tryout.run(list(nodes), trials, rounded=False))
+        turned_values = self._turned_values[node]
         if isinstance(turned_values, str):
             nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
             return ~nowhere, nowhere
@@ -226,6 +229,15 @@ class FormulaResponse:
         change, wanted = turned_values[1] - turned_values[0], right[1] - right[0]
         near = np.abs(change - wanted) <= allowed + _NEARLY * np.abs(wanted)
         return own & ~between, near & _differ(*turned_values)
+
+    @cached_property
+    def _turned_values(self) -> dict[str, list[Array] | str]:
+        """Values at the angles of the rows and between them, of all nodes once one is asked for."""
+        return {}
+
+    @cached_property
+    def _between_rows(self) -> Trial:
+        return turned(self.student.expected)
 
     def _of_node(self, item: Item, node: str) -> str:
         count = self.student.assignment.length(node)

@@ -11,7 +11,7 @@ tells what calculates from what only repeats.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isclose, nan
@@ -29,7 +29,7 @@ from reports.inputs.ranges import ParameterRange
 from reports.inputs.units import MM, MPA
 from reports.model.evaluation import Evaluation
 from reports.recalculation.formulas import Formula, UnknownFormula
-from reports.recalculation.trial_sheet import Bench, Cells, full, pinned, rounds, unrounded_grid
+from reports.recalculation.trial_sheet import Bench, Cells, PinnedGrid, by_column, full, rounds
 
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number
@@ -240,6 +240,12 @@ class Tryout:
 
     student: StudentBook
     trials: tuple[Trial, ...]
+    # By the identities of trials, which live as long as the work is graded.
+    _pins: dict[tuple[int, bool], PinnedGrid] = field(default_factory=dict)
+    _by_column: dict[tuple[int, str, int], tuple[list[Cells], list[Cells]]] = field(
+        default_factory=dict
+    )
+    _inputs_of: dict[int, dict[tuple[str, int], list[Cells]]] = field(default_factory=dict)
 
     def run(
         self, nodes: Sequence[str], trials: Sequence[Trial], *, rounded: bool = True
@@ -260,14 +266,12 @@ class Tryout:
         self, nodes: Sequence[str], trials: Sequence[Trial], *, rounded: bool
     ) -> dict[str, list[Array] | str]:
         student = self.student
-        first = pinned(student.grid, self.cells(trials[0], everything=True))
-        if not rounded:
-            first = unrounded_grid(pinned(first, self._full_constants))
-        bench = Bench(first, {node: student.runs(node) for node in nodes}, rounded=rounded)
+        pins = self.pins(trials[0], rounded=rounded)
+        bench = Bench(pins, {node: student.runs(node) for node in nodes}, rounded=rounded)
         results: dict[str, list[Array] | str] = {node: [] for node in nodes}
         for trial in trials:
             if trial is not trials[0]:
-                bench.put(self.cells(trial, everything=False))
+                bench.put(self._numbers(trial, bench.columns))
             for node in nodes:
                 values = results[node]
                 if isinstance(values, str):
@@ -279,18 +283,53 @@ class Tryout:
                     results[node] = str(error) or "?"
         return results
 
-    def cells(self, trial: Trial, *, everything: bool) -> list[Cells]:
-        """The cells of inputs and nodes with the right values of a trial."""
-        cells = self._inputs(trial)
-        student, assignment = self.student, self.student.assignment
-        for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
-            right = trial.expected.value(node)
-            if isinstance(right, str) and not everything:
-                continue
-            cells += student.cells_of(node, right)
-        return cells
+    def pins(self, trial: Trial, *, rounded: bool) -> PinnedGrid:
+        """The work with the right values of a trial in the cells of inputs and nodes."""
+        key = (id(trial), rounded)
+        if key not in self._pins:
+            own = {} if rounded else self._full_constants
 
-    @property
+            def cells(sheet: str, column: int) -> list[Cells]:
+                numbers, texts = self._cells(trial, sheet, column)
+                return [*numbers, *texts, *own.get((sheet, column), ())]
+
+            self._pins[key] = PinnedGrid(self.student.grid, cells, rounded)
+        return self._pins[key]
+
+    def _numbers(self, trial: Trial, columns: Iterable[tuple[str, int]]) -> Iterator[Cells]:
+        """The cells of some columns with the numbers of a trial."""
+        return (part for column in columns for part in self._cells(trial, *column)[0])
+
+    def _cells(self, trial: Trial, sheet: str, column: int) -> tuple[list[Cells], list[Cells]]:
+        """Cells of a column with numbers and with texts of a trial."""
+        key = (id(trial), sheet, column)
+        if key not in self._by_column:
+            inputs = self._inputs_by_column(trial).get((sheet, column), ())
+            numbers, texts = list(inputs), list[Cells]()
+            for node in self._nodes_by_column.get((sheet, column), ()):
+                right = trial.expected.value(node)
+                (texts if isinstance(right, str) else numbers).extend(
+                    self.student.cells_of(node, right)
+                )
+            self._by_column[key] = numbers, texts
+        return self._by_column[key]
+
+    def _inputs_by_column(self, trial: Trial) -> dict[tuple[str, int], list[Cells]]:
+        if id(trial) not in self._inputs_of:
+            self._inputs_of[id(trial)] = by_column(self._inputs(trial))
+        return self._inputs_of[id(trial)]
+
+    @cached_property
+    def _nodes_by_column(self) -> dict[tuple[str, int], list[str]]:
+        columns: dict[tuple[str, int], list[str]] = {}
+        assignment = self.student.assignment
+        for node in sorted(assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes):
+            location = self.student.placement.places.get(node)
+            if location is not None:
+                columns.setdefault((location.sheet, location.column), []).append(node)
+        return columns
+
+    @cached_property
     def own(self) -> Trial:
         """The student's engine."""
         return Trial({}, self.student.expected, decides=True)
@@ -372,14 +411,14 @@ class Tryout:
         return [run.formula for run in runs if run.formula is not None]
 
     @cached_property
-    def _full_constants(self) -> list[Cells]:
+    def _full_constants(self) -> dict[tuple[str, int], list[Cells]]:
         """Cells of the student's own with some digits of π or of a sine, with all of them."""
         copies = {cell[:3] for cells in self._copies.values() for cell in cells}
-        return [
+        return by_column(
             Cells(sheet, column, (row,), (self._full(value),))
             for sheet, column, row, value in self.student.own_constants
             if self._full(value) != value and (sheet, column, row) not in copies
-        ]
+        )
 
     def _full(self, value: float) -> float:
         """A number with all digits of what it has the first ones of."""

@@ -78,7 +78,7 @@ class DrawnClass:
         (self.folder / "group.csv").write_text(roster_text(self.count), encoding="utf-8")
         (self.folder / "rubric.toml").write_text(_RUBRIC, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(issuing, "_write", lambda *given: None)
+            patch.setattr(issuing.Handouts, "__call__", lambda *given: b"")
             return issue(path, self.folder / "group.csv", self.folder / "issued", seed=11,
                          rubric_file=self.folder / "rubric.toml",
                          secret_file=self.folder / "key").register  # fmt: skip

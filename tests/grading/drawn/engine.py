@@ -48,7 +48,7 @@ class Engine:
         rubric = tomlkit.dumps({"work": {"fill": list(self.fill)}})
         (folder / "rubric.toml").write_text(rubric, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(issuing, "_write", lambda *given: None)
+            patch.setattr(issuing.Handouts, "__call__", lambda *given: b"")
             return issue(folder / "base.toml", folder / "group.csv", folder / "issued",
                          seed=self.seed, rubric_file=folder / "rubric.toml",
                          secret_file=folder / "key").register  # fmt: skip

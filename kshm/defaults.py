@@ -48,3 +48,9 @@ TURN_SHARE = 0.6  # of the endurance in torsion to that in bending, without a so
 # Expansion [1/K] of cylinder, pistons and bush; temperature of the sizes [°C].
 IRON_EXPANSION, ALUMINIUM_EXPANSION, BUSH_EXPANSION = 11e-6, 22e-6, 18e-6
 SIZES_C = 20.0
+
+# Counterweights of the webs, without a source.
+STEEL_DENSITY = 7850.0  # kg/m³
+SKIRT_SHARE = 0.25  # of the bore: the piston below its pin, cut out for counterweights
+SKIRT_PLAY = 2e-3  # between piston and counterweight [m]
+OUTER_SHARE = 1.9  # of the crank radius: outer radius of the sector

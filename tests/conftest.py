@@ -167,6 +167,7 @@ SLOW = (
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (
     "tests/bearings/test_bearing_tables.py",
+    "tests/counterweight/",
     "tests/cycle/test_cycle_sheets.py",
     "tests/e2e/test_streams.py",
     "tests/grading/test_decisions.py",

@@ -18,6 +18,7 @@ from kshm.defaults import (
 from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
+from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
@@ -171,6 +172,7 @@ class Engine:
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
     strength: PartStrength | None = None  # strength of the parts, if it is asked for
+    counterweight: Counterweight | None = None  # those proposed for the webs, if asked for
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""

@@ -16,6 +16,7 @@ from kshm.nomenclature import (
     balance,
     bearings,
     chapters,
+    counterweight,
     cycle,
     inertia,
     layouts,
@@ -28,7 +29,7 @@ from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.symbols import WORDS, plain_symbol
 
 _SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
-            bearings, strength)  # fmt: skip
+            bearings, strength, counterweight)  # fmt: skip
 _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 # How what is printed grows with the length of alike engines: of equal stresses and piston speeds.

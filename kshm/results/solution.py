@@ -21,6 +21,7 @@ from kshm.results import forces, gas, motion, regimes
 from kshm.results.balance import balance_results, torque_order_results
 from kshm.results.bearings import bearing_results
 from kshm.results.case import Case
+from kshm.results.counterweight import counterweight_results
 from kshm.results.cycle import cycle_scalars, cycle_tables
 from kshm.results.forces import continuous_results, pin_bending, rod_bearing
 from kshm.results.inertia import inertia_results, rod_mass_scalars
@@ -40,7 +41,7 @@ Subject = Callable[[Case], Results]
 # and those whose cylinders move alike: no articulated rods.
 ALWAYS: tuple[Subject, ...] = (
     reference_results, rod_bearing, pin_bending, continuous_results, two_term_errors,
-    torsion_results, bearing_results, strength_results,
+    torsion_results, bearing_results, strength_results, counterweight_results,
 )  # fmt: skip
 BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
 SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.sections.bearings import BearingsSection
+from reports.inputs.sections.counterweight import CounterweightSection
 from reports.inputs.sections.gas import (
     CycleGasSection,
     CycleSection,
@@ -159,6 +160,18 @@ _ALL = (
         },
     ),
     InputSection("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
+    InputSection(
+        "counterweight",
+        "Подбор противовесов",
+        CounterweightSection,
+        optional=True,
+        absent=True,
+        words=(
+            "Раздел [counterweight] подбирает противовесы щёк: долю вращающихся масс по нагрузке",
+            "коренных шеек или по остатку первого порядка, угол и массу сектора. Все ключи",
+            "необязательны: размер, которого нет, следует из размеров механизма.",
+        ),
+    ),
     InputSection(
         "torsion",
         "Крутильные колебания",

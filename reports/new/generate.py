@@ -28,6 +28,7 @@ from reports.inputs.sections.input_file import LAYOUTS
 from reports.inputs.template import NUMBER_WORDS
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, Sizes
 from reports.inputs.units import number_text, span_text
+from reports.new.counterweights import counterweights_for
 from reports.new.default_firing import Phases, phases
 from reports.new.part_sizes import parts_for
 from reports.new.sizing import (
@@ -141,6 +142,11 @@ def generate_engine(
     if (pin := pin_within(model, kind, bore)) is not None:
         sizes = larger_pin(sizes, *pin)
         data["crankshaft"] = shaft(layout, timing, sizes, throw)
+    weights = counterweights_for(data)
+    data["crankshaft"]["webs"] = [
+        {**web, "counterweight_kg": weights.reduced_kg} for web in data["crankshaft"]["webs"]
+    ]
+    data["counterweight"] = weights.section
     head = (
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",
@@ -149,7 +155,7 @@ def generate_engine(
         whole = load_mapping(data, source="kshm new").model
         data["strength"], parts = parts_for(whole, kind, sizes.pin)
         notes |= parts
-    notes = {**notes, **throw.notes, **sizes.notes, **timing_notes(timing)}
+    notes = {**notes, **throw.notes, **sizes.notes, **timing_notes(timing), **weights.notes}
     return NewEngine(data, with_spans(notes, kind), head)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from reports.document.chapters.balance import asked_devices
 from reports.document.chapters.chapter import pin_stems, worst_pin
-from reports.document.page.charts import mechanism_of, throw_of
+from reports.document.page.charts import counterweight_of, mechanism_of, throw_of
 from reports.document.text.terms import Terms, plain_number
 from reports.document.text.texts import of_digits
 from reports.draw.canvas import (
@@ -32,6 +32,7 @@ from reports.draw.canvas import (
 )
 from reports.draw.fonts import fitted, standard, width_of, wrapped
 from reports.draw.parts import mechanism_drawing, throw_drawing
+from reports.draw.weights import counterweight_drawing
 from reports.inputs.firing import order_text
 from reports.model.shape import Shape
 from reports.shared.russian import capital, fixed
@@ -294,6 +295,13 @@ def mechanism(canvas: Canvas, room: CellArea, terms: Terms) -> None:
     sizes = mechanism_of(terms)
     title = "Кривошипно-шатунный механизм"
     _placed(canvas, room, title, partial(mechanism_drawing, sizes))
+
+
+def counterweight(canvas: Canvas, room: CellArea, terms: Terms) -> None:
+    """A web with the proposed counterweight and its sizes."""
+    words = (f"Противовес щеки: {terms.num('cw_mass')} кг, ширина {terms.num('cw_width_mm')} мм, "
+             f"доля {terms.num('cw_taken')}")  # fmt: skip
+    _placed(canvas, room, words, partial(counterweight_drawing, counterweight_of(terms)))
 
 
 def _placed(canvas: Canvas, room: CellArea, title: str, draw: Callable[..., list[Item]]) -> None:

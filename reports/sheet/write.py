@@ -29,7 +29,16 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.font_coverage import printable
 from reports.shared.russian import surname
 from reports.sheet import diagrams
-from reports.sheet.cell import CellArea, balance, mechanism, results, running, shaft, throw
+from reports.sheet.cell import (
+    CellArea,
+    balance,
+    counterweight,
+    mechanism,
+    results,
+    running,
+    shaft,
+    throw,
+)
 
 STAMP_WIDTH, STAMP_HEIGHT = 185.0, 55.0
 MARGINS = (20.0, 5.0, 5.0, 5.0)  # left, right, top, bottom of the frame
@@ -42,6 +51,7 @@ _BOX_26 = (70.0, 14.0)  # [mm]
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
 _GAP = 6.0
 _LEAST = (120.0, 92.0)  # of a cell [mm]
+_FILLERS = ("mechanism", "main_load")
 Draw = Callable[[Canvas, CellArea, Terms], None]
 _LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
 _PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
@@ -151,7 +161,7 @@ def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
     width, height = SIZES[section.size]
     if section.orientation == "portrait":
         width, height = height, width
-    draws = blocks(terms, section)
+    draws = [*blocks(terms, section), *_fillers(terms, section, width, height)]
     canvas = Canvas()
     frame(canvas, width, height)
     for draw, room in zip(draws, _rooms(draws, width, height, section), strict=False):
@@ -174,11 +184,25 @@ def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
     return [draws[name] for name in picked]
 
 
+def _fillers(terms: Terms, section: SheetSection, width: float, height: float) -> list[Draw]:
+    """What fills the cells that the usual diagrams leave free."""
+    if section.diagrams:
+        return []
+    usual, draws = blocks(terms, section), available(terms)
+    need = len(usual) + sum(map(_is_tall, usual))
+    free = max(0, len(cells(width, height, need, section)) - need)
+    return [draws[name] for name in _FILLERS if name in draws][:free]
+
+
+def _is_tall(draw: Draw) -> bool:
+    return isinstance(draw, partial) and draw.func is diagrams.path
+
+
 def _rooms(
     draws: Sequence[Draw], width: float, height: float, section: SheetSection
 ) -> list[CellArea | None]:
     """Room of every block; polar diagrams take two cells, one above the other, where they fit."""
-    tall = [isinstance(draw, partial) and draw.func is diagrams.path for draw in draws]
+    tall = [_is_tall(draw) for draw in draws]
     try:
         free = cells(width, height, len(draws) + sum(tall), section)
     except InputError:
@@ -217,13 +241,15 @@ def available(terms: Terms) -> dict[str, Draw]:
         "pin_wear": (pin_figure("fig52", pin), diagrams.wear),
         "main_polar": (f"fig53_{main}", diagrams.path),
         "main_load": (f"fig55_{main}", curves), "main_wear": (f"fig54_{main}", diagrams.wear),
+        "torsion": ("torsion_stress", curves),
     }  # fmt: skip
     draws: dict[str, Draw] = {
         name: partial(draw, chart=terms.model.charts_by_id[key])
         for name, (key, draw) in charts.items()
         if key in terms.model.charts_by_id
     }
-    return draws | {"shaft": shaft, "balance": balance,
+    drawn: dict[str, Draw] = {"counterweight": counterweight} if terms.has("cw_mass") else {}
+    return draws | drawn | {"shaft": shaft, "balance": balance,
                     "running": running, "results": results,
                     "throw": throw, "mechanism": mechanism}  # fmt: skip
 

@@ -10,7 +10,7 @@ from typing import Any
 from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
-from kshm.defaults import FINE_STEP
+from kshm.defaults import FINE_STEP, OUTER_SHARE, SKIRT_SHARE
 from kshm.mechanics.journals import PLANES
 from kshm.ranges import (
     MASSES_BORES,
@@ -188,6 +188,7 @@ def _rounded(scope: Scope) -> dict[str, Any]:
 # Names that one book has besides the common ones.
 _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
+    "counterweight": lambda _: {"skirt_share": SKIRT_SHARE, "outer_share": OUTER_SHARE},
     "cylinders": _cylinders,
     "gas": _rounded,
     "cycle": _cycle,

@@ -20,6 +20,7 @@ from reports.document.text.tex import GREEK
 from reports.document.text.texts import significant
 from reports.draw.canvas import Canvas, Item, bounds, moved
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
+from reports.draw.weights import CounterweightSizes, counterweight_drawing
 from reports.draw.writers import svg_of
 from reports.formula.numeric import evaluate
 from reports.model.blocks import TIE
@@ -29,6 +30,7 @@ from reports.shared.russian import NBSP, fixed
 
 _THROW, _MECHANISM = (98.0, 92.0), (52.0, 92.0)  # width and height of both on the figure [mm]
 _BETWEEN, _LETTERS = 8.0, 2.5
+_WEB = (80.0, 72.0)  # of the web with its counterweight [mm]
 HEIGHT = 76.0  # mm
 _LETTER = "A-Za-zΑ-Ωα-ω"
 _SYMBOL = re.compile(rf"[{_LETTER}(]*[{_LETTER}][{_LETTER}′²()/0-9]*")
@@ -95,6 +97,21 @@ def sizes_figure(throw: ThrowSizes, mechanism: MechanismSizes, *, size: float = 
         canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
     left, low, right, high = bounds(canvas.items)
     return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
+
+
+def counterweight_of(terms: Terms) -> CounterweightSizes:
+    """Sizes of the first web with the proposed counterweight."""
+    throw = throw_of(terms)
+    sizes = (terms.value(f"cw_{key}") for key in ("inner_mm", "outer_mm", "angle_deg"))
+    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], *sizes)
+
+
+def counterweight_figure(terms: Terms) -> str:
+    """A web with its counterweight as SVG for the report."""
+    draw = partial(counterweight_drawing, counterweight_of(terms), letters=_LETTERS)
+    items = _fitted(draw, _WEB)
+    left, low, right, high = bounds(items)
+    return svg_of(items, (left - 2, low - 2, right + 2, high + 2))
 
 
 def _fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:

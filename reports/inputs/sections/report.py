@@ -28,6 +28,7 @@ CHAPTERS = {
     "bearings": "Подшипники и изгиб вала",
     "running": "Набегающие моменты",
     "balance": "Уравновешенность и ход двигателя",
+    "counterweights": "Подбор противовесов",
     "torsion": "Крутильные колебания вала",
     "oil": "Масляная плёнка подшипников и прочность шеек",
     "strength": "Прочность деталей",
@@ -41,8 +42,8 @@ CHAPTERS = {
 Detail = Literal["course", "full", "short"]
 ChapterName = Literal[
     "rationale", "cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "bearings",
-    "running", "balance", "torsion", "oil", "strength", "own", "regimes", "reference",
-    "companions", "checks",
+    "running", "balance", "counterweights", "torsion", "oil", "strength", "own", "regimes",
+    "reference", "companions", "checks",
     "appendices",
 ]  # fmt: skip
 FORMATS = {
@@ -76,14 +77,17 @@ DIAGRAMS = {
     "results": "основные результаты",
     "throw": "колено вала с размерами",
     "mechanism": "механизм с размерами",
+    "counterweight": "противовес щеки с размерами",
+    "torsion": "напряжения вала от крутильных колебаний",
 }
 Diagram = Literal[
     "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
     "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
-    "throw", "mechanism",
+    "throw", "mechanism", "counterweight", "torsion",
 ]  # fmt: skip
 USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
-         "main_wear", "shaft", "balance", "running", "results", "throw", "main_polar")  # fmt: skip
+         "main_wear", "shaft", "balance", "running", "results", "throw", "counterweight", "torsion",
+         "main_polar")  # fmt: skip
 SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
 WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}

@@ -11,6 +11,7 @@ from kshm.cycle.cycle import CycleRun
 from kshm.cycle.diagram import polytropic_gas
 from kshm.engine.arrangement import ArticulatedRod, hung
 from kshm.engine.bearings import Bearings, Oil, Strength
+from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
 from kshm.engine.gas import Gas, PolytropicGas, RoundedGas, TabulatedGas
@@ -20,6 +21,7 @@ from kshm.nomenclature.quantity import smallness
 from reports.inputs.firing import places_of
 from reports.inputs.meta import solver_values
 from reports.inputs.sections.bearings import MATERIALS, OILS, BearingsSection
+from reports.inputs.sections.counterweight import CounterweightSection
 from reports.inputs.sections.gas import (
     BDC_DEG,
     FIRING_TDC_DEG,
@@ -140,6 +142,11 @@ def _steel(name: str) -> Steel:
     return Steel(**in_si, expansion=material.expansion)
 
 
+def to_counterweight(section: CounterweightSection | None) -> Counterweight | None:
+    """Counterweights of the solver, None without the section."""
+    return None if section is None else Counterweight(**solver_values(section, Counterweight))
+
+
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
     return engine_and_cycle(model)[0]
@@ -202,6 +209,7 @@ def _engine(model: InputFile, run: CycleRun | None, cache: Callable[..., Any] = 
         "torsion": cache(to_torsion, model.torsion),
         "bearings": cache(to_bearings, model.bearings),
         "strength": cache(to_parts, model.strength),
+        "counterweight": cache(to_counterweight, model.counterweight),
         "balancing": cache(_balancing, model.balance, model.strength, geometry.bore),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,

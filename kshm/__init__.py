@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from kshm.engine.engine import Engine
+from kshm.errors import InputError, KshmError, Problem, UnknownNameError
 
 if TYPE_CHECKING:
     from kshm.chain.solve import solve_chunks
@@ -31,8 +32,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Engine",
+    "InputError",
+    "KshmError",
+    "Problem",
     "Quantity",
     "Solution",
+    "UnknownNameError",
     "articulated_rod",
     "assemble",
     "banks",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from html import escape
 from typing import Literal
 
 from kshm.defaults import (
@@ -123,7 +124,7 @@ class OperatingPoint:
     fullness: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Engine:
     """A piston engine, SI units.
 
@@ -135,7 +136,7 @@ class Engine:
     shaft, and is None otherwise.
 
     Raises:
-        ValueError: a number or a count that no engine has.
+        InputError: a number or a count that no engine has.
 
     With ``engine`` as in the example of ``kshm.in_line``:
 
@@ -180,6 +181,32 @@ class Engine:
         self._check_timing()
         self._check_layout()
         self._check_articulated()
+
+    def __repr__(self) -> str:
+        """Return the name, the layout and the sizes that tell an engine from others."""
+        size = self.geometry
+        layout = "in line" if self.is_in_line else f"on {len(self.crankshaft.throws)} throws"
+        return (
+            f"<Engine {self.name!r}: {self.cylinders} {layout}, {self.strokes}-stroke, "
+            f"D×S {size.bore * 1e3:.4g}×{size.stroke * 1e3:.4g} mm, "
+            f"ε {size.compression_ratio:.4g}, {self.speed_rpm:.5g} min⁻¹>"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return the sizes as a notebook shows them."""
+        size, shaft = self.geometry, self.crankshaft
+        rows = {
+            "cylinders": f"{self.cylinders}, {self.strokes}-stroke",
+            "bore × stroke": f"{size.bore * 1e3:.4g} × {size.stroke * 1e3:.4g} mm",
+            "rod length": f"{size.rod_length * 1e3:.4g} mm, λ = {size.lam:.4g}",
+            "compression ratio": f"{size.compression_ratio:.4g}",
+            "speed": f"{self.speed_rpm:.5g} min⁻¹",
+            "fire at": ", ".join(f"{math.degrees(each):.5g}°" for each in self.firing_offsets),
+            "gas": type(self.gas).__name__,
+            "throws, main journals": f"{len(shaft.throws)}, {len(shaft.main_lengths)}",
+        }
+        lines = (f"<tr><td>{key}</td><td>{escape(text)}</td></tr>" for key, text in rows.items())
+        return f"<b>{escape(self.name)}</b><table><tbody>{''.join(lines)}</tbody></table>"
 
     def _check_calculation(self) -> None:
         gas, efficiency = self.gas, self.mechanical_efficiency

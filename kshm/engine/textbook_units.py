@@ -3,7 +3,7 @@
     from kshm import in_line, polytropic, solve, throw
 
 Everything else of ``kshm`` is in SI units with angles in radians; these functions are where
-a person's units come in without a file.  What no engine can be is refused by ``ValueError``.
+a person's units come in without a file.  What no engine can be is refused by ``InputError``.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def points(
     """Indicator diagram by points from 0 to the cycle's end; absolute pressures [MPa].
 
     Raises:
-        ValueError: the lists differ in length, do not rise, or their ends differ.
+        InputError: the lists differ in length, do not rise, or their ends differ.
 
     >>> points([0, 360, 720], [0.1, 4.0, 0.1]).pressures
     (100000.0, 4000000.0, 100000.0)
@@ -121,7 +121,7 @@ def throw(
             the crank along rotation [°].
 
     Raises:
-        ValueError: there are not six arms, or a number that no throw has.
+        InputError: there are not six arms, or a number that no throw has.
 
     >>> round(throw(arms_mm=[30] * 6, web_kg=0.3, pin_kg=0.2).length, 6)
     0.18
@@ -260,7 +260,7 @@ def in_line(**given: Unpack[Given]) -> Engine:
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
 
     Raises:
-        ValueError: lists of the wrong length, a number that no engine has.
+        InputError: lists of the wrong length, a number that no engine has.
 
     >>> from kshm import in_line, points, throw
     >>> sizes = {
@@ -347,7 +347,7 @@ def assemble(
         name: name of the engine.
 
     Raises:
-        ValueError: lists of the wrong length, rods of one throw that do not fire together
+        InputError: lists of the wrong length, rods of one throw that do not fire together
             with it, a number that no engine has.
 
     With ``sizes`` as in the example of ``in_line``:

@@ -61,7 +61,7 @@ def sweep(
         ``attrs["units"]`` and ``attrs["titles"]`` tell of each.
 
     Raises:
-        ValueError: a name or key that is none, lists of different lengths with ``pairwise``,
+        InputError: a name or key that is none, lists of different lengths with ``pairwise``,
             a number that no engine has.
 
     With ``engine`` as in the example of ``kshm.in_line``:

@@ -446,9 +446,10 @@ class _SectionReader:
             if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
                 continue
             in_book = self.locate is not None
-            what, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
+            meta = messages.meta_at(model, loc)
+            problem = self.problem((name, *loc), *messages.explain(item, meta, in_book=in_book))
             if (name, *loc) not in self.empty:
-                self.problems.append(self.problem((name, *loc), what, hint))
+                self.problems.append(messages.measured(problem, item, meta))
 
 
 def _has_order_alone(data: Mapping[str, Any]) -> bool:

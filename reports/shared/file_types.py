@@ -44,14 +44,16 @@ def read_bytes(path: Path, most: int, hint: str) -> bytes:
     """
     try:
         what = no_file(path)
-        if what:
-            raise InputError(Problem(str(path), what, "проверьте имя и путь"))
-        with path.open("rb") as stream:
-            data = stream.read(most + 1)
+        data = b""
+        if not what:
+            with path.open("rb") as stream:
+                data = stream.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         why = reason(error) if isinstance(error, OSError) else "недопустимое имя"
         problem = Problem(str(path), f"файл не читается: {why}", "проверьте имя и права")
         raise InputError(problem) from None
+    if what:
+        raise InputError(Problem(str(path), what, "проверьте имя и путь"))
     if len(data) > most:
         what = f"файл больше {most // 10**6} МБ"
         raise InputError(Problem(path.name, what, hint))

@@ -26,8 +26,20 @@ from kshm.results.forces import continuous_results, pin_bending, rod_bearing
 from kshm.results.inertia import inertia_results, rod_mass_scalars
 from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
 from kshm.results.motion import neiman_results, segal_results, two_term_errors
-from kshm.results.named import NAMES, Group, html_table
+from kshm.results.named import (
+    GROUPS,
+    BalanceResults,
+    FlywheelResults,
+    GeometryResults,
+    Group,
+    KinematicsResults,
+    LoadsResults,
+    MassesResults,
+    TorqueResults,
+    html_table,
+)
 from kshm.results.reference import reference_results, reference_tables
+from kshm.results.sketch import sketch
 from kshm.results.strength import strength_results
 from kshm.results.torsion import torsion_results
 
@@ -108,13 +120,13 @@ class Solution:
     'м/с'
     """
 
-    geometry = Group()
-    kinematics = Group()
-    masses = Group()
-    torque = Group()
-    loads = Group()
-    balance = Group()
-    flywheel = Group()
+    geometry = Group(GeometryResults)
+    kinematics = Group(KinematicsResults)
+    masses = Group(MassesResults)
+    torque = Group(TorqueResults)
+    loads = Group(LoadsResults)
+    balance = Group(BalanceResults)
+    flywheel = Group(FlywheelResults)
 
     def __init__(
         self, engine: Engine, raw: ChainArrays, index: int = 0, cycle: CycleRun | None = None
@@ -185,8 +197,24 @@ class Solution:
         }
 
     def _repr_html_(self) -> str:
-        """Main results as a notebook shows them."""
-        return html_table({name: getattr(self, name) for name in NAMES})
+        """Return the torque and the main results as a notebook shows them."""
+        phi, torque = (self.column("P4_2", key) for key in ("phi_deg", "Msum_Nm"))
+        picture = sketch(phi, torque, "φ, °", "M, Н·м")
+        return picture + html_table({name: getattr(self, name) for name in GROUPS})
+
+    def __repr__(self) -> str:
+        """Return what was solved and the results asked for first."""
+        first = (self.torque.mean, self.torque.max, self.loads.crankpin_max)
+        return f"Solution of {self.engine!r}: {', '.join(map(repr, first))}"
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the same engine was solved: then all results are the same."""
+        if not isinstance(other, Solution):
+            return NotImplemented
+        return (self.engine, self.cycle) == (other.engine, other.cycle)
+
+    def __hash__(self) -> int:
+        return hash(self.engine)
 
     def column(self, table: str, key: str) -> Array:
         """One column in the unit of its quantity; one of the chain asks for nothing more.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import Literal
+from typing import Any, Literal
 
 from kshm.defaults import (
     COUNTERWEIGHT_SHARE,
@@ -22,6 +22,8 @@ from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
+from kshm.engine.revised import engine_maker
+from kshm.engine.source import Source
 from kshm.engine.strength import PartStrength
 from kshm.engine.torsion import Torsion
 from kshm.nomenclature.quantity import UNITS
@@ -171,6 +173,7 @@ class Engine:
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
     strength: PartStrength | None = None  # strength of the parts, if it is asked for
+    source: Source | None = field(default=None, compare=False)  # the file that it was read from
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""
@@ -297,6 +300,30 @@ class Engine:
                     f"its pin stands up to {reach * 1e3:.4g} mm off the cylinder's axis",
                 )
             )
+
+    def with_(self, changes: Mapping[str, Any] | None = None, **more: Any) -> Engine:  # noqa: ANN401
+        """Return an engine with other values.
+
+        Args:
+            changes: values by name: a key of the file that the engine was read from
+                (``geometry.bore_mm``, ``crankshaft.webs.*.counterweight_kg``, in the file's
+                units), a name of ``kshm.assemble`` (``bore_mm``, in its units), or a path within
+                the engine (``geometry.bore``, in SI).
+            **more: the same, for names without a dot; a file's key goes by its last word.
+
+        Raises:
+            UnknownNameError: a name that there is not.
+            InputError: a value that no engine has.
+
+        With ``engine`` as in the example of ``kshm.in_line``:
+
+        >>> engine.with_(bore_mm=90, speed_rpm=2000).geometry.bore
+        0.09
+        """
+        named = {**(changes or {}), **more}
+        refuse((not named, "name something to change"))
+        made: Engine = engine_maker(self, list(named))(list(named.values()))
+        return made
 
     @property
     def is_in_line(self) -> bool:

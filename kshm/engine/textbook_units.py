@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TypedDict, Unpack
 
@@ -26,7 +26,7 @@ from kshm.nomenclature.quantity import UNITS
 _MM, _MPA, _RPM = (UNITS[unit].si for unit in ("mm", "MPa", "rpm"))
 _ARMS = 6
 
-Sizes = float | Sequence[float]  # one for all journals or one each
+Sizes = float | Collection[float]  # one for all journals or one each
 
 
 @takes_kinds
@@ -75,8 +75,8 @@ def polytropic(
 
 @takes_kinds
 def points(
-    angles_deg: Sequence[float],
-    pressures_mpa: Sequence[float],
+    angles_deg: Collection[float],
+    pressures_mpa: Collection[float],
     *,
     smooth: bool = False,
     ambient_mpa: float = 0.1,
@@ -100,7 +100,7 @@ def points(
 @takes_kinds
 def throw(
     *,
-    arms_mm: Sequence[float],
+    arms_mm: Collection[float],
     web_kg: float,
     pin_kg: float,
     counterweight_kg: float = 0.0,
@@ -175,9 +175,9 @@ def place(
 @takes_kinds
 def banks(
     throws: int,
-    axes_deg: Sequence[float],
+    axes_deg: Collection[float],
     *,
-    pins_deg: Sequence[float] | None = None,
+    pins_deg: Collection[float] | None = None,
     articulated: bool = False,
 ) -> Arrangement:
     """Places of V, W and radial engines: every throw carries a rod of every bank.
@@ -193,7 +193,8 @@ def banks(
     >>> [cylinder.throw for cylinder in banks(throws=3, axes_deg=[-45, 45])]
     [0, 1, 2, 0, 1, 2]
     """
-    axes = [math.radians(axis - axes_deg[0]) for axis in axes_deg]
+    angles = [float(axis) for axis in axes_deg]
+    axes = [math.radians(axis - angles[0]) for axis in angles]
     split = None if pins_deg is None else [math.radians(angle) for angle in pins_deg]
     return arrangement.fan(throws, axes, pin_angles=split, articulated=articulated)
 
@@ -225,8 +226,13 @@ def articulated_rod(
     return ArticulatedRod(rod_length_mm * _MM, radius_mm * _MM, angle, reciprocating_kg, big_end_kg)
 
 
-class Given(TypedDict, total=False):
-    """Arguments of ``assemble`` for an engine in line."""
+class EngineNumbers(TypedDict, total=False):
+    """Arguments of ``assemble`` that engines of several layouts may share, typed.
+
+    >>> sizes: EngineNumbers = {"bore_mm": 80, "compression_ratio": 9}
+    >>> sizes["bore_mm"]
+    80
+    """
 
     bore_mm: float
     crank_radius_mm: float
@@ -236,7 +242,6 @@ class Given(TypedDict, total=False):
     gas: Gas
     reciprocating_kg: float
     rod_big_end_kg: float
-    firing_offsets_deg: Sequence[float]
     throws: Throw | Sequence[Throw]
     pin_diameter_mm: Sizes
     pin_length_mm: Sizes
@@ -254,7 +259,7 @@ class Given(TypedDict, total=False):
     name: str
 
 
-def in_line(**given: Unpack[Given]) -> Engine:
+def in_line(*, firing_offsets_deg: Collection[float], **given: Unpack[EngineNumbers]) -> Engine:
     """An in-line engine with a central mechanism, of what ``assemble`` takes.
 
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
@@ -275,7 +280,7 @@ def in_line(**given: Unpack[Given]) -> Engine:
     >>> engine.cylinders
     4
     """
-    return assemble(**given)
+    return assemble(firing_offsets_deg=firing_offsets_deg, **given)
 
 
 @takes_kinds
@@ -290,7 +295,7 @@ def assemble(
     gas: Gas,
     reciprocating_kg: float,
     rod_big_end_kg: float,
-    firing_offsets_deg: Sequence[float],
+    firing_offsets_deg: Collection[float],
     throws: Throw | Sequence[Throw],
     pin_diameter_mm: Sizes,
     pin_length_mm: Sizes,
@@ -421,8 +426,8 @@ def assemble(
 
 def _sizes(given: Sizes, count: int) -> tuple[float, ...]:
     """Sizes of ``count`` journals [m]."""
-    each = (given,) * count if isinstance(given, int | float) else tuple(given)
-    return tuple(size * _MM for size in each)
+    each = tuple(given) if isinstance(given, Collection) else (given,) * count
+    return tuple(float(size) * _MM for size in each)
 
 
 def _throw_angles(places: Arrangement, offsets: Sequence[float], count: int) -> list[float]:

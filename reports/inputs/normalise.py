@@ -56,7 +56,18 @@ def read_text(file: Path) -> str:
     Raises:
         InputError: It is missing, unreadable, too large or no UTF-8 text.
     """
-    data, source = read_bytes(file, MAX_BYTES, "это не файл исходных данных"), file.name
+    return text_of(read_bytes(file, MAX_BYTES, "это не файл исходных данных"), file.name)
+
+
+def text_of(data: bytes, source: str) -> str:
+    """Return the text of an input file's bytes; `source` names it.
+
+    Raises:
+        InputError: It is too large or no UTF-8 text.
+    """
+    if len(data) > MAX_BYTES:
+        what = f"файл больше {MAX_BYTES // 10**6} МБ"
+        raise refused(source, what, "это не файл исходных данных")
     kind = kind_of(data)
     if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")

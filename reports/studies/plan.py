@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 from kshm.chain.solve import solve_chunks
 from kshm.cycle.cycle import CycleRun
 from kshm.engine.engine import Engine
+from kshm.mechanics.oil_orbit import FilmError
+from kshm.results.chosen import ChosenQuantities, of_batch
 from reports.inputs.fields import Field, Path, iter_fields, to_mapping
 from reports.inputs.revisions import Revisions
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solve_input import film_lost
 from reports.inputs.units import number_text
 from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError, KshmError, Problem, one_line
-from reports.studies.quantities import ChosenQuantities, of_batch
 from reports.tables.registry import kept_model
 
 MOST_POINTS = 10_000_000
@@ -191,12 +193,18 @@ def solved(task: SweepTask) -> Chunk:
         for name, numbers in _of_own(models[these], task.wanted).items():
             values[name][here] = numbers
         for row, reason in zip(here, reasons, strict=True):
-            errors[row] = reason
+            errors[row] = _in_words(reason)
     finite = np.all([np.isfinite(each) for each in values.values()], axis=0)
     for row in places:
         if not finite[row]:
             errors[row] = errors[row] or NOT_FINITE
     return Chunk(task.rows, values, errors)
+
+
+def _in_words(reason: KshmError | None) -> str:
+    if isinstance(reason, FilmError):
+        return film_lost(reason)
+    return reason.lines()[0] if reason else ""
 
 
 def _of_own(models: Sequence[InputFile], wanted: ChosenQuantities) -> dict[str, Array]:

@@ -11,6 +11,7 @@ from typing import Any, Protocol, TextIO
 import numpy as np
 
 from kshm.chain.solve import chunk_size, solve_batch
+from kshm.results.chosen import ChosenQuantities, described
 from reports.exports.build import load_input
 from reports.exports.numbers import PLAIN, CsvForm, neutralised
 from reports.exports.own_books import own_numbers
@@ -21,7 +22,7 @@ from reports.shared.files import atomic_path, reason, refuse_own
 from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
 from reports.studies.plan import Chunk, Plan, make_plan, solved, tasks
-from reports.studies.quantities import ChosenQuantities, choose, described
+from reports.studies.quantities import choose
 
 ERROR = "error"
 SUFFIXES = (".parquet", ".csv", ".xlsx")

@@ -16,6 +16,7 @@ from click.testing import CliRunner
 
 from kshm import solve
 from kshm.results.case import first_extreme
+from kshm.results.chosen import ChosenQuantities
 from reports.cli import main
 from reports.inputs.fields import set_value, to_mapping
 from reports.inputs.load import load_mapping
@@ -26,7 +27,6 @@ from reports.shared.resources import samples_dir
 from reports.studies import plan as plan_module
 from reports.studies import sweep as run_module
 from reports.studies.plan import make_plan
-from reports.studies.quantities import ChosenQuantities
 from reports.studies.sweep import Studied, SweepOptions, sweep
 from tests.conftest import sample
 
@@ -294,7 +294,9 @@ def test_a_result_that_is_no_number_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     """Beside a reason of its own, which stays."""
     plan = make_plan(sample(BASE.stem), BASE.name, ("geometry.bore_mm=85:88:2",), pairwise=False)
     numbers = {"c_m": np.array([np.nan, np.nan])}
-    monkeypatch.setattr(plan_module, "of_batch", lambda *_: (numbers, ["", "своя причина"]))
+    monkeypatch.setattr(
+        plan_module, "of_batch", lambda *_: (numbers, [None, KshmError("своя причина")])
+    )
     wanted = ChosenQuantities(("c_m",), (), slow=False)
     (task,) = plan_module.tasks(plan, wanted, 2)
     assert plan_module.solved(task).errors == [plan_module.NOT_FINITE, "своя причина"]

@@ -16,7 +16,15 @@ from kshm.defaults import (
     WEB_THICKNESS_SHARE,
     WEB_WIDTH_SHARE,
 )
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
+from kshm.engine.arrangement import (
+    MOST_GAP,
+    Arrangement,
+    ArticulatedRod,
+    firing_gap,
+    hung,
+    in_row,
+    side_reach,
+)
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.crankshaft import Crankshaft
@@ -371,3 +379,18 @@ def implausible(engine: Engine) -> Iterator[str]:
     # A cycle is 4π: taken for degrees it is still less than any real offset.
     if 0 < math.degrees(last) <= 4 * math.pi:
         yield f"all cylinders fire within {math.degrees(last):.3g}°: are the offsets degrees?"
+        return
+    offsets = [round(math.degrees(offset), 6) for offset in engine.firing_offsets]
+    for number, offset in enumerate(offsets, 1):
+        first = offsets.index(offset) + 1
+        if first < number and engine.strokes == 4:
+            yield (
+                f"cylinder {number} fires with cylinder {first} at {offset:g}°, usually they fire "
+                "in turn: check the firing order"
+            )
+    gap, mean = firing_gap(offsets, math.degrees(engine.period))
+    if gap > MOST_GAP * mean:
+        yield (
+            f"the firings do not fill the cycle: the widest gap is {gap:g}°, the mean {mean:g}°: "
+            "check the firing offsets"
+        )

@@ -21,6 +21,7 @@ from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Engine, Geometry, Method, implausible
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses
+from kshm.errors import InputError, Problem
 from kshm.nomenclature.quantity import UNITS
 
 _MM, _MPA, _RPM = (UNITS[unit].si for unit in ("mm", "MPa", "rpm"))
@@ -381,6 +382,7 @@ def assemble(
             f"{cylinders} cylinders need throws for {count}, not {len(each_throw)}",
         )
     )
+    _check_offsets([float(offset) for offset in firing_offsets_deg], 180.0 * strokes)
     offsets = tuple(math.radians(offset) for offset in firing_offsets_deg)
     angles = _throw_angles(places, offsets, count)
     if isinstance(articulated, ArticulatedRod):
@@ -422,6 +424,19 @@ def assemble(
     for odd in implausible(engine):
         warnings.warn(odd, stacklevel=3)  # past the check of the kinds
     return engine
+
+
+def _check_offsets(offsets: Sequence[float], period: float) -> None:
+    """Refuse offsets that do not begin with cylinder 1 or lie outside of the cycle [°]."""
+    if offsets[0] != 0:
+        what = f"must begin with 0, not {offsets[0]:g}"
+        hint = "angles count from cylinder 1"
+        raise InputError(Problem("firing_offsets_deg", what, hint, value=offsets[0]))
+    for offset in offsets:
+        if not 0 <= offset < period:
+            what, limits = f"{offset:g}° is outside of the cycle", (0.0, period)
+            hint = f"from 0° to below {period:g}°"
+            raise InputError(Problem("firing_offsets_deg", what, hint, limits, offset))
 
 
 def _sizes(given: Sizes, count: int) -> tuple[float, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 import tomllib
+import warnings
 from decimal import Decimal
 
 import numpy as np
@@ -92,3 +93,40 @@ def test_what_the_solver_refuses_says_where_and_within_which_limits() -> None:
     assert isinstance(caught.value, KeyError) and caught.value.args == ("M_men",)
     with pytest.raises(kshm.UnknownNameError, match="a key must be a text"):
         kshm.quantity(3)
+
+
+@pytest.mark.parametrize(
+    ("offsets", "said"),
+    [
+        ([0, 40, 80], ("вспышки не заполняют цикл: наибольший промежуток 640°, средний 240°",
+                       "the firings do not fill the cycle: the widest gap is 640°, the mean 240°")),
+        ([0, 240, 240], ("начало рабочего хода то же, что у цилиндра 2: 240°",
+                         "cylinder 3 fires with cylinder 2 at 240°")),
+        ([0, 270, 430], ("", "")),
+    ],
+)  # fmt: skip
+def test_odd_firings_are_told_by_the_api_as_by_the_command(offsets, said) -> None:
+    given = data("crankshaft", "firing_offsets_deg", offsets)
+    given["crankshaft"].pop("throw_angles_deg", None)
+    throws = small().crankshaft.throws * 3
+    for words, make in (
+        (said[0], lambda: reports.load(given)),
+        (said[1], lambda: small(firing_offsets_deg=offsets, throws=throws, main_lengths_mm=28)),
+    ):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            make()
+        assert [words in str(each.message) for each in caught] == [True] * bool(words)
+
+
+@pytest.mark.parametrize(
+    ("offsets", "said"),
+    [
+        ([10, 240, 480], "firing_offsets_deg: must begin with 0, not 10"),
+        ([0, 240, 760], "firing_offsets_deg: 760° is outside of the cycle; from 0° to below 720°"),
+        ([0, -240, 480], "firing_offsets_deg: -240° is outside of the cycle"),
+    ],
+)
+def test_offsets_outside_of_the_cycle_are_refused(offsets, said) -> None:
+    with pytest.raises(kshm.InputError, match=said):
+        small(firing_offsets_deg=offsets)

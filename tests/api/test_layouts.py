@@ -145,7 +145,7 @@ def layouts(draw: st.DrawFn) -> kshm.Engine:
     places = banks(throws, axes, pins_deg=split, articulated=kind == "articulated")
     cranks = [0.0, *(float(draw(st.integers(0, 359))) for _ in range(throws - 1))]
     pins = [axis - turn for axis, turn in zip(axes, split or [0.0] * count, strict=True)]
-    turns = [draw(st.integers(0, 1)) for _ in range(count * throws)]
+    turns = [0, *(draw(st.integers(0, 1)) for _ in range(count * throws - 1))]
     number = st.floats(20, 60)
     rods = [
         articulated_rod(rod_length_mm=draw(st.floats(110, 150)), radius_mm=draw(st.floats(0, 35)),

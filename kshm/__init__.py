@@ -10,11 +10,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from kshm.engine.engine import Engine
+from kshm.errors import InputError, KshmError, Problem, UnknownNameError
 
 if TYPE_CHECKING:
     from kshm.chain.solve import solve_chunks
     from kshm.engine.arrangement import opposed
     from kshm.engine.textbook_units import (
+        EngineNumbers,
         articulated_rod,
         assemble,
         banks,
@@ -27,12 +29,18 @@ if TYPE_CHECKING:
     )
     from kshm.nomenclature.quantity import Quantity, quantity
     from kshm.results.solution import Solution, solve
-    from kshm.results.study import sweep
+    from kshm.results.study import StudyInterrupted, sweep
 
 __all__ = [
     "Engine",
+    "EngineNumbers",
+    "InputError",
+    "KshmError",
+    "Problem",
     "Quantity",
     "Solution",
+    "StudyInterrupted",
+    "UnknownNameError",
     "articulated_rod",
     "assemble",
     "banks",
@@ -54,13 +62,18 @@ _HOMES = {
     "kshm.chain.solve": ("solve_chunks",),
     "kshm.engine.arrangement": ("opposed",),
     "kshm.engine.textbook_units": (
-        "articulated_rod", "assemble", "banks", "end_mass", "in_line", "place", "points",
-        "polytropic", "throw",
+        "EngineNumbers", "articulated_rod", "assemble", "banks", "end_mass", "in_line", "place",
+        "points", "polytropic", "throw",
     ),
     "kshm.nomenclature.quantity": ("Quantity", "quantity"),
     "kshm.results.solution": ("Solution", "solve"),
-    "kshm.results.study": ("sweep",),
+    "kshm.results.study": ("StudyInterrupted", "sweep"),
 }  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return [*__all__]
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401
@@ -69,5 +82,6 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401
 
     for home, names in _HOMES.items():
         if name in names:
-            return getattr(import_module(home), name)
+            globals()[name] = getattr(import_module(home), name)
+            return globals()[name]
     raise AttributeError(f"module 'kshm' has no attribute '{name}'")

@@ -1,38 +1,33 @@
-"""The report engine: files, tables and people around the solver `kshm`."""
+"""The report engine: files, tables and people around the solver `kshm`.
+
+The names below are the public ones: ``load`` gives the engine of an input, ``dump`` writes the
+input of an engine, ``build`` the documents, ``plot`` the figures of a solution.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from kshm.engine.engine import Engine
+    from reports.api import build, dump, load, samples
+    from reports.figures import plot
 
-__all__ = ["load"]
+__all__ = ["build", "dump", "load", "plot", "samples"]
+
+_HOMES = {"plot": "reports.figures"}
 
 
-def load(source: Path | str | Mapping[str, Any]) -> Engine:
-    """Engine of an input file, of a workbook that a person edited, or of a mapping of sections.
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return [*__all__]
 
-    What is allowed but odd is a ``UserWarning``, one line each, in Russian.
 
-    Raises:
-        reports.shared.errors.InputError: with everything that is wrong with the input.
+def __getattr__(name: str) -> Any:  # noqa: ANN401
+    """Import the door on first use: the command pays for what it uses."""
+    from importlib import import_module
 
-    >>> engine = load("samples/gots-diesel.toml")
-    >>> engine.cylinders, round(engine.geometry.bore, 3)  # SI units
-    (3, 0.088)
-    """
-    import warnings
-
-    from reports.exports.build import load_input
-    from reports.inputs.load import load_mapping
-    from reports.inputs.to_si.engine import to_engine
-
-    loaded = (
-        load_mapping(source, source="") if isinstance(source, Mapping) else load_input(Path(source))
-    )
-    for odd in loaded.warnings:
-        warnings.warn(odd.line(), stacklevel=2)
-    return to_engine(loaded.model)
+    if name not in __all__:
+        raise AttributeError(f"module 'reports' has no attribute '{name}'")
+    found = getattr(import_module(_HOMES.get(name, "reports.api")), name)
+    globals()[name] = found
+    return found

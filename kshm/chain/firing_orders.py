@@ -14,6 +14,7 @@ import numpy as np
 from kshm.arrays import Array
 from kshm.chain.solve import solve_batch
 from kshm.engine.engine import Engine
+from kshm.errors import InputError
 
 MAX_CYLINDERS = 7  # 64 orders; more throws have too many to list
 
@@ -95,13 +96,13 @@ def rank_firing_orders(engine: Engine) -> tuple[FiringOrder, ...]:
     main journal.
 
     Raises:
-        ValueError: more cylinders than orders can be listed for, or two strokes, which
+        InputError: more cylinders than orders can be listed for, or two strokes, which
             leave no choice.
     """
     if engine.strokes != 4:
-        raise ValueError("a two-stroke engine has one firing order")
+        raise InputError("a two-stroke engine has one firing order")
     if engine.cylinders > MAX_CYLINDERS:
-        raise ValueError(f"firing orders are listed for up to {MAX_CYLINDERS} cylinders")
+        raise InputError(f"firing orders are listed for up to {MAX_CYLINDERS} cylinders")
     table = offsets_table(dead_centres(engine))
     loads = journal_loads(engine, table)
     rough, half = unevenness(table), order_sum(table, 0.5)

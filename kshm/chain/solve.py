@@ -154,7 +154,7 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
         size: engines in a chunk; without it as many as fit the processor's cache.
 
     Raises:
-        ValueError: the engines of a chunk differ in structure.
+        InputError: the engines of a chunk differ in structure.
 
     With ``engine`` as in the example of ``kshm.in_line``:
 

@@ -14,6 +14,7 @@ from kshm.engine.arrangement import Arrangement, ArticulatedRod, Cylinder, hung
 from kshm.engine.crankshaft import places
 from kshm.engine.engine import Engine, Geometry
 from kshm.engine.gas import PolytropicGas
+from kshm.errors import InputError
 from kshm.mechanics.articulated import ArticulatedArrays, Linkage
 from kshm.mechanics.gas import PolytropicArrays
 from kshm.mechanics.journals import Rods, ThrowArrays
@@ -69,13 +70,13 @@ def stack(engines: Sequence[Engine]) -> Batch:
     """Stack engines of one structure.
 
     Raises:
-        ValueError: the engines differ in structure or there are none.
+        InputError: the engines differ in structure or there are none.
     """
     if not engines:
-        raise ValueError("no engines to solve")
+        raise InputError("no engines to solve")
     if len({structure(engine) for engine in _one_of_each_kind(engines)}) > 1:
         msg = "engines of one batch must have one structure: layout, strokes, step, rays, gas"
-        raise ValueError(msg)
+        raise InputError(msg)
     first = engines[0]
     geometry = _SharedParts([engine.geometry for engine in engines])
     arrangement = _SharedParts([engine.arrangement for engine in engines])

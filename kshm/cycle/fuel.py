@@ -18,6 +18,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from kshm.errors import InputError, Problem
+
 OXYGEN_SHARE = 0.208
 AIR_MOLAR_MASS = 28.96  # kg/kmol
 # Heat left in CO and H2 per kmol of missing air [J/kmol]
@@ -42,13 +44,13 @@ class Remark:
     numbers: Mapping[str, float]
 
 
-class CycleError(ValueError):
+class CycleError(InputError):
     """Input without a cycle; ``remark`` names it and the reason."""
 
     def __init__(self, key: str, field: str, **numbers: float) -> None:
         """Keep the remark; the text of the error is for developers."""
-        listed = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
-        super().__init__(f"{field}: {key}" + (f" ({listed})" if listed else ""))
+        shown = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
+        super().__init__(Problem(field, key + (f" ({shown})" if shown else "")))
         self.remark = Remark(key, field, numbers)
 
 

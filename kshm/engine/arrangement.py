@@ -61,6 +61,23 @@ class ArticulatedRod:
 
 
 Arrangement = tuple[Cylinder, ...]
+MOST_GAP = 2.0  # between two firings, over the mean: twins at 180° have 1.5
+
+
+def firing_gap(offsets: Sequence[float], period: float) -> tuple[float, float]:
+    """Return the widest gap between two firings and the mean one.
+
+    Args:
+        offsets: where the cylinders fire, from 0 to below the period.
+        period: length of the cycle in the same unit.
+
+    >>> firing_gap([0, 40, 80], 720)
+    (640, 240.0)
+    """
+    order = sorted(offsets)
+    following = [*order[1:], order[0] + period]
+    gap = max(later - earlier for earlier, later in zip(order, following, strict=True))
+    return gap, period / len(order)
 
 
 @cache

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from dataclasses import fields
 from functools import cache, wraps
 from inspect import signature
@@ -11,9 +11,12 @@ from numbers import Integral, Real
 from types import NoneType, UnionType
 from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
+from kshm.errors import NO_LIMITS, InputError, Limits, Problem
+
 POSITIVE, NOT_NEGATIVE, FINITE = "positive", "not negative", "finite"
 _WORDS = {float: "a number", int: "a whole number", str: "a text"}
 _SHOWN = 40  # characters of a value that is told
+_LIMITS: dict[str, Limits] = {POSITIVE: (0.0, None), NOT_NEGATIVE: (0.0, None)}
 
 Arguments = ParamSpec("Arguments")
 Made = TypeVar("Made")
@@ -25,11 +28,11 @@ def refuse(*problems: tuple[bool, str]) -> None:
     """Raise the first problem that is one.
 
     Raises:
-        ValueError: with the text of that problem.
+        InputError: with the text of that problem.
     """
     for wrong, text in problems:
         if wrong:
-            raise ValueError(text)
+            raise InputError(text)
 
 
 def check_numbers(part: object, want: str, *names: str) -> None:
@@ -41,7 +44,7 @@ def check_numbers(part: object, want: str, *names: str) -> None:
         names: fields to check; all others must be finite.
 
     Raises:
-        ValueError: a field is of the wrong kind, a number is NaN, infinite or not as wanted.
+        InputError: a field is of the wrong kind, a number is NaN, infinite or not as wanted.
     """
     owner: Any = type(part)
     for name, kind_of in _kinds(owner):
@@ -49,11 +52,13 @@ def check_numbers(part: object, want: str, *names: str) -> None:
         kind = want if name in names else FINITE
         if type(value) is float and kind_of is float and _is(value, kind):
             continue  # as nearly all are: many engines are made for a study
-        check_kind(f"{owner.__name__}: {name}", value, kind_of)
+        where = f"{owner.__name__}.{name}"
+        check_kind(where, value, kind_of)
         for number in value if isinstance(value, tuple) else (value,):
-            if isinstance(number, int | float) and not _is(number, kind):
-                msg = f"{owner.__name__}: {name} must be {kind}, not {number:g}"
-                raise ValueError(msg)
+            if isinstance(number, Real) and not _is(float(number), kind):
+                what = f"must be {kind}, not {float(number):g}"
+                limits = _LIMITS.get(kind, NO_LIMITS)
+                raise InputError(Problem(where, what, limits=limits, value=number))
 
 
 @cache
@@ -82,12 +87,12 @@ def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
     """Refuse a value that does not fit an annotation.
 
     Raises:
-        ValueError: with the name, the kind and the beginning of the value.
+        InputError: with the name, the kind and the value, of which the text has the beginning.
     """
     if not _fits(value, kind):
-        printed = " ".join(repr(value).split())
-        printed = printed if len(printed) <= _SHOWN else printed[: _SHOWN - 1] + "…"
-        raise ValueError(f"{name} must be {_words(kind)}, not {printed}")
+        shown = " ".join(repr(value).split())
+        shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 1] + "…"
+        raise InputError(Problem(name, f"must be {_words(kind)}, not {shown}", value=value))
 
 
 def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401
@@ -101,9 +106,11 @@ def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401
         return True  # the one who takes it tells the words it knows
     if origin is tuple:
         return isinstance(value, tuple) and _each_fits(value, get_args(kind))
-    if origin is Sequence:
-        several = hasattr(value, "__len__") and hasattr(value, "__iter__")
-        plain = not isinstance(value, str | bytes | Mapping)
+    if origin in (Sequence, Collection):
+        several = isinstance(value, Collection)
+        plain = (
+            not isinstance(value, str | bytes | Mapping | Set) and getattr(value, "ndim", 1) == 1
+        )
         return several and plain and all(_fits(each, get_args(kind)[0]) for each in value)  # type: ignore[attr-defined]
     number = {float: Real, int: Integral}.get(kind)
     return isinstance(value, number or kind)
@@ -118,7 +125,7 @@ def _each_fits(values: tuple[object, ...], kinds: tuple[Any, ...]) -> bool:
 def _words(kind: Any) -> str:  # noqa: ANN401
     if get_origin(kind) in (Union, UnionType):
         return " or ".join(_words(each) for each in get_args(kind) if each is not NoneType)
-    if get_origin(kind) in (tuple, Sequence):
+    if get_origin(kind) in (tuple, Sequence, Collection):
         return f"a list, each {_words(get_args(kind)[0])}"
     return _WORDS.get(kind) or str(kind.__name__)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from html import escape
+from typing import Any, Literal
 
 from kshm.defaults import (
     COUNTERWEIGHT_SHARE,
@@ -15,13 +16,23 @@ from kshm.defaults import (
     WEB_THICKNESS_SHARE,
     WEB_WIDTH_SHARE,
 )
-from kshm.engine.arrangement import Arrangement, ArticulatedRod, hung, in_row, side_reach
+from kshm.engine.arrangement import (
+    MOST_GAP,
+    Arrangement,
+    ArticulatedRod,
+    firing_gap,
+    hung,
+    in_row,
+    side_reach,
+)
 from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
+from kshm.engine.revised import engine_maker
+from kshm.engine.source import Source
 from kshm.engine.strength import PartStrength
 from kshm.engine.torsion import Torsion
 from kshm.nomenclature.quantity import UNITS
@@ -125,7 +136,7 @@ class OperatingPoint:
     fullness: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Engine:
     """A piston engine, SI units.
 
@@ -137,7 +148,7 @@ class Engine:
     shaft, and is None otherwise.
 
     Raises:
-        ValueError: a number or a count that no engine has.
+        InputError: a number or a count that no engine has.
 
     With ``engine`` as in the example of ``kshm.in_line``:
 
@@ -173,6 +184,7 @@ class Engine:
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
     strength: PartStrength | None = None  # strength of the parts, if it is asked for
     counterweight: Counterweight | None = None  # those proposed for the webs, if asked for
+    source: Source | None = field(default=None, compare=False)  # the file that it was read from
 
     def __post_init__(self) -> None:
         """Give an engine without arrangement its cylinders in line; refuse what cannot be."""
@@ -183,6 +195,32 @@ class Engine:
         self._check_timing()
         self._check_layout()
         self._check_articulated()
+
+    def __repr__(self) -> str:
+        """Return the name, the layout and the sizes that tell an engine from others."""
+        size = self.geometry
+        layout = "in line" if self.is_in_line else f"on {len(self.crankshaft.throws)} throws"
+        return (
+            f"<Engine {self.name!r}: {self.cylinders} {layout}, {self.strokes}-stroke, "
+            f"D×S {size.bore * 1e3:.4g}×{size.stroke * 1e3:.4g} mm, "
+            f"ε {size.compression_ratio:.4g}, {self.speed_rpm:.5g} min⁻¹>"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return the sizes as a notebook shows them."""
+        size, shaft = self.geometry, self.crankshaft
+        rows = {
+            "cylinders": f"{self.cylinders}, {self.strokes}-stroke",
+            "bore × stroke": f"{size.bore * 1e3:.4g} × {size.stroke * 1e3:.4g} mm",
+            "rod length": f"{size.rod_length * 1e3:.4g} mm, λ = {size.lam:.4g}",
+            "compression ratio": f"{size.compression_ratio:.4g}",
+            "speed": f"{self.speed_rpm:.5g} min⁻¹",
+            "fire at": ", ".join(f"{math.degrees(each):.5g}°" for each in self.firing_offsets),
+            "gas": type(self.gas).__name__,
+            "throws, main journals": f"{len(shaft.throws)}, {len(shaft.main_lengths)}",
+        }
+        lines = (f"<tr><td>{key}</td><td>{escape(text)}</td></tr>" for key, text in rows.items())
+        return f"<b>{escape(self.name)}</b><table><tbody>{''.join(lines)}</tbody></table>"
 
     def _check_calculation(self) -> None:
         gas, efficiency = self.gas, self.mechanical_efficiency
@@ -276,6 +314,30 @@ class Engine:
                 )
             )
 
+    def with_(self, changes: Mapping[str, Any] | None = None, **more: Any) -> Engine:  # noqa: ANN401
+        """Return an engine with other values.
+
+        Args:
+            changes: values by name: a key of the file that the engine was read from
+                (``geometry.bore_mm``, ``crankshaft.webs.*.counterweight_kg``, in the file's
+                units), a name of ``kshm.assemble`` (``bore_mm``, in its units), or a path within
+                the engine (``geometry.bore``, in SI).
+            **more: the same, for names without a dot; a file's key goes by its last word.
+
+        Raises:
+            UnknownNameError: a name that there is not.
+            InputError: a value that no engine has.
+
+        With ``engine`` as in the example of ``kshm.in_line``:
+
+        >>> engine.with_(bore_mm=90, speed_rpm=2000).geometry.bore
+        0.09
+        """
+        named = {**(changes or {}), **more}
+        refuse((not named, "name something to change"))
+        made: Engine = engine_maker(self, list(named))(list(named.values()))
+        return made
+
     @property
     def is_in_line(self) -> bool:
         """Whether all cylinders stand in one row, each on its own throw."""
@@ -322,3 +384,18 @@ def implausible(engine: Engine) -> Iterator[str]:
     # A cycle is 4π: taken for degrees it is still less than any real offset.
     if 0 < math.degrees(last) <= 4 * math.pi:
         yield f"all cylinders fire within {math.degrees(last):.3g}°: are the offsets degrees?"
+        return
+    offsets = [round(math.degrees(offset), 6) for offset in engine.firing_offsets]
+    for number, offset in enumerate(offsets, 1):
+        first = offsets.index(offset) + 1
+        if first < number and engine.strokes == 4:
+            yield (
+                f"cylinder {number} fires with cylinder {first} at {offset:g}°, usually they fire "
+                "in turn: check the firing order"
+            )
+    gap, mean = firing_gap(offsets, math.degrees(engine.period))
+    if gap > MOST_GAP * mean:
+        yield (
+            f"the firings do not fill the cycle: the widest gap is {gap:g}°, the mean {mean:g}°: "
+            "check the firing offsets"
+        )

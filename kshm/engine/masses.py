@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
+from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers
 
 Fuel = Literal["petrol", "diesel"]
 
@@ -67,7 +67,7 @@ class DirectMasses:
     def __post_init__(self) -> None:
         """Refuse what no mass can be."""
         check_numbers(self, NOT_NEGATIVE, "reciprocating", "rod_big_end")
-        refuse((self.reciprocating == 0, "DirectMasses: reciprocating must be positive, not 0"))
+        check_numbers(self, POSITIVE, "reciprocating")
 
 
 Masses = DirectMasses | RodMasses

@@ -3,14 +3,14 @@
     from kshm import in_line, polytropic, solve, throw
 
 Everything else of ``kshm`` is in SI units with angles in radians; these functions are where
-a person's units come in without a file.  What no engine can be is refused by ``ValueError``.
+a person's units come in without a file.  What no engine can be is refused by ``InputError``.
 """
 
 from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TypedDict, Unpack
 
@@ -21,12 +21,13 @@ from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Engine, Geometry, Method, implausible
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses
+from kshm.errors import InputError, Problem
 from kshm.nomenclature.quantity import UNITS
 
 _MM, _MPA, _RPM = (UNITS[unit].si for unit in ("mm", "MPa", "rpm"))
 _ARMS = 6
 
-Sizes = float | Sequence[float]  # one for all journals or one each
+Sizes = float | Collection[float]  # one for all journals or one each
 
 
 @takes_kinds
@@ -75,8 +76,8 @@ def polytropic(
 
 @takes_kinds
 def points(
-    angles_deg: Sequence[float],
-    pressures_mpa: Sequence[float],
+    angles_deg: Collection[float],
+    pressures_mpa: Collection[float],
     *,
     smooth: bool = False,
     ambient_mpa: float = 0.1,
@@ -84,7 +85,7 @@ def points(
     """Indicator diagram by points from 0 to the cycle's end; absolute pressures [MPa].
 
     Raises:
-        ValueError: the lists differ in length, do not rise, or their ends differ.
+        InputError: the lists differ in length, do not rise, or their ends differ.
 
     >>> points([0, 360, 720], [0.1, 4.0, 0.1]).pressures
     (100000.0, 4000000.0, 100000.0)
@@ -100,7 +101,7 @@ def points(
 @takes_kinds
 def throw(
     *,
-    arms_mm: Sequence[float],
+    arms_mm: Collection[float],
     web_kg: float,
     pin_kg: float,
     counterweight_kg: float = 0.0,
@@ -121,7 +122,7 @@ def throw(
             the crank along rotation [°].
 
     Raises:
-        ValueError: there are not six arms, or a number that no throw has.
+        InputError: there are not six arms, or a number that no throw has.
 
     >>> round(throw(arms_mm=[30] * 6, web_kg=0.3, pin_kg=0.2).length, 6)
     0.18
@@ -175,9 +176,9 @@ def place(
 @takes_kinds
 def banks(
     throws: int,
-    axes_deg: Sequence[float],
+    axes_deg: Collection[float],
     *,
-    pins_deg: Sequence[float] | None = None,
+    pins_deg: Collection[float] | None = None,
     articulated: bool = False,
 ) -> Arrangement:
     """Places of V, W and radial engines: every throw carries a rod of every bank.
@@ -193,7 +194,8 @@ def banks(
     >>> [cylinder.throw for cylinder in banks(throws=3, axes_deg=[-45, 45])]
     [0, 1, 2, 0, 1, 2]
     """
-    axes = [math.radians(axis - axes_deg[0]) for axis in axes_deg]
+    angles = [float(axis) for axis in axes_deg]
+    axes = [math.radians(axis - angles[0]) for axis in angles]
     split = None if pins_deg is None else [math.radians(angle) for angle in pins_deg]
     return arrangement.fan(throws, axes, pin_angles=split, articulated=articulated)
 
@@ -225,8 +227,13 @@ def articulated_rod(
     return ArticulatedRod(rod_length_mm * _MM, radius_mm * _MM, angle, reciprocating_kg, big_end_kg)
 
 
-class Given(TypedDict, total=False):
-    """Arguments of ``assemble`` for an engine in line."""
+class EngineNumbers(TypedDict, total=False):
+    """Arguments of ``assemble`` that engines of several layouts may share, typed.
+
+    >>> sizes: EngineNumbers = {"bore_mm": 80, "compression_ratio": 9}
+    >>> sizes["bore_mm"]
+    80
+    """
 
     bore_mm: float
     crank_radius_mm: float
@@ -236,7 +243,6 @@ class Given(TypedDict, total=False):
     gas: Gas
     reciprocating_kg: float
     rod_big_end_kg: float
-    firing_offsets_deg: Sequence[float]
     throws: Throw | Sequence[Throw]
     pin_diameter_mm: Sizes
     pin_length_mm: Sizes
@@ -254,13 +260,13 @@ class Given(TypedDict, total=False):
     name: str
 
 
-def in_line(**data: Unpack[Given]) -> Engine:
+def in_line(*, firing_offsets_deg: Collection[float], **given: Unpack[EngineNumbers]) -> Engine:
     """An in-line engine with a central mechanism, of what ``assemble`` takes.
 
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
 
     Raises:
-        ValueError: lists of the wrong length, a number that no engine has.
+        InputError: lists of the wrong length, a number that no engine has.
 
     >>> from kshm import in_line, points, throw
     >>> sizes = {
@@ -275,7 +281,7 @@ def in_line(**data: Unpack[Given]) -> Engine:
     >>> engine.cylinders
     4
     """
-    return assemble(**data)
+    return assemble(firing_offsets_deg=firing_offsets_deg, **given)
 
 
 @takes_kinds
@@ -290,7 +296,7 @@ def assemble(
     gas: Gas,
     reciprocating_kg: float,
     rod_big_end_kg: float,
-    firing_offsets_deg: Sequence[float],
+    firing_offsets_deg: Collection[float],
     throws: Throw | Sequence[Throw],
     pin_diameter_mm: Sizes,
     pin_length_mm: Sizes,
@@ -347,7 +353,7 @@ def assemble(
         name: name of the engine.
 
     Raises:
-        ValueError: lists of the wrong length, rods of one throw that do not fire together
+        InputError: lists of the wrong length, rods of one throw that do not fire together
             with it, a number that no engine has.
 
     With ``sizes`` as in the example of ``in_line``:
@@ -376,6 +382,7 @@ def assemble(
             f"{cylinders} cylinders need throws for {count}, not {len(each_throw)}",
         )
     )
+    _check_offsets([float(offset) for offset in firing_offsets_deg], 180.0 * strokes)
     offsets = tuple(math.radians(offset) for offset in firing_offsets_deg)
     angles = _throw_angles(places, offsets, count)
     if isinstance(articulated, ArticulatedRod):
@@ -419,10 +426,23 @@ def assemble(
     return engine
 
 
-def _sizes(sizes: Sizes, count: int) -> tuple[float, ...]:
+def _check_offsets(offsets: Sequence[float], period: float) -> None:
+    """Refuse offsets that do not begin with cylinder 1 or lie outside of the cycle [°]."""
+    if offsets[0] != 0:
+        what = f"must begin with 0, not {offsets[0]:g}"
+        hint = "angles count from cylinder 1"
+        raise InputError(Problem("firing_offsets_deg", what, hint, value=offsets[0]))
+    for offset in offsets:
+        if not 0 <= offset < period:
+            what, limits = f"{offset:g}° is outside of the cycle", (0.0, period)
+            hint = f"from 0° to below {period:g}°"
+            raise InputError(Problem("firing_offsets_deg", what, hint, limits, offset))
+
+
+def _sizes(given: Sizes, count: int) -> tuple[float, ...]:
     """Sizes of ``count`` journals [m]."""
-    each = (sizes,) * count if isinstance(sizes, int | float) else tuple(sizes)
-    return tuple(size * _MM for size in each)
+    each = tuple(given) if isinstance(given, Collection) else (given,) * count
+    return tuple(float(size) * _MM for size in each)
 
 
 def _throw_angles(places: Arrangement, offsets: Sequence[float], count: int) -> list[float]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+from kshm.errors import InputError
 from kshm.nomenclature.quantity import UNITS
 
 HOTTEST = 400.0  # °C, where the search for the balance ends
@@ -26,10 +27,10 @@ def check_widths(width: Array) -> None:
     """Refuse widths over the diameter b [-] outside Butenschön's tables, any shape.
 
     Raises:
-        ValueError: b is outside 0.1…1.
+        InputError: b is outside 0.1…1.
     """
     if not np.all((width >= LEAST_WIDTH) & (width <= MOST_WIDTH)):
-        raise ValueError(f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}")
+        raise InputError(f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}")
 
 
 def _polynomial(b: Array, *coefficients: float) -> Array:

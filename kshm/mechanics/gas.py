@@ -17,6 +17,7 @@ import numpy as np
 from kshm.arrays import Array, Mask
 from kshm.engine.engine import Engine
 from kshm.engine.gas import RoundedGas, TabulatedGas
+from kshm.errors import InputError
 from kshm.mechanics.kinematics import Stroke, engine_stroke
 
 # Angles come from whole degrees: 1e-9 rad decides on which side of a switch a point lies.
@@ -339,10 +340,10 @@ def polytropic_exponent(pressure: Array, ratio: Array) -> float:
     """Exponent n [-] of pVⁿ = const by least squares of ln p, shape (points,), definition.
 
     Raises:
-        ValueError: fewer than two points.
+        InputError: fewer than two points.
     """
     if len(pressure) < 2:
-        raise ValueError("two points or more are needed")
+        raise InputError("two points or more are needed")
     x = np.log(ratio)
     x = x - x.mean()
     return float(-(x @ np.log(pressure)) / (x @ x))

@@ -30,6 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
+from kshm.errors import InputError
 
 ORDERS = (2, 4, 6, 8, 10, 12)
 _CUT_OF_THE_TEXT = 4  # powers of sin²: the text keeps terms up to sin⁸
@@ -44,10 +45,10 @@ def coefficient(lam: float, order: int, terms: int | None = None) -> float:
         terms: powers of sin²α kept of the binomial series; None for all that count.
 
     Raises:
-        ValueError: the order is odd or negative.
+        InputError: the order is odd or negative.
     """
     if order < 0 or order % 2:
-        raise ValueError(f"the series has even orders only, not {order}")
+        raise InputError(f"the series has even orders only, not {order}")
     half = order // 2
     if terms is None:
         terms = half + 8 + math.ceil(18 / max(1e-3, -2 * math.log10(lam)))
@@ -138,13 +139,13 @@ def analyse(values: Array, period: float, orders: Array) -> Harmonics:
         orders: orders per turn, multiples of 2π/period below the half of the samples.
 
     Raises:
-        ValueError: an order that the samples cannot tell.
+        InputError: an order that the samples cannot tell.
     """
     body = values[:-1]
     index = np.rint(orders * period / (2 * np.pi)).astype(int)
     if np.any(np.abs(index * 2 * np.pi / period - orders) > 1e-9) or np.any(2 * index >= len(body)):
         msg = "orders must be multiples of the cycle's and below half of the number of samples"
-        raise ValueError(msg)
+        raise InputError(msg)
     spectrum = np.fft.rfft(body)[index] * 2 / len(body)
     return Harmonics(np.asarray(orders, dtype=float), spectrum.real, -spectrum.imag)
 

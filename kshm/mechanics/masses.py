@@ -19,6 +19,7 @@ from kshm.engine.arrangement import throws as throws_of
 from kshm.engine.crankshaft import Throw
 from kshm.engine.engine import Engine
 from kshm.engine.masses import DirectMasses, Estimate, Masses, Swinging, Weighing
+from kshm.errors import InputError
 from kshm.ranges import (
     MASSES_BORES,
     MASSES_STROKE_BORE,
@@ -99,7 +100,7 @@ def swung_centre(data: Swinging) -> float:
     k_c = GRAVITY / (2 * math.pi * data.swings_big) ** 2
     below = k_a + k_c - 2 * data.distance
     if below == 0:
-        raise ValueError("the two swings do not fix the centre of mass")
+        raise InputError("the two swings do not fix the centre of mass")
     return data.distance * (k_c - data.distance) / below - data.bore_radius
 
 

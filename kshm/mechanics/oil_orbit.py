@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrays import Array
+from kshm.errors import InputError, Problem
 from kshm.mechanics.bearings import check_widths
 from kshm.mechanics.gas import Nodes, middle_slope
 
@@ -229,11 +230,11 @@ def _even(seen: Array, values: Array, mirror: int) -> Array:
     return Nodes(seen, values, slope).at(np.linspace(0, np.pi, _COLUMNS))
 
 
-class FilmError(ValueError):
+class FilmError(InputError):
     """Load that no film carries; ``bearing`` is its row."""
 
     def __init__(self, bearing: int) -> None:
-        super().__init__("the oil film does not carry the load")
+        super().__init__(Problem(f"bearing {bearing}", "the oil film does not carry the load"))
         self.bearing = bearing
 
 
@@ -281,12 +282,12 @@ def orbits(
         most_cycles: when to give up.
 
     Raises:
-        ValueError: numbers that are none, or a width outside the tables of the steady film.
+        InputError: numbers that are none, or a width outside the tables of the steady film.
         FilmError: a load that the film does not carry.
     """
     check_widths(width)
     if not (np.isfinite(load).all() and np.isfinite(half_speed).all()):
-        raise ValueError("loads and speeds must be finite")
+        raise InputError("loads and speeds must be finite")
     run = _Run(phi, load, half_speed, width)
     first = load[:, 0]
     size = np.abs(first)

@@ -26,6 +26,7 @@ from kshm.defaults import PULLEY_SHARE
 from kshm.engine.arrangement import hung, pin_counts
 from kshm.engine.engine import Engine
 from kshm.engine.torsion import StiffnessFormula, Torsion
+from kshm.errors import InputError
 from kshm.mechanics import inertia as reduced
 from kshm.mechanics.masses import point_masses
 from kshm.mechanics.webs import web_thickness, web_width
@@ -351,7 +352,7 @@ def energy_resistance(train: Train, modes: Modes, damping: Array, loss_factor: f
 def form_stress(train: Train, modes: Modes) -> Array:
     """Greatest stress of a form of 1 rad M/W_p [Pa/rad], shape (modes,), statics."""
     if train.moduli is None:
-        raise ValueError("the shafts have no sections")
+        raise InputError("the shafts have no sections")
     stress: Array = np.abs(train.stiffnesses * np.diff(modes.forms) / train.moduli).max(axis=1)
     return stress
 
@@ -488,6 +489,6 @@ def sum_in_time(amplitudes: Complex, orders: Array, step: float) -> Array:
 def stresses(train: Train, response: Response) -> Complex:
     """Torsional stress of the shafts M/W_p [Pa], shape (shafts, speeds, orders), statics."""
     if train.moduli is None:
-        raise ValueError("the shafts have no sections")
+        raise InputError("the shafts have no sections")
     stress: Complex = response.torques / train.moduli[:, None, None]
     return stress

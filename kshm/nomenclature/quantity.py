@@ -7,11 +7,13 @@ numbers (``M2_Nm``) is an instance of a family (``M#_Nm``).
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from kshm.errors import Problem, UnknownNameError, one_line
 from kshm.nomenclature import (
     balance,
     bearings,
@@ -137,12 +139,15 @@ def quantity(key: str, small: int = 0) -> Quantity:
     """Quantity of a key; with more decimals for an engine of that smallness.
 
     Raises:
-        KeyError: nobody knows the key.
+        UnknownNameError: nobody knows the key.
 
     >>> quantity("N_MPa").si
     1000000.0
     """
-    base = _quantity(key)
+    try:
+        base = _quantity(key)
+    except (KeyError, TypeError):
+        raise _unknown(key) from None
     exact = small * _POWERS.get(base.unit, 0) / _FIFTHS
     more = math.ceil(exact) if small > 0 else round(exact)
     digits = replace(base.digits, measured=bool(base.unit))
@@ -150,6 +155,15 @@ def quantity(key: str, small: int = 0) -> Quantity:
         decimals = digits.decimals + more
         digits = replace(digits, decimals=max(0, decimals), zeros=max(0, -decimals))
     return replace(base, digits=digits)
+
+
+def _unknown(key: object) -> UnknownNameError:
+    if not isinstance(key, str):
+        text = one_line(repr(key), 40)
+        return UnknownNameError(text, Problem(text, "a key must be a text", "M_mean", value=key))
+    close = difflib.get_close_matches(key, _ALL, n=3, cutoff=0.6)
+    hint = f"similar: {', '.join(close)}" if close else "docs/nomenclature.md lists the keys"
+    return UnknownNameError(key, Problem(one_line(key, 80), "no such quantity", hint))
 
 
 def _quantity(key: str) -> Quantity:

@@ -4,48 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Generic, NoReturn, Protocol, TypeVar
 
+from kshm.errors import Problem, UnknownNameError
 from kshm.nomenclature.quantity import Quantity, quantity
-
-# Group, name, key of the scalar; "#" stands for the numbers of journals or pins.
-NAMES: dict[str, dict[str, str]] = {
-    "geometry": {
-        "crank_radius": "r_crank", "rod_length": "L_rod", "rod_ratio": "lam",
-        "stroke": "S_stroke", "piston_area": "F_piston", "cylinder_volume": "V_h",
-        "clearance_volume": "V_c", "displacement": "V_engine",
-    },
-    "kinematics": {
-        "angular_speed": "omega", "mean_piston_speed": "c_m", "max_piston_speed": "v_max",
-        "max_piston_speed_angle": "phi_vmax_deg", "acceleration_at_tdc": "j_tdc",
-        "acceleration_at_bdc": "j_bdc", "max_rod_angle": "beta_max_deg",
-    },
-    "masses": {
-        "reciprocating": "m_j", "rod_at_crankpin": "m_2", "throw": "m_k", "rotating": "m_r",
-        "centrifugal_force": "K_r",
-    },
-    "torque": {
-        "mean": "M_mean", "max": "M_max", "max_angle": "phi_M_max_deg", "min": "M_min",
-        "min_angle": "phi_M_min_deg", "effective": "M_e", "indicated_power": "N_i_calc",
-        "indicated_pressure": "p_i_calc", "journal_swing": "dM_main#", "pin_swing": "dM_pin#",
-    },
-    "loads": {
-        "crankpin_max": "Rpin_max_kN", "crankpin_min": "Rpin_min_kN",
-        "crankpin_max_angle": "phi_Rpin_max_deg", "crankpin_max_specific": "Rpin_max",
-        "crankpin_mean_specific": "Rpin_mean", "crankpin_pressure_max": "q_pin_max",
-        "crankpin_pressure_mean": "q_pin_mean", "journal_max": "Rmain#_max_kN",
-        "journal_max_specific": "Rmain#_max", "journal_mean_specific": "Rmain#_mean",
-        "journal_pressure_max": "q_main#_max", "worst_journal": "worst_main_load",
-    },
-    "balance": {
-        "rotating_force": "Frot", "rotating_moment": "Lrot",
-        "first_order_force": "F1_after_max", "first_order_moment": "L1_after_max",
-    },
-    "flywheel": {
-        "inertia": "I_flywheel", "excess_work": "W_fine", "engine_inertia": "I_engine_mean",
-        "irregularity": "delta_speed",
-    },
-}  # fmt: skip
 
 
 class NamedResult(float):
@@ -59,10 +21,14 @@ class NamedResult(float):
     key: str
 
     def __new__(cls, value: float, key: str) -> NamedResult:
-        """Value and the key of its quantity."""
+        """Return the value with the key of its quantity."""
         result = super().__new__(cls, value)
         result.key = key
         return result
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        """Return what a copy is made of."""
+        return float(self), self.key
 
     @property
     def quantity(self) -> Quantity:
@@ -89,63 +55,211 @@ class NamedResult(float):
         return f"{self.symbol} = {float(self):.6g} {self.unit}".rstrip()
 
 
+class One:
+    """Attribute of a group: one result."""
+
+    def __init__(self, key: str) -> None:
+        self.key = key
+
+    def __get__(self, group: ResultGroup | None, owner: type) -> NamedResult:
+        """Return the result of the engine; what it has not is told by the group."""
+        if group is None:
+            return self  # type: ignore[return-value]
+        if self.key not in group.scalars:
+            raise AttributeError(self.key)
+        return NamedResult(group.scalars[self.key], self.key)
+
+    def results(self, group: ResultGroup) -> tuple[NamedResult, ...]:
+        """Return the result, if the engine has it."""
+        has = self.key in group.scalars
+        return (NamedResult(group.scalars[self.key], self.key),) if has else ()
+
+
+class Each:
+    """Attribute of a group: a result for every journal or pin, `#` in the key is its number."""
+
+    def __init__(self, key: str) -> None:
+        self.key = key
+
+    def __get__(self, group: ResultGroup | None, owner: type) -> tuple[NamedResult, ...]:
+        """Return the results by number, none where the engine has none."""
+        return self if group is None else self.results(group)  # type: ignore[return-value]
+
+    def results(self, group: ResultGroup) -> tuple[NamedResult, ...]:
+        """Return the results by number."""
+        numbers = range(1, 1 + len(group.scalars))
+        keys = (self.key.replace("#", str(number)) for number in numbers)
+        return tuple(NamedResult(group.scalars[key], key) for key in keys if key in group.scalars)
+
+
 class ResultGroup:
     """Results of one group as attributes; those of all journals or pins are tuples."""
 
-    def __init__(self, group: str, scalars: Mapping[str, float]) -> None:
-        self._group, self._scalars = group, scalars
+    def __init__(self, scalars: Mapping[str, float]) -> None:
+        self.scalars = scalars
 
-    def __getattr__(self, name: str) -> NamedResult | tuple[NamedResult, ...]:
-        """Result of a name.
+    if not TYPE_CHECKING:  # else a checker would take any name for an attribute
 
-        Raises:
-            AttributeError: there is no such name, or this engine has no such result.
-        """
-        names = NAMES[self._group]
-        if name not in names:
-            listed = ", ".join(names)
-            raise AttributeError(f"no result {self._group}.{name}; there are: {listed}")
-        key = names[name]
-        if "#" in key:
-            return tuple(self._numbered(key))
-        if key not in self._scalars:
-            raise AttributeError(f"{self._group}.{name} is not calculated for this engine")
-        return NamedResult(self._scalars[key], key)
+        def __getattr__(self, name: str) -> NoReturn:
+            """Tell of a name that there is not, or not for this engine.
 
-    def _numbered(self, key: str) -> Iterator[NamedResult]:
-        for number in range(1, 1 + len(self._scalars)):
-            one = key.replace("#", str(number))
-            if one in self._scalars:
-                yield NamedResult(self._scalars[one], one)
+            Raises:
+                UnknownNameError: always.
+            """
+            if name.startswith("_"):
+                raise AttributeError(name)
+            known = names_of(type(self))
+            if name in known:
+                what, hint = "is not calculated for this engine", ""
+            else:
+                what, hint = "no such result", f"names: {', '.join(known)}"
+            where = f"{group_name(type(self))}.{name}"
+            raise UnknownNameError(name, Problem(where, what, hint))
 
     def __dir__(self) -> list[str]:
-        """Names of the results of this engine."""
-        return [name for name, key in NAMES[self._group].items() if self._has(key)]
-
-    def _has(self, key: str) -> bool:
-        return next(self._numbered(key), None) is not None if "#" in key else key in self._scalars
+        """Return the names of the results of this engine."""
+        return [name for name, each in names_of(type(self)).items() if each.results(self)]
 
     def __iter__(self) -> Iterator[NamedResult]:
-        """All results of the group."""
-        for name in self.__dir__():
-            result = getattr(self, name)
-            yield from result if isinstance(result, tuple) else (result,)
+        """Yield all results of the group."""
+        for each in names_of(type(self)).values():
+            yield from each.results(self)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ResultGroup) or type(other) is not type(self):
+            return NotImplemented
+        return list(self) == list(other)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        """One result a line."""
+        """Return one result a line."""
         return "\n".join(f"{result.title}: {result!r}" for result in self)
 
 
-class Group:
+def group_name(group: type) -> str:
+    """Return the name of a group in a solution."""
+    return group.__name__.removesuffix("Results").lower()
+
+
+def names_of(group: type[ResultGroup]) -> dict[str, One | Each]:
+    """Return the attributes of a group by name."""
+    return {name: each for name, each in vars(group).items() if isinstance(each, One | Each)}
+
+
+class GeometryResults(ResultGroup):
+    """Sizes of the mechanism."""
+
+    crank_radius = One("r_crank")
+    rod_length = One("L_rod")
+    rod_ratio = One("lam")
+    stroke = One("S_stroke")
+    piston_area = One("F_piston")
+    cylinder_volume = One("V_h")
+    clearance_volume = One("V_c")
+    displacement = One("V_engine")
+
+
+class KinematicsResults(ResultGroup):
+    """Speeds and accelerations."""
+
+    angular_speed = One("omega")
+    mean_piston_speed = One("c_m")
+    max_piston_speed = One("v_max")
+    max_piston_speed_angle = One("phi_vmax_deg")
+    acceleration_at_tdc = One("j_tdc")
+    acceleration_at_bdc = One("j_bdc")
+    max_rod_angle = One("beta_max_deg")
+
+
+class MassesResults(ResultGroup):
+    """Masses and the centrifugal force."""
+
+    reciprocating = One("m_j")
+    rod_at_crankpin = One("m_2")
+    throw = One("m_k")
+    rotating = One("m_r")
+    centrifugal_force = One("K_r")
+
+
+class TorqueResults(ResultGroup):
+    """Torque, power and swings."""
+
+    mean = One("M_mean")
+    max = One("M_max")
+    max_angle = One("phi_M_max_deg")
+    min = One("M_min")
+    min_angle = One("phi_M_min_deg")
+    effective = One("M_e")
+    indicated_power = One("N_i_calc")
+    indicated_pressure = One("p_i_calc")
+    journal_swing = Each("dM_main#")
+    pin_swing = Each("dM_pin#")
+
+
+class LoadsResults(ResultGroup):
+    """Loads on crankpins and main journals."""
+
+    crankpin_max = One("Rpin_max_kN")
+    crankpin_min = One("Rpin_min_kN")
+    crankpin_max_angle = One("phi_Rpin_max_deg")
+    crankpin_max_specific = One("Rpin_max")
+    crankpin_mean_specific = One("Rpin_mean")
+    crankpin_pressure_max = One("q_pin_max")
+    crankpin_pressure_mean = One("q_pin_mean")
+    journal_max = Each("Rmain#_max_kN")
+    journal_max_specific = Each("Rmain#_max")
+    journal_mean_specific = Each("Rmain#_mean")
+    journal_pressure_max = Each("q_main#_max")
+    worst_journal = One("worst_main_load")
+
+
+class BalanceResults(ResultGroup):
+    """Unbalanced forces and moments."""
+
+    rotating_force = One("Frot")
+    rotating_moment = One("Lrot")
+    first_order_force = One("F1_after_max")
+    first_order_moment = One("L1_after_max")
+
+
+class FlywheelResults(ResultGroup):
+    """Flywheel and irregularity."""
+
+    inertia = One("I_flywheel")
+    excess_work = One("W_fine")
+    engine_inertia = One("I_engine_mean")
+    irregularity = One("delta_speed")
+
+
+GROUPS: dict[str, type[ResultGroup]] = {
+    group_name(each): each for each in ResultGroup.__subclasses__()
+}
+# Group, name, key of the scalar.
+NAMES: dict[str, dict[str, str]] = {
+    group: {name: each.key for name, each in names_of(kind).items()}
+    for group, kind in GROUPS.items()
+}
+Kind = TypeVar("Kind", bound=ResultGroup)
+
+
+class HasScalars(Protocol):
+    """What results are of."""
+
+    @property
+    def scalars(self) -> Mapping[str, float]:
+        """Value by key."""
+
+
+class Group(Generic[Kind]):
     """A group of results as an attribute of what has ``scalars``."""
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        """Take the name of the attribute for that of the group."""
-        self._name = name
+    def __init__(self, kind: type[Kind]) -> None:
+        self._kind = kind
 
-    def __get__(self, solution: Any, owner: type | None = None) -> ResultGroup:  # noqa: ANN401
-        """Results of the solution."""
-        return ResultGroup(self._name, solution.scalars)
+    def __get__(self, solution: HasScalars | None, owner: type) -> Kind:
+        """Return the results of the solution."""
+        return self if solution is None else self._kind(solution.scalars)  # type: ignore[return-value]
 
 
 def html_table(groups: Mapping[str, ResultGroup]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from kshm.cycle.cycle import CycleRun
 from kshm.engine.arrangement import hung
 from kshm.engine.checks import takes_kinds
 from kshm.engine.engine import Engine
+from kshm.engine.revised import unknown
+from kshm.engine.source import Further
 from kshm.mechanics.balance import is_balanced_by_orders
 from kshm.nomenclature.quantity import quantity
 from kshm.results import forces, gas, motion, regimes
@@ -27,8 +29,21 @@ from kshm.results.forces import continuous_results, pin_bending, rod_bearing
 from kshm.results.inertia import inertia_results, rod_mass_scalars
 from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
 from kshm.results.motion import neiman_results, segal_results, two_term_errors
-from kshm.results.named import NAMES, Group, html_table
+from kshm.results.named import (
+    GROUPS,
+    BalanceResults,
+    FlywheelResults,
+    GeometryResults,
+    Group,
+    KinematicsResults,
+    LoadsResults,
+    MassesResults,
+    TorqueResults,
+    html_table,
+)
+from kshm.results.plots import Plots, plots_of
 from kshm.results.reference import reference_results, reference_tables
+from kshm.results.sketch import sketch
 from kshm.results.strength import strength_results
 from kshm.results.torsion import torsion_results
 
@@ -54,7 +69,8 @@ def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
 
     Args:
         engine: the engine.
-        cycle: the calculation that its gas comes from, to stand among the results.
+        cycle: the calculation that its gas comes from, to stand among the results; an engine
+            of a file brings its own.
 
     With ``engine`` as in the example of ``kshm.in_line``:
 
@@ -64,6 +80,9 @@ def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
     >>> f"{solution.columns['P4_1']['N_MPa'].max():.2f}"  # greatest side force
     '0.92'
     """
+    source = engine.source
+    if cycle is None and source is not None and source.has_made(engine):
+        cycle = source.cycle
     return Solution(engine, solve_batch([engine]), cycle=cycle)
 
 
@@ -109,13 +128,13 @@ class Solution:
     'м/с'
     """
 
-    geometry = Group()
-    kinematics = Group()
-    masses = Group()
-    torque = Group()
-    loads = Group()
-    balance = Group()
-    flywheel = Group()
+    geometry = Group(GeometryResults)
+    kinematics = Group(KinematicsResults)
+    masses = Group(MassesResults)
+    torque = Group(TorqueResults)
+    loads = Group(LoadsResults)
+    balance = Group(BalanceResults)
+    flywheel = Group(FlywheelResults)
 
     def __init__(
         self, engine: Engine, raw: ChainArrays, index: int = 0, cycle: CycleRun | None = None
@@ -142,7 +161,15 @@ class Solution:
         """Scalar key → value in the unit of its quantity."""
         further = regimes.regime_scalars(each.chain_scalars for each in self.regimes)
         scalars = self.chain_scalars | self._subjects[1] | further
-        return {key: value / quantity(key).si for key, value in scalars.items()}
+        further_numbers = {key: value for key, (_, value) in self._further.scalars.items()}
+        return {key: value / quantity(key).si for key, value in scalars.items()} | further_numbers
+
+    @cached_property
+    def _further(self) -> Further:
+        """Numbers of own books of an unchanged engine of a file."""
+        source = self.engine.source
+        has = source is not None and source.has_made(self.engine)
+        return source.further() if source is not None and has else Further()
 
     @cached_property
     def regimes(self) -> tuple[Solution, ...]:
@@ -186,26 +213,67 @@ class Solution:
         }
 
     def _repr_html_(self) -> str:
-        """Main results as a notebook shows them."""
-        return html_table({name: getattr(self, name) for name in NAMES})
+        """Return the torque and the main results as a notebook shows them."""
+        phi, torque = (self.column("P4_2", key) for key in ("phi_deg", "Msum_Nm"))
+        picture = sketch(phi, torque, "φ, °", "M, Н·м")
+        return picture + html_table({name: getattr(self, name) for name in GROUPS})
+
+    def __repr__(self) -> str:
+        """Return what was solved and the results asked for first."""
+        first = (self.torque.mean, self.torque.max, self.loads.crankpin_max)
+        return f"Solution of {self.engine!r}: {', '.join(map(repr, first))}"
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the same engine was solved: then all results are the same."""
+        if not isinstance(other, Solution):
+            return NotImplemented
+        return (self.engine, self.cycle) == (other.engine, other.cycle)
+
+    def __hash__(self) -> int:
+        return hash(self.engine)
+
+    @property
+    def plot(self) -> Plots:
+        """Figures as SVG: ``torque()``, ``polar()``, ``wear()``, ``diagram()``."""
+        return plots_of(self)
 
     def column(self, table: str, key: str) -> Array:
         """One column in the unit of its quantity; one of the chain asks for nothing more.
 
         Raises:
-            KeyError: there is no such column.
+            UnknownNameError: there is no such column; the hint tells similar ones.
+
+        With ``engine`` as in the example of ``kshm.in_line``:
+
+        >>> solve(engine).column("P4_1", "N_MPa").shape  # angles
+        (73,)
         """
         values = self.chain_tables.get(table, {}).get(key)
-        return self.columns[table][key] if values is None else in_units({key: values})[key]
+        if values is not None:
+            return in_units({key: values})[key]
+        if table not in self.columns:
+            raise unknown(table, list(self.columns))
+        if key not in self.columns[table]:
+            raise unknown(key, list(self.columns[table]))
+        return self.columns[table][key]
 
     def scalar(self, key: str) -> float:
         """One scalar in the unit of its quantity; one of the chain asks for nothing more.
 
         Raises:
-            KeyError: there is no such scalar.
+            UnknownNameError: there is no such scalar; the hint tells similar ones.
+
+        With ``engine`` as in the example of ``kshm.in_line``:
+
+        >>> round(solve(engine).scalar("S_stroke"), 3)  # piston stroke [m]
+        0.08
         """
         value = self.chain_scalars.get(key)
-        return self.scalars[key] if value is None else value / quantity(key).si
+        if value is not None:
+            return value / quantity(key).si
+        if key not in self.scalars:
+            raise unknown(key, list(self.scalars))
+        return self.scalars[key]
 
     def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
         """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""
@@ -234,13 +302,18 @@ class Solution:
         import pandas as pd
 
         frames = {}
-        tables: dict[str, Mapping[str, Array | list[str]]] = {**self.columns, **reference_tables()}
+        tables: dict[str, Mapping[str, Any]] = {
+            **self.columns, **self.wear_sums, **reference_tables(),
+        }  # fmt: skip
+        given = self._further.tables
+        tables |= {name: {k: v for k, (_, v) in each.items()} for name, each in given.items()}
         for name, columns in tables.items():
             frame = pd.DataFrame(columns)
-            keys = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
-            quantities = {key: quantity(key) for key in keys}
-            frame.attrs["units"] = {key: each.unit_label for key, each in quantities.items()}
-            frame.attrs["symbols"] = {key: each.symbol for key, each in quantities.items()}
-            frame.attrs["titles"] = {key: each.title for key, each in quantities.items()}
+            known = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
+            declared = {key: about for key, (about, _) in given.get(name, {}).items()}
+            about = {key: declared.get(key) or quantity(key) for key in known}
+            frame.attrs["units"] = {key: each.unit_label for key, each in about.items()}
+            frame.attrs["symbols"] = {key: each.symbol for key, each in about.items()}
+            frame.attrs["titles"] = {key: each.title for key, each in about.items()}
             frames[name] = frame
         return frames

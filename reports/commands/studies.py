@@ -83,12 +83,13 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
     help="Файл .parquet, .csv или .xlsx (с диаграммами).",
 )
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
+@click.option("--resume", is_flag=True, help="Продолжить прерванное исследование.")
 @csv_options
 @dask_option
 @verbose_option
 def sweep(
     source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
-    target: Path, jobs: int, dask: str | None, **form: bool,
+    target: Path, jobs: int, dask: str | None, resume: bool, **form: bool,
 ) -> int:  # fmt: skip
     """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
 
@@ -103,7 +104,7 @@ def sweep(
         raise KshmError("--jobs не может быть отрицательным")
     done = run_sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
-        options=SweepOptions(jobs=jobs, dask=dask, form=CsvForm(**form)),
+        options=SweepOptions(jobs=jobs, dask=dask, form=CsvForm(**form), resume=resume),
     )  # fmt: skip
     tell_written(target, f": сочетаний {done.points}")
     if done.failed:

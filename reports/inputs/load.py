@@ -196,8 +196,9 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     reader.take(cross_checks.check(reader.values))
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
-    parts = cast(dict[str, Any], models)
-    model = InputFile(**parts, regimes=further, books=texts, own=own_sections)
+    model = InputFile(
+        **cast(dict[str, Any], models), regimes=further, books=texts, own=own_sections
+    )
     design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
@@ -438,17 +439,18 @@ class _SectionReader:
                 *parents, key = item["loc"]
                 owner = _owner(model, tuple(parents))
                 guesses.add((tuple(parents), messages.likely_key(str(key), owner)))
-                problem, hint = messages.unknown_key(str(key), owner)
-                self.problems.append(self.problem((name, *item["loc"]), problem, hint))
+                words = messages.unknown_key(str(key), owner)
+                self.problems.append(self.problem((name, *item["loc"]), *words))
         for item in errors:
             loc = item["loc"]
             # A misspelt key is one mistake, not also a missing key.
             if item["type"] == "extra_forbidden" or (loc[:-1], loc[-1]) in guesses:
                 continue
-            in_book = self.locate is not None
-            problem, hint = messages.explain(item, messages.meta_at(model, loc), in_book=in_book)
+            meta = messages.meta_at(model, loc)
+            words = messages.explain(item, meta, in_book=self.locate is not None)
+            problem = self.problem((name, *loc), *words)
             if (name, *loc) not in self.empty:
-                self.problems.append(self.problem((name, *loc), problem, hint))
+                self.problems.append(messages.measured(problem, item, meta))
 
 
 def _has_order_alone(data: Mapping[str, Any]) -> bool:

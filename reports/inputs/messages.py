@@ -6,6 +6,7 @@ import datetime as dt
 import difflib
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 
 from pydantic_core import ErrorDetails
 
@@ -13,7 +14,7 @@ from reports.inputs import units
 from reports.inputs.meta import MAX_TEXT, Key, Meta, Strictly, hints
 from reports.inputs.normalise import is_ambiguous
 from reports.inputs.registry import homes
-from reports.shared.errors import one_line
+from reports.shared.errors import NO_LIMITS, Problem, one_line
 
 _LIKE_DIGITS = str.maketrans("ОоOoЗзlI", "00003311")
 _PLAIN_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
@@ -42,9 +43,13 @@ def kind(value: object) -> str:
         return "список"
     if isinstance(value, dt.date | dt.time):
         return "дата или время"
+    if value is None:
+        return "пустое значение (None)"
     if isinstance(value, bool):
         return "логическое значение"
-    return "строка" if isinstance(value, str) else "число"
+    if isinstance(value, str):
+        return "строка"
+    return "число" if isinstance(value, int | float) else f"объект {type(value).__name__}"
 
 
 def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) -> tuple[str, str]:
@@ -78,6 +83,16 @@ def explain(error: ErrorDetails, meta: Meta | None, *, in_book: bool = False) ->
     return _explain_shape(fault, value)
 
 
+def measured(problem: Problem, error: ErrorDetails, meta: Meta | None) -> Problem:
+    """Return the problem of a pydantic error with the limits of its field and the value."""
+    limits = NO_LIMITS if meta is None else (meta.minimum, meta.maximum)
+    if meta is not None and meta.choices and all(map(str.isdigit, meta.choices)):
+        numbers = [float(choice) for choice in meta.choices]
+        limits = min(numbers), max(numbers)
+    value = None if error["type"] == "missing" else error["input"]
+    return replace(problem, limits=limits, value=value)
+
+
 def _explain_shape(fault: str, value: object) -> tuple[str, str]:
     if fault in ("model_type", "model_attributes_type", "dict_type"):
         return f"нужна таблица ключей, а задано: {_given(value)}", ""
@@ -89,7 +104,7 @@ def _explain_shape(fault: str, value: object) -> tuple[str, str]:
 
 
 def _given(value: object) -> str:
-    if isinstance(value, dict | list | tuple | dt.date | dt.time):
+    if not isinstance(value, bool | int | float | str):
         return kind(value)
     if isinstance(value, int) and abs(value) >= 10**15:
         return shown(value)

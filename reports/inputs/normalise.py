@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from decimal import Decimal
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,7 @@ _SOURCE = Meta("", choices={**SOURCES, "file": "из файла"})
 _NUMBER = re.compile(r"[-+−]?(\d+|\d{1,3}([ \u00a0\u202f]\d{3})+)([.,]\d+)?([eE][-+]?\d+)?")
 # "1,234" is one and a bit to one reader and more than a thousand to another.
 _AMBIGUOUS = re.compile(r"[-+−]?[1-9]\d{0,2}[.,]\d{3}")
+_PLAIN = (bool, int, float, str)
 _ONE_WORD = {  # besides the labels of the choices
     "да": "yes",
     "нет": "no",
@@ -53,7 +56,18 @@ def read_text(file: Path) -> str:
     Raises:
         InputError: It is missing, unreadable, too large or no UTF-8 text.
     """
-    data, source = read_bytes(file, MAX_BYTES, "это не файл исходных данных"), file.name
+    return text_of(read_bytes(file, MAX_BYTES, "это не файл исходных данных"), file.name)
+
+
+def text_of(data: bytes, source: str) -> str:
+    """Return the text of an input file's bytes; `source` names it.
+
+    Raises:
+        InputError: It is too large or no UTF-8 text.
+    """
+    if len(data) > MAX_BYTES:
+        what = f"файл больше {MAX_BYTES // 10**6} МБ"
+        raise refused(source, what, "это не файл исходных данных")
     kind = kind_of(data)
     if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
@@ -86,9 +100,32 @@ def refuse_bomb(source: str, text: str) -> None:
             raise refused(source, problem, "ключ состоит из одного слова")
 
 
+def plain(source: str, raw: object, where: str = "") -> Any:  # noqa: ANN401
+    """Return Python's own values for those of numpy, pandas and fractions, lists for arrays.
+
+    Raises:
+        InputError: a key is no text; `source` and `where` name its table.
+    """
+    if isinstance(raw, Mapping):
+        for key in raw:
+            if not isinstance(key, str):
+                address = ": ".join(filter(None, (one_line(source, 120), where)))
+                what = f"ключ {one_line(repr(key), 40)} — не строка"
+                hint = "ключи пишут словами, например bore_mm"
+                raise InputError(Problem(address, what, hint, value=key))
+        return {key: plain(source, part, f"{where}.{key}".strip(".")) for key, part in raw.items()}
+    if isinstance(raw, list | tuple):
+        return [plain(source, part, where) for part in raw]
+    if isinstance(raw, _PLAIN):
+        return raw
+    if hasattr(raw, "tolist"):  # an array or a scalar of numpy, a column of pandas
+        return raw.tolist()
+    return float(raw) if isinstance(raw, Real | Decimal) else raw
+
+
 def refuse_endless(source: str, raw: Mapping[str, Any]) -> None:
     """Refuse a non-mapping and excessive lists."""
-    if not isinstance(raw, dict):
+    if not isinstance(raw, Mapping):
         raise refused(source, "нет исходных данных", "откройте файл двигателя")
     for name, part in raw.items():
         for key, value in part.items() if isinstance(part, dict) else [("", part)]:
@@ -110,6 +147,7 @@ def normalise(data: Mapping[str, Any], source: str = "") -> dict[str, Any]:
         InputError: It is none, or has a list without end; `source` names it.
     """
     refuse_endless(source, data)
+    data = plain(source, data)
     result = {name: _section(name, part) for name, part in data.items()}
     regimes = result.get("regimes")
     if isinstance(regimes, list | tuple):

@@ -88,7 +88,7 @@ def power_problems(model: InputFile) -> tuple[Problem, ...]:
         return ()
     try:
         scalars = solved(model).scalars
-    except (ValueError, InputError):
+    except ValueError:
         return ()
     accepted = {entry.what for entry in model.checks.accepted} if model.checks else set()
     problems = []
@@ -112,7 +112,7 @@ def _is_of_the_step(model: InputFile, error: str) -> bool:
     """Whether a difference of the power goes away with the fine step."""
     try:
         exact = solved(refined(model)).scalars
-    except (ValueError, InputError):
+    except ValueError:
         return False
     return abs(float(exact.get(error, 0.0))) <= MOST_POWER_ERROR
 
@@ -188,7 +188,7 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
         return ()
     try:
         rough, exact = solved(model), solved(refined(model))
-    except (ValueError, InputError):
+    except ValueError:
         return ()
     coarse, fine = _results(rough.scalars), _results(exact.scalars)
     small = smallness_of(model)
@@ -322,7 +322,7 @@ def flywheel_remark(model: InputFile) -> str:
     try:
         table, column = INERTIAS
         inertias = solved(model).columns[table][column]
-    except (ValueError, InputError):
+    except ValueError:
         return ""
     throws = len(model.crankshaft.throw_angles_deg)
     heavy = inertias[throws + 1] / inertias[1 : throws + 1].sum()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from typing import Any
 
@@ -13,6 +13,7 @@ from tomlkit.items import Table
 from reports.inputs.messages import likely_word, shown
 from reports.inputs.meta import Meta, Strictly, hints
 from reports.inputs.registry import SECTIONS, InputSection, records
+from reports.inputs.sections.input_file import DesignGeometrySection, RegimeValues
 from reports.shared.errors import InputError, Problem
 from reports.shared.resources import samples_dir
 
@@ -83,6 +84,42 @@ def _explained() -> str:
     return tomlkit.dumps(document)
 
 
+def set_file(values: Mapping[str, Any]) -> str:
+    """Return the text of an input file with given values, every key explained.
+
+    Args:
+        values: sections by name, as `reports.inputs.fields.to_mapping` gives them; the texts of
+            own books stay in their files.
+    """
+    document = tomlkit.document()
+    for line in ("Исходные данные двигателя для kshm.", *NUMBER_WORDS):
+        document.add(tomlkit.comment(line))
+    for section in SECTIONS.values():
+        if section.name not in values:
+            continue
+        document.add(tomlkit.nl())
+        document.add(tomlkit.comment(section.title))
+        document.add(section.name, _table(_model(section.name, values[section.name]),
+                                          values[section.name], whole=False))  # fmt: skip
+    if values.get("regimes"):
+        entries = tomlkit.aot()
+        for regime in values["regimes"]:
+            table = _table(RegimeValues, regime, whole=False)
+            table.add("gas", _table(_model("gas", regime["gas"]), regime["gas"], whole=False))
+            entries.append(table)
+        document.add("regimes", entries)
+    if values.get("own"):
+        document.add("own", tomlkit.item(values["own"]))
+    return tomlkit.dumps(document)
+
+
+def _model(name: str, section: Mapping[str, Any]) -> type[Strictly]:
+    about = SECTIONS[name]
+    if name == "geometry" and "bore_mm" not in section:
+        return DesignGeometrySection
+    return about.sources.get(section.get("source", ""), about.model)
+
+
 def _commented(section: InputSection) -> Iterator[str]:
     """An optional section as comments: its words, its head, its keys."""
     yield from section.words
@@ -96,23 +133,27 @@ def _commented(section: InputSection) -> Iterator[str]:
             yield f"{key} = … {_note(spec.metas)}"
 
 
-def _table(model: type[Strictly], values: dict[str, Any]) -> Table:
-    table = tomlkit.table()
+def _table(model: type[Strictly], values: Mapping[str, Any], *, whole: bool = True) -> Table:
+    """Return the values of a section, each explained; `whole` with the keys that are not given."""
+    table, lists = tomlkit.table(), {}
     defaults = model.model_construct()
     for key, spec in hints(model).items():
         if spec.inner is not None:
             entries = tomlkit.aot()
-            for entry in values[key]:
-                entries.append(_table(spec.inner, entry))
-            table.add(key, entries)
+            for entry in values.get(key, ()):
+                entries.append(_table(spec.inner, entry, whole=whole))
+            if entries:
+                lists[key] = entries
             continue
         note = _note(spec.metas)
         value = values.get(key, getattr(defaults, spec.name, None))
-        if value is None:  # an alternative or optional key: shown, not given
-            table.add(tomlkit.comment(f"{key} = … {note}"))
-        else:
+        if value is not None:
             table.add(key, tomlkit.item(value))
             table[key].comment(note)
+        elif whole:  # an alternative or optional key: shown, not given
+            table.add(tomlkit.comment(f"{key} = … {note}"))
+    for key, entries in lists.items():
+        table.add(key, entries)
     return table
 
 

@@ -210,6 +210,8 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
     try:
         environment = environment_of(shelf)
         return rendered(name, names, environment)
+    except BookError:
+        raise
     except RecursionError:
         raise BookError(shelf.called(name), 1, 1, "слишком глубокая вложенность",
                         "уберите вызов себя через себя") from None  # fmt: skip

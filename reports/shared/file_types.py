@@ -43,15 +43,17 @@ def read_bytes(path: Path, most: int, hint: str) -> bytes:
         InputError: it is too large, or cannot be read.
     """
     try:
-        fault = no_file(path)
-        if fault:
-            raise InputError(Problem(str(path), fault, "проверьте имя и путь"))
-        with path.open("rb") as stream:
-            data = stream.read(most + 1)
+        missing = no_file(path)
+        data = b""
+        if not missing:
+            with path.open("rb") as stream:
+                data = stream.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         why = reason(error) if isinstance(error, OSError) else "недопустимое имя"
         problem = Problem(str(path), f"файл не читается: {why}", "проверьте имя и права")
         raise InputError(problem) from None
+    if missing:
+        raise InputError(Problem(str(path), missing, "проверьте имя и путь"))
     if len(data) > most:
         fault = f"файл больше {most // 10**6} МБ"
         raise InputError(Problem(path.name, fault, hint))

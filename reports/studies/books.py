@@ -11,6 +11,7 @@ from openpyxl.styles import Alignment
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
+from kshm.results.chosen import ChosenQuantities, described
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital, short, uncapital
 from reports.studies.comparison import (
@@ -25,7 +26,7 @@ from reports.studies.comparison import (
     split_rows,
 )
 from reports.studies.plan import Axis, Chunk, Plan, span_text
-from reports.studies.quantities import ChosenQuantities, described, format_of, symbol_of
+from reports.studies.quantities import format_of, symbol_of
 from reports.workbook.caches import finish
 from reports.workbook.chart_ranges import CurveRanges
 from reports.workbook.charts import curves_chart

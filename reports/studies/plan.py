@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import fnmatch
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -14,13 +15,15 @@ from numpy.typing import NDArray
 from kshm.chain.solve import solve_chunks
 from kshm.cycle.cycle import CycleRun
 from kshm.engine.engine import Engine
+from kshm.mechanics.oil_orbit import FilmError
+from kshm.results.chosen import ChosenQuantities, of_batch
 from reports.inputs.fields import Field, Path, iter_fields, to_mapping
 from reports.inputs.revisions import Revisions
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solve_input import film_lost
 from reports.inputs.units import number_text
 from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError, KshmError, Problem, one_line
-from reports.studies.quantities import ChosenQuantities, of_batch
 from reports.tables.registry import kept_model
 
 MOST_POINTS = 10_000_000
@@ -34,7 +37,7 @@ class Axis:
     """One varied input: its key in the file, where it stands, its values in user units."""
 
     key: str
-    path: Path
+    paths: tuple[Path, ...]  # several of a key with a star
     title: str
     unit: str
     values: tuple[float | int, ...]
@@ -102,7 +105,9 @@ def _axis(text: str, fields: dict[str, Field]) -> Axis:
     key = key.strip()
     if not equals:
         raise _wrong(text, "нужно КЛЮЧ=ОТ:ДО:ЧИСЛО", _EXAMPLE)
-    field = fields.get(key)
+    every = fields if "*" in key else ()
+    meant = [fields[name] for name in every if fnmatch.fnmatchcase(name, key)]
+    field = fields.get(key) or next(iter(meant), None)
     if field is None:
         near = difflib.get_close_matches(key, list(fields), n=3, cutoff=0.5)
         hint = f"похожи: {', '.join(near)}" if near else "ключи смотрите в файле"
@@ -113,7 +118,8 @@ def _axis(text: str, fields: dict[str, Field]) -> Axis:
     if not number or field.choices is not None:
         raise _wrong(text, f"значение ключа {key} — не число", "выберите числовой ключ")
     values = _values(text, span, whole=isinstance(field.value, int))
-    return Axis(key, field.path, field.title, field.unit, values)
+    paths = tuple(each.path for each in meant) if key not in fields else (field.path,)
+    return Axis(key, paths, field.title, field.unit, values)
 
 
 def _values(text: str, span: str, *, whole: bool) -> tuple[float | int, ...]:
@@ -155,7 +161,7 @@ class SweepTask:
 
     raw: dict[str, Any]
     source: str
-    paths: tuple[Path, ...]
+    paths: tuple[tuple[Path, ...], ...]  # of each value of a row
     wanted: ChosenQuantities
     rows: list[tuple[float | int, ...]]
 
@@ -171,7 +177,7 @@ class Chunk:
 
 def tasks(plan: Plan, wanted: ChosenQuantities, size: int) -> Any:  # noqa: ANN401
     """The tasks of a plan in order, made as they are needed."""
-    paths = tuple(axis.path for axis in plan.axes)
+    paths = tuple(axis.paths for axis in plan.axes)
     return (SweepTask(plan.raw, plan.source, paths, wanted, rows) for rows in plan.chunks(size))
 
 
@@ -191,12 +197,18 @@ def solved(task: SweepTask) -> Chunk:
         for name, numbers in _of_own(models[these], task.wanted).items():
             values[name][here] = numbers
         for row, reason in zip(here, reasons, strict=True):
-            errors[row] = reason
+            errors[row] = _in_words(reason)
     finite = np.all([np.isfinite(each) for each in values.values()], axis=0)
     for row in places:
         if not finite[row]:
             errors[row] = errors[row] or NOT_FINITE
     return Chunk(task.rows, values, errors)
+
+
+def _in_words(reason: KshmError | None) -> str:
+    if isinstance(reason, FilmError):
+        return film_lost(reason)
+    return reason.lines()[0] if reason else ""
 
 
 def _of_own(models: Sequence[InputFile], wanted: ChosenQuantities) -> dict[str, Array]:
@@ -208,13 +220,16 @@ def _of_own(models: Sequence[InputFile], wanted: ChosenQuantities) -> dict[str, 
 def _engines(
     task: SweepTask, errors: list[str]
 ) -> tuple[list[InputFile], list[tuple[Engine, CycleRun | None]], list[int]]:
-    revisions = Revisions(task.raw, task.source, task.paths)
+    revisions = Revisions(task.raw, task.source, [path for each in task.paths for path in each])
+    repeated = [len(paths) for paths in task.paths]
     models: list[InputFile] = []
     engines: list[tuple[Engine, CycleRun | None]] = []
     places: list[int] = []
     for number, row in enumerate(task.rows):
         try:
-            engines.append(revisions.engine(row))
+            values = (value for value, count in zip(row, repeated, strict=True)
+                      for value in [value] * count)  # fmt: skip
+            engines.append(revisions.engine(list(values)))
         except KshmError as error:
             errors[number] = error.lines()[0]
         else:

@@ -1,53 +1,17 @@
-"""Quantities of a study: scalars, extremes and means of columns."""
+"""Quantities of a study in the words of the command: Russian errors, symbols, formats."""
 
 from __future__ import annotations
 
-import difflib
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-
-import numpy as np
-from numpy.typing import NDArray
 
 from kshm.chain.solve import ChainArrays
 from kshm.cycle.cycle import CycleRun
-from kshm.mechanics.oil_orbit import FilmError
-from kshm.nomenclature.quantity import Quantity, quantity
-from kshm.results.case import first_extremes
-from kshm.results.forces import force_tables
-from kshm.results.loads import chain_scalars
-from kshm.results.solution import Solution, in_units
-from reports.inputs.solve_input import film_lost
+from kshm.errors import UnknownNameError
+from kshm.nomenclature.quantity import Quantity
+from kshm.results.chosen import ChosenQuantities
+from kshm.results.chosen import choose as choose_keys
 from reports.shared.errors import InputError, Problem, one_line
 from reports.workbook.styles import excel_format
-
-Array = NDArray[np.float64]
-
-# What a column gives; an angle belongs to the extreme before it.
-PARTS = ("max", "max_deg", "min", "min_deg", "mean")
-_HIDDEN = ("throw", "hole", "r_crank", "L_rod", "lam", "omega")
-_DEFAULT_TABLES = ("P4_1", "P4_2", "P4_4", "P4_5")
-
-
-@dataclass(frozen=True, slots=True)
-class ChosenQuantities:
-    """Scalars and ``table.column`` pairs; ``slow`` ones need every table of every engine."""
-
-    scalars: tuple[str, ...]
-    columns: tuple[tuple[str, str], ...]
-    slow: bool
-    own: Mapping[str, Quantity] = field(default_factory=dict)  # scalars of own books
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the numbers of one combination, in order."""
-        pairs = [f"{table}.{key}.{part}" for table, key in self.columns for part in PARTS]
-        return [*self.scalars, *pairs, *self.own]
-
-    def quantity(self, name: str) -> Quantity:
-        """The quantity of a number."""
-        return self.own.get(name) or quantity(name.split(".")[1] if "." in name else name)
 
 
 def choose(
@@ -56,138 +20,23 @@ def choose(
     cycle: CycleRun | None = None,
     own: Mapping[str, Quantity] | None = None,
 ) -> ChosenQuantities:
-    """Choose quantities by name, by default the scalars of the chain.
-
-    Args:
-        base: the solved base, which tells what there is.
-        names: keys of scalars, ``M_mean``, and of columns, ``P4_1.N_MPa``.
-        cycle: the calculation that the base's gas comes from.
-        own: quantities of the scalars of own books; without names all of them are taken.
+    """Choose quantities as `kshm.results.chosen.choose`.
 
     Raises:
         InputError: there is no such quantity.
     """
-    quick_scalars, quick_tables = list(chain_scalars(base)), force_tables(base)
-    if not names:
-        scalars = tuple(key for key in quick_scalars if not key.startswith(_HIDDEN))
-        columns = tuple(
-            (table, key)
-            for table in _DEFAULT_TABLES
-            for key in quick_tables.get(table, ())
-            if _summed_up(key)
-        )
-        return ChosenQuantities(scalars, columns, slow=False, own=own or {})
-    solution = Solution(base.batch.engines[0], base, cycle=cycle)
-    pairs = {
-        f"{table}.{key}": (table, key)
-        for table, columns in solution.columns.items()
-        for key, values in columns.items()
-        if _summed_up(key) and "phi_deg" in columns and values.dtype.kind == "f"
-    }
-    keys: list[str] = []
-    chosen: list[tuple[str, str]] = []
-    slow, theirs, own = False, dict[str, Quantity](), own or {}
-    for name in dict.fromkeys(names):
-        if name in own:
-            theirs[name] = own[name]
-        elif name in pairs:
-            table, key = pairs[name]
-            chosen.append((table, key))
-            slow |= table not in quick_tables
-        elif name in solution.scalars:
-            keys.append(name)
-            slow |= name not in quick_scalars
-        else:
-            raise _unknown(name, [*solution.scalars, *pairs, *own])
-    return ChosenQuantities(tuple(keys), tuple(chosen), slow, theirs)
-
-
-def _summed_up(key: str) -> bool:
-    return key not in ("phi_deg", "phase_deg")
-
-
-def _unknown(name: str, known: list[str]) -> InputError:
-    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
-    hint = f"похожи: {', '.join(near)}" if near else "ключи показывает kshm solve --json"
-    where = f"--quantity {one_line(name, 80)}"
-    return InputError(Problem(where, "нет такой величины", hint))
-
-
-def of_batch(
-    raw: ChainArrays, wanted: ChosenQuantities, cycles: Sequence[CycleRun | None]
-) -> tuple[dict[str, Array], list[str]]:
-    """Values of all engines of a batch in the units of the tables, by name, and why one has none.
-
-    Args:
-        raw: the solved engines.
-        wanted: what they give.
-        cycles: the calculation that the gas of each comes from.
-    """
-    reasons = [""] * len(raw.batch.engines)
-    if wanted.slow:
-        solvers = [name for name in wanted.names if name not in wanted.own]
-        values = {name: np.full(len(reasons), np.nan) for name in solvers}
-        for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True)):
-            try:
-                one = _of_one(Solution(engine, raw, i, cycle), wanted)
-            except FilmError as error:
-                reasons[i] = film_lost(error)
-            else:
-                for name, number in one.items():
-                    values[name][i] = number
-        return values, reasons
-    scalars = chain_scalars(raw)
-    values = {key: scalars[key] / quantity(key).si for key in wanted.scalars}
-    tables = force_tables(raw) if wanted.columns else {}
-    for table, key in wanted.columns:
-        columns = in_units({name: tables[table][name] for name in ("phi_deg", key)})
-        values |= _summary(table, key, columns[key], columns["phi_deg"])
-    return values, reasons
-
-
-def _of_one(solution: Solution, wanted: ChosenQuantities) -> dict[str, float]:
-    values = {key: solution.scalars[key] for key in wanted.scalars}
-    for table, key in wanted.columns:
-        columns = solution.columns[table]
-        summary = _summary(table, key, columns[key][None], columns["phi_deg"])
-        values |= {name: float(numbers[0]) for name, numbers in summary.items()}
-    return values
-
-
-def _summary(table: str, key: str, values: Array, degrees: Array) -> dict[str, Array]:
-    """Extremes with the first angles at which they stand, and the mean over the cycle."""
-    largest, at_largest = first_extremes(values, degrees)
-    smallest, at_smallest = first_extremes(values, degrees, largest=False)
-    # The last row of a table repeats the first angle.
-    mean = values[..., :-1].mean(axis=-1)
-    numbers = (largest, at_largest, smallest, at_smallest, mean)
-    return {f"{table}.{key}.{part}": each for part, each in zip(PARTS, numbers, strict=True)}
-
-
-def described(name: str, wanted: ChosenQuantities) -> tuple[str, str]:
-    """Russian title and unit of a name."""
-    table, dot, rest = name.partition(".")
-    if not dot:
-        about = wanted.quantity(name)
-        return about.title, about.unit_label
-    key, _, part = rest.rpartition(".")
-    about = quantity(key)
-    kinds = {
-        "max": "наибольшее", "max_deg": "угол наибольшего", "min": "наименьшее",
-        "min_deg": "угол наименьшего", "mean": "среднее",
-    }  # fmt: skip
-    unit = "°" if part.endswith("deg") else about.unit_label
-    return f"{about.title} ({_numbered(table)}), {kinds[part]}", unit
+    try:
+        return choose_keys(base, names, cycle, own)
+    except UnknownNameError as error:
+        close = error.problems[0].value
+        hint = f"похожи: {', '.join(close)}" if close else "ключи показывает kshm solve --json"
+        where = f"--quantity {one_line(str(error.args[0]), 80)}"
+        raise InputError(Problem(where, "нет такой величины", hint)) from None
 
 
 def symbol_of(name: str, wanted: ChosenQuantities) -> str:
     """Symbol of a name as the report has it; the name itself where there is none."""
     return wanted.quantity(name).symbol or name
-
-
-def _numbered(table: str) -> str:
-    """The number of a table of the textbook as it is printed: ``P4_3_1`` is П4.3.1."""
-    return f"П{table[1:].replace('_', '.')}" if re.fullmatch(r"P\d(_\d+)+", table) else table
 
 
 def format_of(name: str, wanted: ChosenQuantities) -> str:

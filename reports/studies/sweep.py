@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol, TextIO
 
+import click
 import numpy as np
 
 from kshm.chain.solve import chunk_size, solve_batch
+from kshm.results.chosen import ChosenQuantities, described
 from reports.exports.build import load_input
 from reports.exports.numbers import PLAIN, CsvForm, neutralised
 from reports.exports.own_books import own_numbers
 from reports.inputs.to_si.engine import engine_and_cycle
+from reports.inputs.units import number_text
 from reports.shared.background import processors
 from reports.shared.errors import KshmError, OutputError, SystemPartMissing
 from reports.shared.files import atomic_path, reason, refuse_own
+from reports.shared.interrupt import asked
 from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
+from reports.studies.journal import Journal, Making
 from reports.studies.plan import Chunk, Plan, make_plan, solved, tasks
-from reports.studies.quantities import ChosenQuantities, choose, described
+from reports.studies.quantities import choose
 
 ERROR = "error"
 SUFFIXES = (".parquet", ".csv", ".xlsx")
@@ -148,6 +156,7 @@ class SweepOptions:
     dask: str | None = None
     chunk: int | None = None  # combinations at a time
     form: CsvForm = PLAIN
+    resume: bool = False  # go on with what a stopped study has left
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,22 +196,77 @@ def sweep(
            if not isinstance(value, str)}  # fmt: skip
     wanted = choose(solve_batch([engine]), quantities, cycle, own)
     size = options.chunk or chunk_size(engine)
-    jobs = options.jobs or processors()
-    if plan.count <= _FEW and not options.jobs:
-        jobs = 1
-    done = failed = 0
-    first_error = ""
-    with Progress("Исследование") as progress, atomic_path(target) as temporary:
-        try:
-            with sink(temporary, suffix, plan, wanted, options.form) as out:
-                work = tasks(plan, wanted, size)
-                for chunk in in_order(solved, work, jobs=jobs, dask=options.dask):
-                    out.write(chunk)
-                    done += len(chunk.rows)
-                    errors = [error for error in chunk.errors if error]
-                    failed += len(errors)
-                    first_error = first_error or next(iter(errors), "")
-                    progress.step(f"Исследование: {done} из {plan.count}")
-        except OSError as error:
-            raise OutputError(f"{target}: не записать: {reason(error)}") from None
-    return Studied(done, failed, first_error)
+    journal = Journal(target, Making(plan, wanted, size), resume=options.resume)
+    study = _Running(plan, wanted, size, options, journal)
+    try:
+        with (
+            Progress("Исследование") as progress,
+            atomic_path(target) as temporary,
+            _disk_errors(target),
+            sink(temporary, suffix, plan, wanted, options.form) as out,
+        ):
+            study.run(out, progress)
+    except BaseException as error:
+        journal.close(done=False)
+        if journal.rows and (isinstance(error, KeyboardInterrupt) or asked()):
+            hint = "продолжит та же команда с ключом --resume"
+            click.echo(f"сделано {journal.rows} из {plan.count}; {hint}", err=True)
+        raise
+    journal.close(done=True)
+    return Studied(study.done, study.failed, study.first_error)
+
+
+@contextmanager
+def _disk_errors(target: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{target}: не записать: {reason(error)}") from None
+
+
+class _Running:
+    """A study under way: finished chunks of an earlier run first, then the others."""
+
+    def __init__(
+        self, plan: Plan, wanted: ChosenQuantities, size: int, options: SweepOptions,
+        journal: Journal,
+    ) -> None:  # fmt: skip
+        self.plan, self.wanted, self.size, self.options = plan, wanted, size, options
+        self.journal = journal
+        self.done = self.failed = 0
+        self.first_error = ""
+
+    def run(self, out: Sink, progress: Progress) -> None:
+        """Write all chunks in order; what is done is kept."""
+        begun = time.monotonic()
+        for chunk in self.journal.chunks(self.plan.chunks(self.size)):
+            self._take(out, chunk)
+        earlier = self.done
+        work = islice(tasks(self.plan, self.wanted, self.size), -(-earlier // self.size), None)
+        jobs = self.options.jobs or processors()
+        if self.plan.count - earlier <= _FEW and not self.options.jobs:
+            jobs = 1
+        for chunk in in_order(solved, work, jobs=jobs, dask=self.options.dask):
+            self._take(out, chunk)
+            if self.done < self.plan.count or earlier:
+                self.journal.write(chunk)
+            left = (time.monotonic() - begun) / (self.done - earlier)
+            progress.step(self._state(left * (self.plan.count - self.done)))
+
+    def _take(self, out: Sink, chunk: Chunk) -> None:
+        out.write(chunk)
+        self.done += len(chunk.rows)
+        errors = [number for number, error in enumerate(chunk.errors) if error]
+        self.failed += len(errors)
+        if errors and not self.first_error:
+            row = chunk.rows[errors[0]]
+            values = (
+                f"{axis.key} = {number_text(float(value))}"
+                for axis, value in zip(self.plan.axes, row, strict=True)
+            )
+            self.first_error = f"{', '.join(values)}: {chunk.errors[errors[0]]}"
+
+    def _state(self, left_s: float) -> str:
+        minutes, seconds = divmod(math.ceil(left_s), 60)
+        left = f"{minutes} мин {seconds} с" if minutes else f"{seconds} с"
+        return f"Исследование: {self.done} из {self.plan.count}, осталось {left}"

@@ -13,7 +13,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from datetime import datetime
 from functools import partial
 from ipaddress import ip_address
@@ -195,7 +195,7 @@ def refusal(
 ) -> JSONResponse:
     """Error response with one line a problem."""
     error = KshmError(why) if isinstance(why, str) else why
-    lines = [{key: public_words(words) for key, words in asdict(problem).items()}
+    lines = [{key: public_words(words) for key, words in problem.words().items()}
              for problem in error.problems]  # fmt: skip
     return JSONResponse({"errors": lines}, code, headers)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, astuple
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -100,7 +99,7 @@ def start(raw: Mapping[str, Any]) -> Data:
         state["sheets"] = sorted((_sheet(title, contents) for title in drawn),
                                  key=lambda sheet: not sheet[0])  # fmt: skip
     except InputError as error:
-        state["errors"] = [asdict(problem) for problem in error.problems]
+        state["errors"] = [problem.words() for problem in error.problems]
     return {**state, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
 
 
@@ -123,7 +122,7 @@ def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data
     if sheet is None:  # the checks take longer
         return live.checks(model)
     return {
-        "warnings": [asdict(problem) for problem in loaded.warnings],
+        "warnings": [problem.words() for problem in loaded.warnings],
         "results": list(live.results(model, solution)),
         "charts": live.charts(model, solution, sheet),
         "moves": live.moving(solution, cylinder),
@@ -150,7 +149,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
         raise KshmError(_of_page(error_text(error))) from None
     except KshmError as error:
         raise KshmError(
-            [Problem(*map(_of_page, astuple(problem))) for problem in error.problems]
+            [Problem(_of_page(p.where), _of_page(p.what), _of_page(p.hint)) for p in error.problems]
         ) from None
     return {"raw": split_ranges(parsed(text, source="файл"))[0]}
 

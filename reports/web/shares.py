@@ -13,7 +13,6 @@ import math
 import time
 from collections import Counter, defaultdict
 from collections.abc import AsyncIterator, Callable, Iterable, Iterator, Mapping
-from dataclasses import asdict
 from typing import Any, ClassVar
 
 from starlette.exceptions import HTTPException
@@ -159,7 +158,7 @@ class Connection(H11Protocol):
         self.timer: asyncio.TimerHandle | None = None
         if self.count[self.address] > self.most:
             problem = Problem("", "с вашего адреса слишком много соединений", "закройте лишние")
-            body = json.dumps({"errors": [asdict(problem)]}).encode()
+            body = json.dumps({"errors": [problem.words()]}).encode()
             transport.write(
                 b"HTTP/1.1 503 Service Unavailable\r\ncontent-type: application/json\r\n"
                 b"retry-after: 5\r\nconnection: close\r\ncontent-length: %d\r\n\r\n%b"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import kshm
+import reports
 from kshm import solve
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.conftest import sample, sample_names
@@ -12,8 +13,8 @@ from tests.conftest import sample, sample_names
 
 def lines() -> Iterator[str]:
     """Names of the package; then tables with their columns, and scalars, with the samples."""
-    for name in kshm.__all__:
-        yield f"kshm.{name}"
+    for package in (kshm, reports):
+        yield from (f"{package.__name__}.{name}" for name in package.__all__)
     found: dict[str, list[str]] = {}
     for name in sample_names():
         solution = solve(*engine_and_cycle(sample(name)))

@@ -5,14 +5,19 @@ from __future__ import annotations
 import contextlib
 import doctest
 import io
+import pydoc
+import re
 import subprocess
 import sys
+from operator import attrgetter
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
 
 import kshm
+import reports
 from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.api.public_names import lines
@@ -89,8 +94,8 @@ def example_names() -> dict:
     return names
 
 
-def run_example(name: str, names: dict) -> None:
-    text = getattr(kshm, name).__doc__
+def run_example(name: str, names: dict, package: ModuleType = kshm) -> None:
+    text = attrgetter(name)(package).__doc__
     test = doctest.DocTestParser().get_doctest(text, names, name, None, None)
     test.globs = names
     assert test.examples, f"{name} has no example"
@@ -99,9 +104,31 @@ def run_example(name: str, names: dict) -> None:
     assert result.failed == 0, "".join(said)
 
 
-@pytest.mark.parametrize("name", kshm.__all__)
+METHODS = ("Engine.with_", "Solution.column", "Solution.scalar")
+
+
+@pytest.mark.parametrize("name", [*kshm.__all__, *METHODS])
 def test_every_public_name_has_an_example_that_runs(name: str, example_names: dict) -> None:
     run_example(name, dict(example_names))
+
+
+@pytest.mark.parametrize("name", reports.__all__)
+def test_every_name_of_the_report_engine_has_one(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    run_example(name, {each: getattr(reports, each) for each in reports.__all__}, reports)
+
+
+@pytest.mark.parametrize("package", [kshm, reports])
+def test_tab_and_help_list_the_public_names_alone(package: ModuleType) -> None:
+    code = f"import {package.__name__} as p; print(*dir(p)); print(*dir(p))"
+    said = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert said.stdout.splitlines() == [" ".join(sorted(package.__all__))] * 2
+    text = pydoc.plain(pydoc.render_doc(package))
+    assert all(re.search(rf"^    (class )?{name}\b", text, re.MULTILINE) for name in dir(package))
 
 
 def test_a_wrong_example_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

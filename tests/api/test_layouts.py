@@ -145,7 +145,7 @@ def layouts(draw: st.DrawFn) -> kshm.Engine:
     places = banks(throws, axes, pins_deg=split, articulated=kind == "articulated")
     cranks = [0.0, *(float(draw(st.integers(0, 359))) for _ in range(throws - 1))]
     pins = [axis - turn for axis, turn in zip(axes, split or [0.0] * count, strict=True)]
-    turns = [draw(st.integers(0, 1)) for _ in range(count * throws)]
+    turns = [0, *(draw(st.integers(0, 1)) for _ in range(count * throws - 1))]
     number = st.floats(20, 60)
     rods = [
         articulated_rod(rod_length_mm=draw(st.floats(110, 150)), radius_mm=draw(st.floats(0, 35)),
@@ -194,13 +194,13 @@ def one(**changes: Any) -> kshm.Engine:
 
 
 REFUSED = {
-    "mass": ({"reciprocating_kg": math.nan}, "reciprocating must be not negative, not nan"),
-    "infinite mass": ({"rod_big_end_kg": math.inf}, "rod_big_end must be not negative, not inf"),
-    "size": ({"bore_mm": math.nan}, "bore must be positive, not nan"),
-    "no size": ({"main_lengths_mm": [28, 0]}, "main_lengths must be positive, not 0"),
+    "mass": ({"reciprocating_kg": math.nan}, "reciprocating: must be not negative, not nan"),
+    "infinite mass": ({"rod_big_end_kg": math.inf}, "rod_big_end: must be not negative, not inf"),
+    "size": ({"bore_mm": math.nan}, "bore: must be positive, not nan"),
+    "no size": ({"main_lengths_mm": [28, 0]}, "main_lengths: must be positive, not 0"),
     "journals": ({"main_lengths_mm": [28]}, "need a main journal more, not 1"),
     "pins": ({"pin_length_mm": [28, 28]}, "need a crankpin each, not 2"),
-    "speed": ({"speed_rpm": -1}, "omega must be positive"),
+    "speed": ({"speed_rpm": -1}, "omega: must be positive"),
     "method": ({"method": "Exact"}, "the method is 'textbook' or 'exact', not 'Exact'"),
     "efficiency": ({"mechanical_efficiency": 79}, "from 0 to 1, not 79"),
     "no efficiency": ({"mechanical_efficiency": 0}, "must be above 0"),
@@ -233,9 +233,9 @@ def test_layouts_that_cannot_be_are_refused() -> None:
     ):
         with pytest.raises(ValueError, match=said):
             made(places, offsets, articulated=ROD)
-    with pytest.raises(ValueError, match="pressures must be positive, not nan"):
+    with pytest.raises(ValueError, match="pressures: must be positive, not nan"):
         points([0, 360, 720], [0.1, math.nan, 0.1])
-    with pytest.raises(ValueError, match="mass must be not negative"):
+    with pytest.raises(ValueError, match="mass: must be not negative"):
         throw(arms_mm=[30] * 6, web_kg=math.nan, pin_kg=0.2)
 
 
@@ -249,16 +249,16 @@ DIAGRAM = {
     "exhaust_open_deg": 490, "exhaust_close_deg": 560,
 }  # fmt: skip
 WRONG_KINDS = {
-    "a text": ({"bore_mm": "80"}, "bore_mm must be a number, not '80'"),
-    "nothing": ({"rod_length_mm": None}, "rod_length_mm must be a number, not None"),
-    "a list": ({"reciprocating_kg": [1, 2]}, r"reciprocating_kg must be a number, not \[1, 2\]"),
-    "an array": ({"speed_rpm": np.ones(2)}, "speed_rpm must be a number, not array"),
-    "complex": ({"fullness": 1j}, "fullness must be a number, not 1j"),
-    "half a degree": ({"step_deg": 7.5}, "step_deg must be a whole number, not 7.5"),
-    "gas": ({"gas": THROW}, "gas must be PolytropicGas or .*, not Throw"),
-    "nose": ({"nose": (1, 2, 3)}, "nose must be EndMass, not"),
-    "throws": ({"throws": [{}]}, "throws must be Throw or a list, each Throw, not"),
-    "sizes": ({"pin_length_mm": "45"}, "pin_length_mm must be a number or a list, each a number"),
+    "a text": ({"bore_mm": "80"}, "bore_mm: must be a number, not '80'"),
+    "nothing": ({"rod_length_mm": None}, "rod_length_mm: must be a number, not None"),
+    "a list": ({"reciprocating_kg": [1, 2]}, r"reciprocating_kg: must be a number, not \[1, 2\]"),
+    "an array": ({"speed_rpm": np.ones(2)}, "speed_rpm: must be a number, not array"),
+    "complex": ({"fullness": 1j}, "fullness: must be a number, not 1j"),
+    "half a degree": ({"step_deg": 7.5}, "step_deg: must be a whole number, not 7.5"),
+    "gas": ({"gas": THROW}, "gas: must be PolytropicGas or .*, not Throw"),
+    "nose": ({"nose": (1, 2, 3)}, "nose: must be EndMass, not"),
+    "throws": ({"throws": [{}]}, "throws: must be Throw or a list, each Throw, not"),
+    "sizes": ({"pin_length_mm": "45"}, "pin_length_mm: must be a number or a list, each a number"),
 }
 
 
@@ -269,9 +269,9 @@ def test_what_is_no_number_is_refused_by_its_name(changes: dict[str, Any], said:
 
 def test_lists_that_are_none_are_refused_by_their_names() -> None:
     for offsets in ("0", 0, None, [[0, 180]]):
-        with pytest.raises(ValueError, match="firing_offsets_deg must be a list, each a number"):
+        with pytest.raises(ValueError, match="firing_offsets_deg: must be a list, each a number"):
             made(None, offsets)
-    with pytest.raises(ValueError, match="places must be a list, each Cylinder"):
+    with pytest.raises(ValueError, match="places: must be a list, each Cylinder"):
         made((0, 1), [0, 360])
     with pytest.raises(ValueError, match="three or more"):
         points([], [])
@@ -279,7 +279,7 @@ def test_lists_that_are_none_are_refused_by_their_names() -> None:
         banks(2, [0, 60], pins_deg=[0])
     with pytest.raises(ValueError, match="an engine has a bank"):
         banks(2, [])
-    with pytest.raises(ValueError, match="engine must be Engine, not"):
+    with pytest.raises(ValueError, match="engine: must be Engine, not"):
         solve({})  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="unexpected keyword argument 'bore'"):
         one(bore=80)
@@ -321,9 +321,9 @@ def test_places_and_numbers_that_cannot_be_are_refused() -> None:
     for count in (5, 0, -2):
         with pytest.raises(ValueError, match=f"has pairs of cylinders, not {count}"):
             opposed(count)
-    with pytest.raises(ValueError, match="reciprocating must be positive, not 0"):
+    with pytest.raises(ValueError, match="reciprocating: must be positive, not 0"):
         one(reciprocating_kg=0)
-    with pytest.raises(ValueError, match="indicated_power must be positive, not 0"):
+    with pytest.raises(ValueError, match="indicated_power: must be positive, not 0"):
         one(indicated_power_kw=0)
 
 

@@ -258,7 +258,7 @@ def test_both_halves_of_a_split_pin_need_room():
     whole = shaft["pin_length_mm"]
     shaft |= {
         "bank_angle_deg": 90, "split_pin_deg": 30.0, "throw_angles_deg": [0, 120, 240],
-        "firing_offsets_deg": [0, 240, 120, 60, 300, 180],
+        "firing_offsets_deg": [0, 240, 480, 60, 300, 540],
     }  # fmt: skip
     with pytest.raises(InputError, match=f"половина шейки длиной .* {NO_ROOM}"):
         load_mapping(raw, source="f")

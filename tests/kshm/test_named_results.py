@@ -37,7 +37,7 @@ def test_every_name_stands_for_something():
 
 def test_what_there_is_not_is_told():
     solution = kshm.solve(*engine_and_cycle(sample("ecoboost-10")))
-    with pytest.raises(AttributeError, match=r"no result loads\.nothing; there are: crankpin_max"):
+    with pytest.raises(AttributeError, match=r"loads\.nothing: no such result; names: crankp"):
         _ = solution.loads.nothing
     with pytest.raises(AttributeError, match="is not calculated for this engine"):
         _ = solution.balance.rotating_force
@@ -60,7 +60,7 @@ def test_a_study_is_each_engine_alone():
     engine = reports.load("samples/gots-diesel.toml")
     vary = {"bore_mm": [84, 92], "speed_rpm": [2000, 3000, 4000], "gas.rho": [1.2, 1.3]}
     study = kshm.sweep(engine, vary, quantities=("M_mean", "Rmain2_max"))
-    assert study.shape == (12, 5) and list(study["bore_mm"][:3]) == [84, 92, 84]
+    assert study.shape == (12, 6) and list(study["bore_mm"][:3]) == [84, 92, 84]
     row = study.iloc[7]
     alone = replace(
         engine,
@@ -79,12 +79,36 @@ def test_a_study_is_each_engine_alone():
     ("vary", "words"),
     [
         ({}, "name something"),
-        ({"bore": [1]}, "nothing to vary under 'bore'; names: bore_mm"),
-        ({"gas.rho.x": [1]}, "nothing to vary"),
-        ({"name": [1]}, "name is no number"),
-        ({"bore_mm": [-1]}, "bore must be positive"),
+        ({"bore": [1]}, "bore: no such name; similar: bore_mm"),
+        ({"gas.rho.x": [1]}, r"gas\.rho\.x: no such name; similar: gas\.rho"),
+        ({"bore_mm": []}, "bore_mm: the list of values is empty"),
+        ({"bore_mm": ["a"]}, "bore_mm: must be a number, not 'a'"),
+        ({"bore_mm": 88}, "bore_mm: must be a list of numbers"),
+        ({"bore_mm": [1, 2], "speed_rpm": [1]}, "pairwise lists must have one length"),
+        ({3: [1]}, "name: must be a text, not 3"),
     ],
 )
 def test_a_study_of_nothing_is_refused(vary, words):
     with pytest.raises(ValueError, match=words):
-        kshm.sweep(reports.load("samples/gots-diesel.toml"), vary)
+        kshm.sweep(reports.load("samples/gots-diesel.toml"), vary, pairwise="speed_rpm" in vary)
+
+
+def test_a_bad_value_is_a_row_with_its_reason():
+    engine = reports.load("samples/gots-diesel.toml")
+    told = []
+    study = kshm.sweep(
+        engine,
+        {"geometry.bore_mm": [84, -1, 92], "gas.rho": [1.2]},
+        quantities=["loads.journal_max", "torque.mean", "P4_1.N_MPa"],
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert list(study["error"].str.len() > 0) == [False, True, False] and told == [(3, 3)]
+    assert "bore_mm = -1, gas.rho = 1.2: " in study.loc[1, "error"]
+    assert study[["Rmain1_max_kN", "M_mean", "P4_1.N_MPa.max_deg"]].isna().sum().tolist() == [1] * 3
+    assert study.attrs["units"]["geometry.bore_mm"] == "мм"
+
+
+def test_a_study_in_processes_is_the_same():
+    engine = reports.load("samples/gots-diesel.toml")
+    vary = {"geometry.bore_mm": np.linspace(84, 92, 200)}
+    assert kshm.sweep(engine, vary, jobs=2).equals(kshm.sweep(engine, vary))

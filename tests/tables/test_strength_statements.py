@@ -12,6 +12,7 @@ import pytest
 
 from kshm.chain.solve import solve_batch
 from kshm.ranges import PART_SHARES
+from kshm.results.chosen import choose, of_batch
 from reports.exports.numbers import export_tables, json_text
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
@@ -22,7 +23,6 @@ from reports.inputs.to_si.engine import engine_and_cycle
 from reports.model.evaluation import Evaluation
 from reports.new.generate import file_text, generate_engine
 from reports.studies.comparison import Compared, results
-from reports.studies.quantities import choose, of_batch
 from reports.tables.registry import build_model
 from reports.tables.strength_members import SAFETIES, usual_stresses
 from tests.conftest import sample

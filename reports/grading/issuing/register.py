@@ -196,15 +196,16 @@ def load_register(folder: Path) -> Register:
     """
     path = folder / FILE if folder.is_dir() else folder
     try:
-        if path.stat().st_size > MAX_BYTES:
-            what = f"файл больше {MAX_BYTES // 10**6} МБ"
-            raise InputError(Problem(str(path), what, "это не реестр kshm"))
-        data = json.loads(path.read_text(encoding="utf-8"))
+        size = path.stat().st_size
+        data = {} if size > MAX_BYTES else json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         hint = "укажите папку, которую сделала команда kshm issue"
         raise InputError(Problem(str(path), f"нет реестра: {reason(error)}", hint)) from None
     except (ValueError, RecursionError):
         raise InputError(_damaged(path)) from None
+    if size > MAX_BYTES:
+        what = f"файл больше {MAX_BYTES // 10**6} МБ"
+        raise InputError(Problem(str(path), what, "это не реестр kshm"))
     if not isinstance(data, dict) or data.get("format") != "kshm-register":
         raise InputError(_damaged(path))
     if data.get("version") != VERSION:

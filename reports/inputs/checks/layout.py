@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import accumulate, combinations
 
-from kshm.engine.arrangement import Arrangement, pin_counts, rods_beside, side_reach, throw_angle
+from kshm.engine.arrangement import (
+    MOST_GAP,
+    Arrangement,
+    firing_gap,
+    pin_counts,
+    rods_beside,
+    side_reach,
+    throw_angle,
+)
 from kshm.engine.crankshaft import places
 from kshm.ranges import RANGES
 from reports.inputs.checks.bands import OFFSET
@@ -148,6 +156,8 @@ def _phases(values: ValidValues) -> Iterator[Finding]:
             hint = "проверьте порядок работы: обычно цилиндры работают по очереди"
             yield Finding(("crankshaft", "firing_offsets_deg", index), problem, hint, warning=True)
     placement = arrangement_given(values)
+    if offsets and strokes:
+        yield from _unfilled(offsets, 180.0 * strokes)
     if not offsets or not angles or placement is None or len(offsets) != len(placement):
         return
     if len(angles) != 1 + max(cylinder.throw for cylinder in placement):
@@ -158,6 +168,18 @@ def _phases(values: ValidValues) -> Iterator[Finding]:
             yield finding
             if cylinder.axis or cylinder.pin_angle:
                 return  # a wrong bank angle is one mistake for the whole bank
+
+
+def _unfilled(offsets: Sequence[float], period: float) -> Iterator[Finding]:
+    """Yield a finding where the firings leave much of the cycle without one."""
+    gap, mean = firing_gap(offsets, period)
+    if gap > MOST_GAP * mean and max(offsets) < period:
+        problem = (
+            f"вспышки не заполняют цикл: наибольший промежуток {number_text(gap)}°, "
+            f"средний {number_text(round(mean, 6))}°"
+        )
+        hint = "проверьте начала рабочих ходов"
+        yield Finding(("crankshaft", "firing_offsets_deg"), problem, hint, warning=True)
 
 
 def _phase(placement: Arrangement, index: int, offset: float, angle: float) -> Finding | None:

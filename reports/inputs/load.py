@@ -196,9 +196,8 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     reader.take(cross_checks.check(reader.values))
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
-    model = InputFile(
-        **cast(dict[str, Any], models), regimes=further, books=texts, own=own_sections
-    )
+    parts = cast(dict[str, Any], models)
+    model = InputFile(**parts, regimes=further, books=texts, own=own_sections)
     design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.
@@ -229,11 +228,10 @@ def load_remote(raw: Mapping[str, Any]) -> Loaded:
     loaded = load_mapping(raw, source="")
     model = loaded.model
     named = [f"report.{key}" for key in FILE_KEYS if getattr(model.report, key)]
-    if model.prototype is not None and model.prototype.file:
-        named.append(PROTOTYPE_KEY)
+    named += [PROTOTYPE_KEY] if model.prototype is not None and model.prototype.file else []
     if named:
-        problem, hint = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
-        raise InputError([Problem(key, problem, hint) for key in named])
+        words = "файлов с диска здесь не читают", "уберите ключ; команде kshm он доступен"
+        raise InputError([Problem(key, *words) for key in named])
     return loaded
 
 
@@ -341,21 +339,21 @@ class _SectionReader:
         reader.home = ("own",)
         tables, sections = raw if isinstance(raw, dict) else {}, {}
         for name in [name for name in tables if name not in declared and not self.problems][:1]:
-            problem, hint = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
-            reader.problems.append(reader.problem((name,), problem, hint))
+            words = "раздела нет ни в одной своей книге", "назовите книгу в report.books"
+            reader.problems.append(reader.problem((name,), *words))
         for name, spec in declared.items():
             assert spec.model is not None
             part = tables.get(name, {})
             if not isinstance(part, dict):
-                problem = f"нужен раздел, а задано: {messages.kind(part)}"
-                reader.problems.append(reader.problem((name,), problem))
+                problem = reader.problem((name,), f"нужен раздел, а задано: {messages.kind(part)}")
+                reader.problems.append(problem)
                 continue
             part = in_types(part, spec.model)
             if self.locate is not None:
                 cells, empty = from_cells({name: part}, {name: spec.model})
                 part, reader.empty = cells[name], reader.empty | set(empty)
-                problem, hint = "ячейка пуста", "впишите значение"
-                reader.problems += [reader.problem(at, problem, hint) for at in empty]
+                words = "ячейка пуста", "впишите значение"
+                reader.problems += [reader.problem(at, *words) for at in empty]
             sections[name] = reader._section(name, spec.model, part)
         self.problems += reader.problems
         return own_model(books).model_construct(None, **sections) if sections else None

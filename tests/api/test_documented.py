@@ -53,7 +53,7 @@ def test_the_lines_are_clean_under_strict_types(source: str, tmp_path: Path) -> 
 def test_an_engine_of_a_file_has_every_number_of_the_command(name: str) -> None:
     _, loaded = loaded_of(name)
     model = loaded.model
-    said = json.loads(json_text(model, solved(model), own=own_numbers(model)))
+    said = json.loads(json_text(model, solved(model), extra=own_numbers(model)))
     solution = kshm.solve(reports.load(name, warn=False))
     assert solution.scalars == {key: each["value"] for key, each in said["summary"].items()}
     assert sorted(solution.tables) == sorted(said["tables"])

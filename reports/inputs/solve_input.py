@@ -6,7 +6,7 @@ What the solver refuses is said in the words of the input.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -38,7 +38,6 @@ MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
 MOST_GRID_ERROR = 2.0  # difference that is told [%]
 _FINEST = 9  # decimals beyond which nothing is told apart
-_TOLD = 4  # differences in the one line; the report has them all
 # Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
 _KINDS = tuple(
     re.compile(kind)
@@ -273,7 +272,7 @@ def grid_remark(model: InputFile) -> str:
     if not used:
         return ""
     first = max(used, key=lambda error: abs(error.percent))
-    coarse, fine, unit = _written(first)
+    coarse, fine, unit = written_alike(first)
     others = f"; других таких результатов: {len(errors) - 1}" if len(errors) > 1 else ""
     step, meta = fixed(model.calculation.step_deg, 0), meta_at(InputFile, _STEP)
     title = meta.title if meta is not None else ""
@@ -283,30 +282,11 @@ def grid_remark(model: InputFile) -> str:
     )
 
 
-def remark_on(errors: Sequence[GridError], model: InputFile) -> str:
-    """Line for known errors of the table step."""
-    if not errors:
-        return ""
-    listed = "; ".join(_said(error) for error in errors[:_TOLD])
-    others = len(errors) - _TOLD
-    more = f"; ещё {others} в отчёте" if others > 0 else ""
-    step = fixed(model.calculation.step_deg, 0)
-    return (
-        f"Шаг таблиц {step}° груб для части результатов, по решению с шагом 1° они другие: "
-        f"{listed}{more}; уменьшите calculation.step_deg, если нужна точность"
-    )
-
-
-def _written(error: GridError) -> tuple[str, str, str]:
+def written_alike(error: GridError) -> tuple[str, str, str]:
     """Both values and the unit as a sentence has them."""
     label = error.quantity.unit_label
     coarse, fine = (written(value, error.digits) for value in (error.coarse, error.fine))
     return coarse, fine, label if label in ("", "°") else f"{NBSP}{label}"
-
-
-def _said(error: GridError) -> str:
-    coarse, fine, unit = _written(error)
-    return f"{error.title}: {coarse} вместо {fine}{unit}"
 
 
 def lighter_than(inertias: Array, throws: int) -> int:

@@ -93,7 +93,7 @@ function chartOf(spec) { // anew only where something has changed
 function loads({phi, x, y}) { // of a journal: the greatest with its angle, the mean
   const far = x.map((px, i) => Math.hypot(px, y[i])), i = far.indexOf(Math.max(...far));
   const mean = far.slice(0, -1).reduce((sum, each) => sum + each, 0) / (far.length - 1);
-  return {x: x[i], y: y[i], name: `R_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R_ср = ${printed(mean, 3)}`};
+  return {x: x[i], y: y[i], name: `R′_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R′_ср = ${printed(mean, 3)}`};
 }
 
 const drawnCharts = () => state.sheet === FIRST ? data.charts.filter(each => each.first).sort((a, b) => a.first - b.first)
@@ -319,7 +319,7 @@ globalThis.kshm = {
   },
   time: () => state.spent,
 };
-Object.assign(globalThis, {turn, live: {isFixed: main.isFixed, toml: () => toml(state.raw, about, "kshm"), book: saveBook, card: makeCard, state}});
+Object.assign(globalThis, {turn, live: {isFixed: main.isFixed, has: main.has, toml: () => toml(state.raw, about, "kshm"), book: saveBook, card: makeCard, state}});
 
 after.push(() => follow());
 document.body.replaceChildren();
@@ -327,6 +327,7 @@ Object.assign(state, {raw: structuredClone(data.raw), titles: Object.fromEntries
   wrong: [], typed: {}, waiting: {}, find: "", phi: 0, pace: 1, isPlaying: false, isChanged: false, spent: 0, sheet: FIRST, told: "",
   open: new Set(), choices: {palette: data.palette}, turn, follow, redraw: () => set({switched: (state.switched ?? 0) + 1})});
 state.last = shown();
+await document.fonts.load("16px 'Inter Variable'", "Rя′φ").catch(() => null); // canvases draw once
 set({}, page);
 for (const media of [dark, printing]) media.addEventListener("change", () => set({}));
 addEventListener("beforeprint", () => set({}));

@@ -60,9 +60,11 @@ async function library() {
 // «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves.
 function write(ink, text, x, y, colour) {
   const [name, index = "", rest = ""] = text.split(/_(\(\d+\)|[^ _,;=(/]+)/);
-  Object.assign(ink, {fillStyle: colour, strokeStyle: "#8882", lineWidth: 3, textBaseline: "middle", textAlign: "left"});
+  const under = getComputedStyle(ink.canvas.closest("figure")).backgroundColor;
+  Object.assign(ink, {fillStyle: colour, strokeStyle: under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
   for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
     ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
+    ink.strokeText(part, x, y + drop);
     ink.fillText(part, x, y + drop);
     x += ink.measureText(part).width;
   }

@@ -87,6 +87,9 @@ function words(chart) {
     taken.push([px, py]);
     write(ink, set.label, Math.min(px + 6, area.right - 44), Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor);
   }
+  ink.beginPath();
+  ink.rect(area.left, area.top, area.width, area.height);
+  ink.clip();
   if (own.marks) vector(ink, own, chart);
   if (own.strokes) own.strokes.forEach((name, i) => write(ink, name, area.left + 8, area.bottom - 12 - 16 * (own.strokes.length - 1 - i), inks()[i]));
   ink.restore();

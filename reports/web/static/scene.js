@@ -121,7 +121,7 @@ function arrows({forces: nodes, most, upright}, {forces, phi: over, each, bore, 
 }
 
 // --- a picture and a clip, as one sees it ---
-const STYLED = ["fill", "stroke", "stroke-width", "opacity", "display", "vector-effect", "text-anchor", "dominant-baseline", "font-family"];
+const STYLED = ["fill", "stroke", "stroke-width", "opacity", "display", "vector-effect", "text-anchor", "dominant-baseline", "font-family", "font-weight", "paint-order"];
 
 async function drawn(svg, canvas) {
   const copy = svg.cloneNode(true), [was, now] = [svg, copy].map(each => [...each.querySelectorAll("*")]);
@@ -145,8 +145,8 @@ function sheet(svg, size = 720) {
   return Object.assign(document.createElement("canvas"), {width: 2 * Math.round(width * scale / 2), height: 2 * Math.round(height * scale / 2)});
 }
 
-export async function picture(svg) {
-  const canvas = sheet(svg, 1200);
+export async function picture(svg, size = 1200) {
+  const canvas = sheet(svg, size);
   await drawn(svg, canvas);
   return new Promise(done => canvas.toBlob(done));
 }

@@ -217,7 +217,8 @@ def with_joints(model: Model) -> Model:
                     Column("hung_piston_y", "to_mm(articulated.y)")]  # fmt: skip
     table = TableSpec(JOINTS, "", "", turn.sheet, tuple(columns), turn.rows, helper=True)
     wall = "geometry_crank_offset_mm" if "geometry_crank_offset_mm" in model.fields else "0"
-    sizes = (Scalar("live_radius_mm", "to_mm(r_crank)"), Scalar("live_wall_mm", wall))
+    sizes = (Scalar("live_radius_mm", "to_mm(r_crank)"), Scalar("live_wall_mm", wall),
+             Scalar("live_bore_mm", "to_mm(sqrt(4*F_piston/pi))"))  # fmt: skip
     return replace(model, blocks=(*model.blocks, table, ScalarTable(SIZES, "", turn.sheet, sizes)))
 
 
@@ -244,7 +245,8 @@ def scene(model: Model) -> Data:
 
 def scene_keys(of: Data) -> Iterator[str]:
     """What the mechanism reads."""
-    yield from ("P3_1.phi_deg", "P4_1.phi_deg", "P4_1.Pg_MPa", "live_radius_mm", "live_wall_mm")
+    yield from ("P3_1.phi_deg", "P4_1.phi_deg", "P4_1.Pg_MPa", "live_radius_mm", "live_wall_mm",
+                "live_bore_mm")  # fmt: skip
     yield from (key for kind in of["joints"] for joint in kind for key in joint)
     for number, table in enumerate(of["tables"]):
         yield from (f"{table}.{key}" for key in of["forces"])

@@ -16,7 +16,7 @@ const fields = data.fields.flatMap(({entries}) => entries.flat());
 const byKey = Object.fromEntries(fields.flatMap(f => [[f.key, f], [f.cell, f]]));
 const start = structuredClone(data.raw), BASE = 180; // degrees a second
 const STROKES = {4: ["впуск", "сжатие", "рабочий ход", "выпуск"], 2: ["рабочий ход", "сжатие"]}[data.strokes];
-const FIRST = "";
+const FIRST = "", MOST_CHECKS = 12; // of a page of print
 const printing = matchMedia("print");
 
 // --- numbers ---
@@ -66,7 +66,7 @@ function moves() {
     gas: Array.from(gas, value => Math.min(Math.max(value / most, 0), 1)),
     forces: Object.fromEntries(Object.entries(forces).map(([key, about]) =>
       [key, {...about, values: Array.from(column(state.cylinder, key))}])),
-    radius: fine.get("live_radius_mm"), wall: fine.get("live_wall_mm"), bore: fine.get("geometry_bore_mm"),
+    radius: fine.get("live_radius_mm"), wall: fine.get("live_wall_mm"), bore: fine.get("live_bore_mm"),
     speed: fine.get("regime_speed_rpm"),
   };
 }
@@ -93,7 +93,7 @@ function chartOf(spec) { // anew only where something has changed
 function loads({phi, x, y}) { // of a journal: the greatest with its angle, the mean
   const far = x.map((px, i) => Math.hypot(px, y[i])), i = far.indexOf(Math.max(...far));
   const mean = far.slice(0, -1).reduce((sum, each) => sum + each, 0) / (far.length - 1);
-  return {x: x[i], y: y[i], name: `R_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R_ср = ${printed(mean, 3)}`};
+  return {x: x[i], y: y[i], name: `R′_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R′_ср = ${printed(mean, 3)}`};
 }
 
 const drawnCharts = () => state.sheet === FIRST ? data.charts.filter(each => each.first).sort((a, b) => a.first - b.first)
@@ -195,7 +195,7 @@ async function makeCard() {
   const stroke = STROKES[Math.min(Math.floor(phi / 180), STROKES.length - 1)];
   return card(document.getElementById("mechanism"), {
     title: raw.engine.name, about: `${printed(speed)} мин⁻¹ · φ = ${Math.round(phi)}°, ${stroke}`,
-    numbers: data.numbers.map(each => [each.symbol.replace("_", " "), number(each), each.unit]),
+    numbers: data.numbers.map(each => [each.symbol, number(each), each.unit]),
     curve: {x: m[0], y: m[1], at: [phi, between(m[0], m[1], Math.min(phi, over.at(-1))) ?? 0], name: "Крутящий момент, Н·м", mean: main.get("M_mean")},
     colours: {page: look("--page"), card: look("--card"), text: look("--text"), soft: look("--soft"),
       first: `#${data.palette[0]}`, second: `#${data.palette[1]}`},
@@ -286,9 +286,9 @@ const tables = () => html`<section id="tables" aria-label="Таблицы">
     </details>`)}</section>`;
 
 const paper = () => html`<section id="paper"><h2>Исходные данные и итоги</h2><div class="cards">
-  ${table("Исходные данные", fields.filter(f => f.number).map(f => row([[f.title], [symbol(f.symbol), "s"], [printed(valueOf(f), 9), "n"], [f.unit, "s"]])))}
-  <div>${data.sheets.flatMap(each => each.blocks).filter(({id, kind}) => kind === "list" && /^(summary_torque|summary_pin|geometry)/.test(id)).map(each => blocks.list(each))}
-  ${checks(data.checks)}</div></div></section>`;
+  ${table("Исходные данные", fields.filter(f => f.number && f.path.length === 2).map(f => row([[f.title], [symbol(f.symbol), "s"], [printed(valueOf(f), 9), "n"], [f.unit, "s"]])))}
+  ${data.sheets.flatMap(each => each.blocks).filter(({id}) => /^summary_(torque|pin|crankpin)$/.test(id)).map(each => blocks.list(each))}
+  ${checks(data.checks.slice(0, MOST_CHECKS))}</div></section>`;
 
 const page = () => html`
   <a class="skip" href="#five">К данным двигателя</a> <a class="skip" href="#results">К диаграммам</a>
@@ -298,7 +298,7 @@ const page = () => html`
   <main><aside id="inputs">${five()}${dataPart()}</aside>
     <div id="view">${scene(state.last)}${numbers()}
       <p id="stale" class="warn" hidden=${!state.wrong.length}>Показан последний верный двигатель: исправьте отмеченное.</p>${charts()}${tables()}</div></main>
-  ${printing.matches && paper()}
+  ${(state.isPrinted || printing.matches) && paper()}
   <p class="hidden" role="status">${state.told}</p>`;
 
 // --- for tests and for teachers' own scripts ---
@@ -319,7 +319,7 @@ globalThis.kshm = {
   },
   time: () => state.spent,
 };
-Object.assign(globalThis, {turn, live: {isFixed: main.isFixed, toml: () => toml(state.raw, about, "kshm"), book: saveBook, card: makeCard, state}});
+Object.assign(globalThis, {turn, live: {isFixed: main.isFixed, has: main.has, toml: () => toml(state.raw, about, "kshm"), book: saveBook, card: makeCard, state}});
 
 after.push(() => follow());
 document.body.replaceChildren();
@@ -327,7 +327,8 @@ Object.assign(state, {raw: structuredClone(data.raw), titles: Object.fromEntries
   wrong: [], typed: {}, waiting: {}, find: "", phi: 0, pace: 1, isPlaying: false, isChanged: false, spent: 0, sheet: FIRST, told: "",
   open: new Set(), choices: {palette: data.palette}, turn, follow, redraw: () => set({switched: (state.switched ?? 0) + 1})});
 state.last = shown();
+await document.fonts.load("16px 'Inter Variable'", "Rя′φ").catch(() => null); // canvases draw once
 set({}, page);
 for (const media of [dark, printing]) media.addEventListener("change", () => set({}));
-addEventListener("beforeprint", () => set({}));
+for (const [event, isPrinted] of [["beforeprint", true], ["afterprint", false]]) addEventListener(event, () => set({isPrinted}));
 if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();

@@ -71,8 +71,8 @@ def _data(model: Model, book: bytes, stem: str) -> tuple[Data, dict[str, str]]:
     curves = [key for chart in charts for key in describe.keys_of(chart)]
     program = program_of(model, (*short.nodes, *curves))
     fine_model = describe.with_joints(_fine(model))
-    wanted = (*(key for key in curves if key in fine_model.nodes), *describe.scene_keys(scene))
-    fine = program_of(fine_model, wanted)
+    wanted = [key for key in curves if key in fine_model.nodes and key not in program.fixed]
+    fine = program_of(fine_model, (*wanted, *describe.scene_keys(scene)))
     used = frozenset(program.inputs_read | fine.inputs_read)
     fields = list(describe.fields(model, used))
     data = {

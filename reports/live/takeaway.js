@@ -104,7 +104,7 @@ export async function workbook({data, part, cells}, values) { // values by the n
 }
 
 // --- the card ---
-const WIDE = 1200, HIGH = 630, EDGE = 40;
+const WIDE = 1200, HIGH = 630, EDGE = 40, DRAWN = 460;
 
 function torque(ink, {x, y, at, name, mean, colours}) { // with its mean and the point of now
   const [left, top, wide, high] = [520, 350, WIDE - EDGE - 520, 210];
@@ -134,11 +134,11 @@ function torque(ink, {x, y, at, name, mean, colours}) { // with its mean and the
 
 export async function card(svg, {title, about, numbers, curve, colours}) {
   const canvas = Object.assign(document.createElement("canvas"), {width: WIDE, height: HIGH}), ink = canvas.getContext("2d");
-  const drawing = await createImageBitmap(await picture(svg));
+  const drawing = await createImageBitmap(await picture(svg, DRAWN));
   ink.fillStyle = colours.page;
   ink.fillRect(0, 0, WIDE, HIGH);
-  const scale = Math.min(440 / drawing.width, 460 / drawing.height), [wide, high] = [drawing.width * scale, drawing.height * scale];
-  ink.drawImage(drawing, EDGE + (440 - wide) / 2, 130 + (460 - high) / 2, wide, high);
+  const scale = Math.min(440 / drawing.width, DRAWN / drawing.height), [wide, high] = [drawing.width * scale, drawing.height * scale];
+  ink.drawImage(drawing, EDGE + (440 - wide) / 2, 130 + (DRAWN - high) / 2, wide, high);
   const put = (text, x, y, font, colour = colours.text) => {
     Object.assign(ink, {font: `${font} 'Inter Variable', sans-serif`, fillStyle: colour});
     ink.fillText(text, x, y, WIDE - EDGE - x);
@@ -151,7 +151,9 @@ export async function card(svg, {title, about, numbers, curve, colours}) {
     ink.beginPath();
     ink.roundRect(x, 150, 152, 96, 10);
     ink.fill();
-    put(name, x + 14, 184, "17px", colours.soft);
+    const [letter, index] = name.split("_");
+    put(letter, x + 14, 182, "18px", colours.soft);
+    put(index ?? "", x + 14 + ink.measureText(letter).width + 1, 187, "13px", colours.soft);
     Object.assign(ink, {font: "700 25px 'Inter Variable', sans-serif", fillStyle: colours.text});
     ink.fillText(`${value} ${unit}`, x + 14, 222, 128);
   });

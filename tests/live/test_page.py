@@ -31,7 +31,7 @@ MOST_BYTES = 3_000_000
 SET = "([key, value]) => { try { kshm.set(key, value) } catch (e) { return e.message } }"
 MOVING = "keys => keys.filter(key => !live.isFixed(key))"
 GET = "keys => keys.map(key => kshm.get(key))"
-NAMES = sparse(("gots-diesel", "articulated", "two-stroke", "yamz-238"))
+NAMES = sparse(("gots-diesel", "articulated", "two-stroke", "yamz-238", "cycle-petrol"))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -41,6 +41,7 @@ def test_an_edit_gives_the_numbers_of_a_new_build(
     assert live_file(name).stat().st_size < MOST_BYTES
     page, model = live(name), model_of(name)
     page.wait_for_selector("#numbers")
+    assert "NaN" not in page.content().partition("<script")[0]
     changes, changed = changed_everywhere(model.input, random.Random(name), 0.02)
     free, titles = page.evaluate("[kshm.keys(), live.state.titles]")
     refused = []

@@ -13,7 +13,8 @@ from pathlib import Path
 from reports.shared.errors import SystemPartMissing
 from reports.shared.resources import samples_dir
 
-SAMPLE = "gots-diesel"
+SAMPLE, _LIVE_SAMPLE = "gots-diesel", "yamz-238"
+_SETTLE_MS = 1000  # until charts and fonts stand
 _COLOURS = 64
 _BEGINNING = 30  # words of a page: its header, the title of the sheet and of the table
 _BROWSERS, _PORT = ("chromium-headless-shell", "chromium", "chromium-browser"), "8399"
@@ -61,7 +62,7 @@ def write_pictures(folder: Path) -> list[Path]:
         documents = {"pdf": temporary / f"{SAMPLE}.pdf", "xlsx": temporary / "book.pdf"}
         documents["xlsx"].write_bytes(_printed(temporary / f"{SAMPLE}.xlsx"))
         written = [_write(picture, documents, folder) for picture in PICTURES]
-    return [*written, _web_page(folder / "page.png")]
+    return [*written, _web_page(folder / "page.png"), _live_page(folder / "live.png")]
 
 
 def _web_page(target: Path) -> Path:
@@ -89,6 +90,32 @@ def _web_page(target: Path) -> Path:
             server.terminate()
             server.wait()
     Image.open(target).convert("RGB").quantize(_COLOURS).save(target, optimize=True)
+    return target
+
+
+def _live_page(target: Path) -> Path:
+    """The live page of a V8 from its file."""
+    from PIL import Image
+    from playwright.sync_api import sync_playwright
+
+    from reports.exports.build import build, load_input
+
+    shell = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    with tempfile.TemporaryDirectory() as name, sync_playwright() as driver:
+        source = samples_dir() / f"{_LIVE_SAMPLE}.toml"
+        (file,) = build(source, load_input(source), Path(name), ("live",)).files
+        browser = driver.chromium.launch(executable_path=shell, args=["--no-sandbox"])
+        size = {"width": 1366, "height": 1000}
+        page = browser.new_page(viewport=size, reduced_motion="reduce")  # type: ignore[arg-type]
+        page.goto(file.as_uri())
+        page.wait_for_selector("#charts canvas")
+        page.evaluate("turn(377)")
+        page.wait_for_timeout(_SETTLE_MS)
+        page.screenshot(path=target)
+        browser.close()
+    image = Image.open(target).convert("RGB")
+    small = image.resize((image.width * 4 // 5, image.height * 4 // 5))
+    small.quantize(2 * _COLOURS, method=Image.Quantize.MAXCOVERAGE).save(target, optimize=True)
     return target
 
 

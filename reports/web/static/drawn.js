@@ -60,9 +60,11 @@ async function library() {
 // «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves.
 function write(ink, text, x, y, colour) {
   const [name, index = "", rest = ""] = text.split(/_(\(\d+\)|[^ _,;=(/]+)/);
-  Object.assign(ink, {fillStyle: colour, strokeStyle: "#8882", lineWidth: 3, textBaseline: "middle", textAlign: "left"});
+  const under = getComputedStyle(ink.canvas.closest("figure")).backgroundColor;
+  Object.assign(ink, {fillStyle: colour, strokeStyle: under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
   for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
     ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
+    ink.strokeText(part, x, y + drop);
     ink.fillText(part, x, y + drop);
     x += ink.measureText(part).width;
   }
@@ -85,6 +87,9 @@ function words(chart) {
     taken.push([px, py]);
     write(ink, set.label, Math.min(px + 6, area.right - 44), Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor);
   }
+  ink.beginPath();
+  ink.rect(area.left, area.top, area.width, area.height);
+  ink.clip();
   if (own.marks) vector(ink, own, chart);
   if (own.strokes) own.strokes.forEach((name, i) => write(ink, name, area.left + 8, area.bottom - 12 - 16 * (own.strokes.length - 1 - i), inks()[i]));
   ink.restore();

@@ -61,7 +61,7 @@ function field(f, change, reshape) {
   const empty = f.optional || f.value === null ? [["", "—"]] : [];
   return html`
     <div key=${f.key} class=${`field ${f.number || f.choices ? "" : "wide"} ${f.fixed ? "fixed" : ""}`} data-key=${f.key}>
-      <label for=${id}>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</label>
+      <label for=${id}><span>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</span></label>
       ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
         : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
       <span>${f.unit}</span>${!reshaped && !f.fixed && slider(f, text, type)}

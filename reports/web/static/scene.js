@@ -5,7 +5,6 @@ import {between, inks} from "./drawn.js";
 
 const range = values => [Math.min(...values), Math.max(...values)];
 const LONG = 1.1; // of the bore: the greatest force
-const greatest = ({forces}) => Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)), 1e-9);
 const within = (angle, period) => (angle % period + period) % period;
 const head = ({joints, bore}, {rod}) => Math.max(...joints[rod].at(-1)[1]) + .5 * bore; // of a cylinder
 
@@ -22,14 +21,16 @@ function cylinder(moves, i, more) { // in its own frame, its axis upwards
     ${[0, ...joints[each[i].rod]].map(() => html`<circle class="body pin" r=${radius / 9} />`)}</g>`;
 }
 
+const reach = (moves, keys, sign = Math.abs) => Math.max(...keys.flatMap(key => moves.forces[key].values.map(sign)), 1e-9);
+const greatest = moves => reach(moves, FORCES.map(([key]) => key)); // of a cycle: it is LONG
 const FORCES = [["Ps_MPa", "PΣ", 0], ["N_MPa", "N", 1], ["T_MPa", "T", 2], ["K_MPa", "K", 3]];
 
 function front(moves) { // from the nose, as the engine stands
-  const {radius, bore, each, forces, cylinder: chosen} = moves, most = greatest(moves), upright = tilt(moves);
-  const pull = Math.max(...["K_MPa", "T_MPa"].flatMap(key => forces[key].values.map(Math.abs))) / most;
-  const round = Math.max(1.3 * radius, radius + bore * (LONG * pull + .2));
+  const {radius, bore, each, cylinder: chosen} = moves, most = greatest(moves), upright = tilt(moves);
+  const pull = reach(moves, ["K_MPa", "T_MPa"]) / most, lift = LONG * reach(moves, ["Ps_MPa"], force => -force) / most;
+  const round = Math.max(1.3 * radius, radius + bore * (LONG * pull * .6 + .2));
   const corners = each.flatMap((one, i) => [-1, 1].map(side => {
-    const up = head(moves, one) + (i === chosen ? LONG - .2 : .1) * bore, turn = (one.axis + upright) * Math.PI / 180, out = .6 * bore * side;
+    const up = head(moves, one) + (i === chosen ? Math.max(lift - .5, .1) : .1) * bore, turn = (one.axis + upright) * Math.PI / 180, out = .6 * bore * side;
     return [up * Math.sin(turn) + out * Math.cos(turn), -up * Math.cos(turn) + out * Math.sin(turn)];
   }));
   const [[left, right], [top, down]] = [0, 1].map(k => range([-round, round, ...corners.map(c => c[k])]));
@@ -109,7 +110,7 @@ function arrows({forces: nodes, most, upright}, {forces, phi: over, each, bore, 
   nodes.forEach((node, i) => {
     const [place, along] = places[i], [line, name] = node.children, [key, word] = FORCES[i];
     const force = between(over, forces[key].values, phi), far = LONG * bore * force / most;
-    const barb = Math.sign(far) * Math.min(bore / 11, Math.abs(far)), beyond = far + Math.sign(far) * bore / 5;
+    const barb = Math.sign(far) * Math.min(bore / 11, Math.abs(far)), beyond = Math.sign(far) * (Math.max(Math.abs(far), bore / 5) + bore / 5);
     node.style.display = Math.abs(far) > bore / 40 ? "" : "none";
     node.setAttribute("transform", `translate(${place}) rotate(${along})`);
     line.setAttribute("d", `M0 0h${far}m${-barb} ${-barb / 2}l${barb} ${barb / 2}l${-barb} ${barb / 2}`);
@@ -120,7 +121,7 @@ function arrows({forces: nodes, most, upright}, {forces, phi: over, each, bore, 
 }
 
 // --- a picture and a clip, as one sees it ---
-const STYLED = ["fill", "stroke", "stroke-width", "opacity", "display", "vector-effect", "text-anchor", "dominant-baseline", "font-family"];
+const STYLED = ["fill", "stroke", "stroke-width", "opacity", "display", "vector-effect", "text-anchor", "dominant-baseline", "font-family", "font-weight", "paint-order"];
 
 async function drawn(svg, canvas) {
   const copy = svg.cloneNode(true), [was, now] = [svg, copy].map(each => [...each.querySelectorAll("*")]);
@@ -144,8 +145,8 @@ function sheet(svg, size = 720) {
   return Object.assign(document.createElement("canvas"), {width: 2 * Math.round(width * scale / 2), height: 2 * Math.round(height * scale / 2)});
 }
 
-export async function picture(svg) {
-  const canvas = sheet(svg, 1200);
+export async function picture(svg, size = 1200) {
+  const canvas = sheet(svg, size);
   await drawn(svg, canvas);
   return new Promise(done => canvas.toBlob(done));
 }

@@ -41,6 +41,8 @@ _LEAST_CHANGE = 0.005  # points that are printed
 @path_option("--rubric", metavar="ФАЙЛ", help="Рубрика TOML (без неё — правила по умолчанию).")
 @path_option("--ranges", metavar="ФАЙЛ", help="Диапазоны, если их нет в разделе [variants].")
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@click.option("--tries", type=click.IntRange(0, 20), metavar="ЧИСЛО",
+              help="Попыток до срока: сервер сразу говорит, сколько столбцов верно.")  # fmt: skip
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @path_option("--try-rubric", "samples", metavar="ФАЙЛ",
              help="Не выдавать, а проверить рубрику на пробных работах.")  # fmt: skip
@@ -53,6 +55,7 @@ def issue(
     rubric: Path | None,
     ranges: Path | None,
     secret: Path | None,
+    tries: int | None,
     jobs: int,
     samples: Path | None,
 ) -> int:
@@ -69,6 +72,7 @@ def issue(
     done = issue_books(
         source, roster, folder, seed=seed,
         rubric_file=rubric, ranges_file=ranges, secret_file=secret, jobs=jobs,
+        tries=tries,
     )  # fmt: skip
     if done.new_secret is not None:
         click.echo(

@@ -19,7 +19,7 @@ from reports.commands import class_commands
 from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import GradeSetup, decide, grade
-from reports.grading.issuing.rubric import Rubric, rubric_of
+from reports.grading.issuing.rubric import Attempts, Rubric, rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.scoring import HandedIn, late_factor, score
 from reports.grading.judging.works import Work, work_of
@@ -340,7 +340,7 @@ def test_the_best_attempt_counts_where_the_rubric_says_so():
 
     first, second = result(90.0, "2026-01-01"), result(60.0, "2026-01-02")
     assert choose([first, second])[1] is second
-    assert choose([first, second], "best")[1] is first
+    assert choose([first, second], Attempts(count="best"))[1] is first
     thief = result(0.0, "2026-01-03", 2)
     assert choose([first, second, thief])[1] is second  # a stranger's file is never mine
 

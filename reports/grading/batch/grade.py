@@ -213,7 +213,7 @@ class _Batch:
 
     def by_number(self) -> dict[int, Work]:
         """The work that counts of each student, by the number of the variant."""
-        return choose(list(self.works.values()), self.register.rubric.attempts.count)
+        return choose(list(self.works.values()), self.register.rubric.attempts)
 
     def counted(self) -> list[Work]:
         """The work that counts of each student."""
@@ -260,7 +260,7 @@ class _Batch:
         kept = load_decisions(self.folder)
         rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
         seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
-        counted = choose(seen, rubric.attempts.count)
+        counted = choose(seen, rubric.attempts)
         self._kept = from_gradebook(book, kept, counted, rubric)
         self._by_group, self._group_author = words_of_groups(book, kept)
         refuse_too_many(self._kept, self.register)

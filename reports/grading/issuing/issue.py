@@ -203,8 +203,11 @@ def issue(
     ranges_file: Path | None = None,
     secret_file: Path | None = None,
     jobs: int = 1,
+    tries: int | None = None,
 ) -> Result:
     """Issue a variant to each student; ``jobs`` processes write the books, 0 one a processor.
+
+    ``tries`` takes the place of the rubric's.
 
     Raises:
         InputError: everything that is wrong with the files.
@@ -213,6 +216,9 @@ def issue(
     base = load_base(base_file, ranges_file)
     roster = roster_of(roster_file)
     rubric = load_rubric(rubric_file)
+    if tries is not None:
+        attempts = rubric.attempts.model_copy(update={"tries": tries})
+        rubric = rubric.model_copy(update={"attempts": attempts})
     source = rubric_file.name if rubric_file is not None else "рубрика по умолчанию"
     assignment_of(build_model(base.loaded.model), rubric, source)
     _refuse_foreign(folder)

@@ -136,9 +136,14 @@ class Message(_Section):
 
 
 class Attempts(_Section):
-    """[attempts]: which of several files counts."""
+    """[attempts]: which of several files counts, and how many a student may hand in.
+
+    With ``tries`` the server says at once how many columns are right; 0 sets no limit and says
+    nothing.
+    """
 
     count: Literal["last", "best"] = "last"
+    tries: Annotated[int, Field(ge=0, le=20)] = 0
 
 
 class Copying(_Section):

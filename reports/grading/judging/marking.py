@@ -30,6 +30,7 @@ from reports.grading.judging.scoring import HandedIn, score
 from reports.grading.judging.spelling import chooses_a_number
 from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
+from reports.grading.judging.tries import spellings
 from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
 from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
@@ -243,6 +244,8 @@ class Marker:
     def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:
         """Marks and traits of a work for the comparison with others, and with the program."""
         result["formulas"] = formula_marks(student, tables.own)
+        if tables.register.rubric.attempts.tries:
+            result["spellings"] = spellings(student)
         own = OwnFormulas(student, tables.textbook)
         result["traits"] = traits_of(own, result["items"])
         for text in _of_the_program(own, result["formulas"]):

@@ -137,6 +137,7 @@ class Entry:
     formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
     reason: str = ""  # why a person has to look, and the formula that he looks at
     sample: str = ""
+    spelling: tuple[str, str] = ("", "")  # of its formulas and of their numbers, for tries
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,8 +177,9 @@ class Work:
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
     """The small form of a result; ``shared`` holds the items of all works of a class."""
-    formulas = result.get("formulas", {})
-    entries = (_entry(line, formulas.get(line["id"])) for line in result["items"])
+    formulas, spellings = result.get("formulas", {}), result.get("spellings", {})
+    entries = (_entry(line, formulas.get(line["id"]), spellings.get(line["id"]))
+               for line in result["items"])  # fmt: skip
     return Work(
         key=result["key"],
         file=result["file"],
@@ -210,7 +212,9 @@ def _trait(fields: Sequence[str]) -> Trait:
     return kind, item, mark, spelt, group
 
 
-def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
+def _entry(
+    line: dict[str, Any], formula: list[Any] | None, spelling: Sequence[str] | None
+) -> Entry:
     verdict = line["verdict"]
     return Entry(
         id=line["id"],
@@ -225,6 +229,7 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
         reason=line.get("reason", "") if verdict == UNKNOWN else "",
         sample=line.get("sample", "") if verdict == UNKNOWN else "",
+        spelling=(spelling[0], spelling[1]) if spelling else ("", ""),
     )
 
 

@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 def restore(student: StudentBook) -> None:
     """Input data and given numbers as issued; what was changed is remembered."""
     model = student.assignment.kept_model
-    for location in student.placement.places.values():  # a column emptied whole is one still
-        student.grid.sheets[location.sheet].setdefault(location.column, CellColumn())
+    for at in student.placement.places.values():  # a column emptied whole is one still
+        student.grid.sheets[at.sheet].setdefault(at.column, CellColumn())
     for name, item in model.fields.items():
         location = student.placement.places.get(name)
         if location is not None:

@@ -76,7 +76,7 @@ _NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
 _ENDS = (("op", ","), ("op", ")"))
 
 
-class UnknownFormula(ValueError):  # noqa: N818 - it is no mistake of the writer's
+class UnknownFormula(ValueError):  # noqa: N818 - it is not the student's error
     """A formula that the referee cannot calculate for certain: a person must look."""
 
 
@@ -92,7 +92,7 @@ class Ref:
 
 @lru_cache(maxsize=1024)
 def column_number(letters: str) -> int:
-    """Number of a column from 1."""
+    """Return number of a column from 1."""
     number = 0
     for letter in letters.upper():
         number = number * 26 + ord(letter) - 64
@@ -162,7 +162,7 @@ def _distance(cell: str, row: int, column: int) -> str:
 
 
 def row_template(text: str, row: int) -> str | list[str | int]:
-    """A formula whose rows move when it is filled down, for ``filled``."""
+    """Return a formula whose rows move when it is filled down, for ``filled``."""
     pieces: list[str | int] = []
     at = 0
     for match in _SPLIT.finditer(text):
@@ -178,7 +178,7 @@ def row_template(text: str, row: int) -> str | list[str | int]:
 
 
 def filled(template: str | list[str | int], row: int) -> str:
-    """The formula that filling down would put into a row."""
+    """Return the formula that filling down would put into a row."""
     if isinstance(template, str):
         return template.replace(HERE, str(row))
     return "".join([piece if isinstance(piece, str) else str(row + piece) for piece in template])
@@ -188,7 +188,7 @@ def filled(template: str | list[str | int], row: int) -> str:
 
 
 def ref_of(text: str) -> Ref:
-    """The cell of a token ``ref``."""
+    """Return the cell of a token ``ref``."""
     match = _REF.fullmatch(text)
     assert match is not None
     return Ref(int(match[2]), int(match[4]), not match[1], not match[3])
@@ -213,13 +213,13 @@ def render(tokens: Sequence[Token], row: int, column: int, own: str = "") -> str
 
 
 def quoted(sheet: str) -> str:
-    """A sheet as it stands before a reference."""
+    """Return a sheet as it stands before a reference."""
     plain = sheet.replace("'", "''")
     return f"'{plain}'!"
 
 
 def unquoted(token: str) -> str:
-    """The sheet that such a token names."""
+    """Return the sheet that such a token names."""
     return token[1:-2].replace("''", "'") if token.startswith("'") else token[:-1]
 
 
@@ -343,7 +343,7 @@ class _TokenPlace:
 
 
 def _places(pattern: tuple[Token, ...]) -> list[_TokenPlace]:
-    """The place of every token."""
+    """Return the place of every token."""
     contexts = [_TokenPlace("", 0, False)]
     places = []
     for at, (kind, value) in enumerate(pattern):
@@ -369,7 +369,7 @@ def is_doubtful(text: str, *, in_product: bool = False) -> bool:
 
 
 def formula_at(text: str, row: int, column: int) -> Formula:
-    """The formula of a cell.
+    """Return the formula of a cell.
 
     Raises:
         UnknownFormula: a sign outside the language, or a formula that is too long.
@@ -379,7 +379,7 @@ def formula_at(text: str, row: int, column: int) -> Formula:
 
 @lru_cache(maxsize=20_000)
 def formula_of(tokens: tuple[Token, ...]) -> Formula:
-    """The one formula with these tokens."""
+    """Return the one formula with these tokens."""
     return Formula(tokens)
 
 

@@ -128,7 +128,7 @@ def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Tok
 
 
 def put_in(grid: CellGrid, known: Meanings, local: Local) -> None:
-    """The formulas of a grid with names replaced by what they stand for.
+    """Return the formulas of a grid with names replaced by what they stand for.
 
     A formula that then refers to no cell is left: a number by a name is for a person to see.
     """

@@ -22,7 +22,7 @@ from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.rubric import Attempts, Rubric, rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.scoring import HandedIn, late_factor, score
-from reports.grading.judging.works import Work, work_of
+from reports.grading.judging.work_digest import Work, work_of
 from reports.grading.pages.gradebook import DECISION, OF_FILE
 from reports.grading.pages.summary import choose, table_rows
 from reports.shared.errors import InputError

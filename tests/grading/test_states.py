@@ -11,7 +11,7 @@ from openpyxl import load_workbook
 
 from reports.grading.batch import grade as room
 from reports.grading.batch.grade import GradeSetup, decide, grade
-from reports.grading.judging import rings
+from reports.grading.judging import collusion
 from reports.grading.pages.gradebook import TITLE
 from reports.grading.pages.states import State
 from reports.workbook.layout import Layout
@@ -121,7 +121,7 @@ def test_what_two_works_share_stands_in_the_gradebook_and_for_moodle_with_its_bi
 ):
     """Where it is too little to hold them, students do not read it."""
     monkeypatch.setattr(room, "grade_all", classroom.graded_here)
-    monkeypatch.setattr(rings, "HELD", 100.0)
+    monkeypatch.setattr(collusion, "HELD", 100.0)
     where, out = works(tmp_path / "in"), tmp_path / "out"
     graded(where, out)
     assert told(out)["summary"][0] == (State.CHECKED, 100)

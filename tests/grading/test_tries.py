@@ -17,7 +17,7 @@ from reports.grading.issuing.register import Register
 from reports.grading.issuing.rubric import Attempts
 from reports.grading.judging.marking import Marker
 from reports.grading.judging.tries import in_order, probed, words_of_all, words_of_try
-from reports.grading.judging.works import Entry, Work, work_of
+from reports.grading.judging.work_digest import Entry, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, moodle_csv
 from reports.grading.pages.summary import choose, table_rows
 from reports.grading.reading.submissions import Submission

@@ -106,7 +106,7 @@ class Late(_Section):
     @field_validator("deadline", mode="before")
     @classmethod
     def _with_its_hour(cls, value: object) -> object:
-        """A day alone would end as it begins: who hands in on that day would be late."""
+        """Refuse a day alone: it would end as it begins."""
         if type(value) is date:
             raise PydanticCustomError("datetime_parsing", "no hour")
         return value
@@ -169,7 +169,7 @@ class MarkScale(_Section):
     none: Annotated[str, Field(max_length=20)] = "2"
 
     def mark(self, points: float) -> str:
-        """The mark for points."""
+        """Return the mark for points."""
         reached = [(least, mark) for mark, least in self.marks.items() if points >= least]
         return max(reached)[1] if reached else self.none
 
@@ -213,7 +213,7 @@ class Rubric(_Section):
 
 
 def load_rubric(path: Path | None) -> Rubric:
-    """The rubric of a file, or the defaults.
+    """Return the rubric of a file, or the defaults.
 
     Raises:
         InputError: everything that is wrong with the file.
@@ -232,7 +232,7 @@ def load_rubric(path: Path | None) -> Rubric:
 
 
 def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
-    """The rubric of a mapping.
+    """Return the rubric of a mapping.
 
     Raises:
         InputError: everything that is wrong with it.

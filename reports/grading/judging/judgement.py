@@ -56,7 +56,7 @@ def fault(error: Exception) -> str:
 
 
 def unread_remark(labels: Sequence[str]) -> str:
-    """What is said of a work some of whose items a person has to look at."""
+    """Tell what is said of a work some of whose items a person has to look at."""
     return "не удалось проверить: " + ", ".join(labels[:_MOST_LABELS])
 
 

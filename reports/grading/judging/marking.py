@@ -32,7 +32,7 @@ from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.tries import spellings
 from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
-from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
+from reports.grading.judging.work_digest import feedback_line, formula_marks, is_verbatim, own_marks
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
 from reports.grading.reading.student import StudentBook
@@ -64,7 +64,7 @@ T = TypeVar("T")
 
 
 def blank_result(submission: Submission) -> Result:
-    """The result of a file before anything is known about it."""
+    """Return the result of a file before anything is known about it."""
     return {
         "format": FORMAT,
         "key": submission.key,
@@ -122,7 +122,7 @@ class Marker:
         self._forms = Forms()
 
     def mark(self, submission: Submission, data: bytes) -> Result:
-        """The result of one file; whatever is wrong with it is part of the result."""
+        """Return the result of one file; whatever is wrong with it is part of the result."""
         result = blank_result(submission)
         result["sha256"] = hashlib.sha256(data).hexdigest()
         try:
@@ -148,7 +148,7 @@ class Marker:
         return result
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
-        """The tables of a student's work-book and where they were issued."""
+        """Return the tables of a student's work-book and where they were issued."""
         known = self._assignments.get(book.number)
         if known is None:
             first = self._first
@@ -178,7 +178,7 @@ class Marker:
         return _Tables(assignment, Layout.of(assignment.model), self.register)
 
     def refused(self, result: Result, submission: Submission, why: str) -> Result:
-        """The result of a file that cannot be graded."""
+        """Return the result of a file that cannot be graded."""
         _take_match(result, find_by_name(self.register, submission))
         result |= {"status": "refused", "reason": why}
         result["manual"].append(f"файл не принят: {why}")
@@ -189,7 +189,7 @@ class Marker:
         return FormulaResponse(student, self._tables(student.assignment).proofs)
 
     def student(self, book: Issued, grid: CellGrid, package: Package | None = None) -> StudentBook:
-        """The workbook under its assignment."""
+        """Return the workbook under its assignment."""
         student = StudentBook.of(*self.assignment(book), grid)
         student.package = package
         restore(student)
@@ -351,7 +351,7 @@ def _take_match(result: Result, match: Match) -> None:
 
 
 def _altered(student: StudentBook, package: Package) -> list[str]:
-    """The first of these cells, in the book as it was saved."""
+    """Return the first of these cells, in the book as it was saved."""
     return altered(student, read_grid(package) if student.changed else None)[:50]
 
 

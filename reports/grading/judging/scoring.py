@@ -27,7 +27,7 @@ class HandedIn:
 
 
 def score(result: Result, rubric: Rubric, handed: HandedIn) -> None:
-    """The points of a result from those of its lines, and what takes them away."""
+    """Set the points of a result from those of its lines, and what takes them away."""
     lines = result["items"]
     paid = [line for line in lines if line["of"] > 0]
     result["filled"] = _filled(paid)

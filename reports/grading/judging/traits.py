@@ -17,7 +17,7 @@ from typing import Any
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.judging.canonical import Reader, Tree, leaves, subtrees
 from reports.grading.judging.judgement import EMPTY, WRONG
-from reports.grading.judging.works import Trait, idle_steps
+from reports.grading.judging.work_digest import Trait, idle_steps
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
 from reports.recalculation.formulas import Formula, Token, UnknownFormula

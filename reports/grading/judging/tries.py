@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 from reports.grading.judging.judgement import EMPTY
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from reports.grading.reading.student import StudentBook
 from reports.shared.russian import plural
 
@@ -52,7 +52,7 @@ def _digest(parts: Sequence[str]) -> str:
 
 
 def words_of_try(result: Mapping[str, Any]) -> str:
-    """The answer to a try: columns that are right, and the sheet of the first mistake."""
+    """Return the answer to a try: columns that are right, and the sheet of the first mistake."""
     lines = [line for line in result["items"] if line["of"] > 0]
     right = sum(line["points"] >= line["of"] - _PAID for line in lines)
     words = f"верно {plural(right, 'столбец', 'столбца', 'столбцов')} из {len(lines)}"
@@ -72,7 +72,7 @@ def _sheet(line: Mapping[str, Any]) -> str:
 
 
 def in_order(works: Sequence[Work]) -> list[Work]:
-    """The tries of one student by time; a file that was handed in twice is one."""
+    """Return the tries of one student by time; a file that was handed in twice is one."""
     ordered = sorted(works, key=lambda work: (work.time, work.key))
     return list({work.sha256 or work.key: work for work in reversed(ordered)}.values())[::-1]
 

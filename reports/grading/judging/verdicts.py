@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
-from reports.grading.judging.dependencies import GROUND_RULES, Grounds
+from reports.grading.judging.dependencies import GROUND_RULES, Precedents
 from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
@@ -76,7 +76,7 @@ def judge_all(student: StudentBook, response: FormulaResponse) -> Verdicts:
     judgements = {item.id: _judged(item, student, response) for item in items}
     faults: tuple[str, ...] = ()
     try:
-        grounds = Grounds.of(judgements, student, response)
+        grounds = Precedents.of(judgements, student, response)
     except Exception as error:
         return Verdicts(list(judgements.values()), (fault(error),))
     for rule in GROUND_RULES:
@@ -208,7 +208,7 @@ class ItemEvidence:
         return decide(CELL_RULES, self.cells(unlinked=self.unlinked), len(self.letters))
 
     def cells(self, *, unlinked: bool) -> CellEvidence:
-        """The evidence of each cell."""
+        """Return the evidence of each cell."""
         # A nought typed in among formulas is one; a column typed in is numbers throughout.
         among = len(self.formulas) >= _ENOUGH * len(self.letters)
         letters = np.array(list(self.letters))
@@ -337,7 +337,7 @@ def _by_chance(e: ItemEvidence) -> Judgement | None:
 
 
 def _by_cells(e: ItemEvidence) -> Judgement:
-    """The verdict that most cells have, but numbers in disguise before all others."""
+    """Return the verdict that most cells have, but numbers in disguise before all others."""
     counts, total = Counter(e.words), len(e.words)
     if counts.keys() == {RIGHT}:
         return replace(e.judgement, paid=1.0, typed=(), coarse=say.ROUNDED in e.letters)
@@ -400,7 +400,7 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
 
 
 def _judge_text(item: Item, student: StudentBook, answer: Answer) -> Judgement:
-    """A result in words is compared as words."""
+    """Compare a result in words as words."""
     nothing, location, (node,) = np.full(1, np.nan), answer.location, item.nodes
     judgement = Judgement(item, WRONG, nothing, nothing, (0,))
     if location is None or location.rows[0] is None or answer.problem:
@@ -435,7 +435,7 @@ def _is_linked(item: Item, student: StudentBook) -> bool:
 
 
 def own_values(item: Item, student: StudentBook, precedents: frozenset[str] | None) -> Array:
-    """The textbook's formula on the student's own values of the cells that are referred to.
+    """Return the textbook's formula on the student's own values of the cells that are referred to.
 
     Cells that the formula does not refer to are calculated from those that it does:
     a student may skip a helper column.

@@ -7,9 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from reports.grading.judging.collusion import Ring
 from reports.grading.judging.judgement import UNKNOWN, unread_remark
-from reports.grading.judging.rings import Ring
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 
 NAME = re.compile(r"Г-[0-9A-F]{6}")
 _NUMBERS = re.compile(r"\d+([.,]\d+)?")

@@ -112,7 +112,7 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def class_page(summary: dict[str, Any]) -> str:
-    """The summary of a class."""
+    """Compute the summary of a class."""
     shown = {"decided": (), **summary}
     return _environment().get_template("summary.html.j2").render(summary=shown, words=WORDS)
 
@@ -135,7 +135,7 @@ def _chart(line: dict[str, Any], full: bool) -> Markup:
 
 
 def number(value: float | None, digits: Mapping[str, Any] | None = None) -> str:
-    """A number as Russian print has it, with a digit more than the book."""
+    """Return a number as Russian print has it, with a digit more than the book."""
     if value is None:
         return "—"
     return short(value) if digits is None else written(value, Digits(**digits), more=1)
@@ -147,7 +147,7 @@ def points(value: float) -> str:
 
 
 def moment(text: str) -> str:
-    """A time as people write it: 05.12.2026 10:00."""
+    """Return a time as people write it: 05.12.2026 10:00."""
     return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
 
 
@@ -162,7 +162,7 @@ def rows(labels: list[str], limit: int = 14) -> str:
 
 
 def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tuple[str, str]) -> str:
-    """The chart's SVG; gaps where there is no number, one line where ``right`` is None."""
+    """Return the chart's SVG; gaps where there is no number, one line where ``right`` is None."""
     known = [v for line in (own, right or ()) for v in line if v is not None]
     if not known or len(x) < 2:
         return ""

@@ -128,7 +128,7 @@ class _Maker:
         return Question("sign", item.id, text, answer)
 
     def change(self, item: Item, chance: random.Random) -> Question | None:
-        """What becomes of a value when an input is larger."""
+        """Tell what becomes of a value when an input is larger."""
         before = self._peak(item, self.run)
         inputs = [
             name
@@ -162,7 +162,7 @@ class _Maker:
         return Question("change", item.id, text, answer)
 
     def substitution(self, item: Item, chance: random.Random) -> Question | None:
-        """A row calculated by hand."""
+        """Return a row calculated by hand."""
         column = self._column(item)
         if column is None:
             return None
@@ -206,7 +206,7 @@ class _Maker:
         return columns
 
     def _beside(self, item: Item, table: TableSpec, at: int, other: int) -> str:
-        """What the formula reads in two rows."""
+        """Tell what the formula reads in two rows."""
         parts = []
         for node, values in self._columns_of(item, table):
             digits = self.model.nodes[node].quantity.digits

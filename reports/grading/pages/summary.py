@@ -10,11 +10,11 @@ from typing import Any
 
 from reports.grading.issuing.register import Register
 from reports.grading.issuing.rubric import Attempts
+from reports.grading.judging.collusion import Ring
 from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED, UNKNOWN, WRONG
-from reports.grading.judging.rings import Ring
 from reports.grading.judging.similarity import signals, suspicions
 from reports.grading.judging.tries import in_order, words_of_all
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from reports.grading.pages.groups import WaitingGroup, groups_of
 from reports.grading.pages.pages import moment
 from reports.grading.pages.states import State, state_of
@@ -31,7 +31,7 @@ _STEPS = 10
 
 
 def choose(results: Sequence[Work], attempts: Attempts = LAST) -> dict[int, Work]:
-    """The result that counts for each student: of several graded files the last or the best.
+    """Return the result that counts for each student: of several graded files the last or the best.
 
     Of files beyond the tries that a student has none counts.
 
@@ -60,7 +60,7 @@ def choose(results: Sequence[Work], attempts: Attempts = LAST) -> dict[int, Work
 
 
 def tries_of(results: Sequence[Work]) -> dict[int, list[Work]]:
-    """What each student has handed in under the own name, in order."""
+    """Tell what each student has handed in under the own name, in order."""
     tries: dict[int, list[Work]] = {}
     for work in results:
         if work.number is not None and work.submitter is None:
@@ -110,7 +110,7 @@ def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> l
 def table_rows(
     register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
 ) -> list[dict[str, Any]]:
-    """A row for each student of the register, then one for each file without an owner."""
+    """Return a row for each student of the register, then one for each file without an owner."""
     attempts = register.rubric.attempts
     count, tries = attempts.count, tries_of(results) if attempts.tries else {}
     chosen, held = choose(results, attempts), suspicions(results, rings)

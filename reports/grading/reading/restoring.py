@@ -185,7 +185,7 @@ def own_formulas(
 
 
 def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
-    """The formulas of a column's cells, read from the first two rows and the last.
+    """Return the formulas of a column's cells, read from the first two rows and the last.
 
     Distances between cells are the same in two rows and so in all between; else each is read.
     """

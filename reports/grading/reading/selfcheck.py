@@ -55,7 +55,7 @@ def is_work_book(path: Path) -> bool:
 
 
 def findings_in_archive(path: Path) -> list[BookFinding]:
-    """The same of the work-books of a zip, as they would be handed in.
+    """Return the same of the work-books of a zip, as they would be handed in.
 
     Raises:
         InputError: it cannot be read, or there is no work-book in it.
@@ -78,7 +78,7 @@ def findings_in_archive(path: Path) -> list[BookFinding]:
 
 
 def findings(path: Path) -> list[BookFinding]:
-    """What is empty, typed in, an error, not understood, or locked and changed.
+    """Tell what is empty, typed in, an error, not understood, or locked and changed.
 
     Raises:
         InputError: the file cannot be read as a workbook.
@@ -117,7 +117,7 @@ def findings(path: Path) -> list[BookFinding]:
 
 
 def remarks(path: str, issued: str) -> dict[str, list[str]]:
-    """What is told of a book that is handed in; it may be handed in whatever is told.
+    """Tell what is told of a book that is handed in; it may be handed in whatever is told.
 
     ``issued`` is the student's own empty book.
 
@@ -270,7 +270,7 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
 
 
 def _of(assignment: Assignment, node: str) -> str:
-    """A node as the book calls it."""
+    """Return a node as the book calls it."""
     model = assignment.model
     about = model.nodes[node].quantity
     table = model.tables.get(node.partition(".")[0]) if "." in node else None

@@ -61,7 +61,7 @@ class Submission:
         return one_line(self.key, 160)
 
     def read(self) -> bytes:
-        """The bytes, never more than one over the limit.
+        """Return the bytes, never more than one over the limit.
 
         Raises:
             InputError: the file cannot be read.
@@ -131,7 +131,7 @@ def _is_hidden(key: str) -> bool:
 
 
 def _opened(file: Submission, prefix: str) -> list[Submission]:
-    """The files of a zip, and of the zips in it; anything else as it is."""
+    """Return the files of a zip, and of the zips in it; anything else as it is."""
     try:
         with file.path.open("rb") as stream:
             files = _zip(file, stream, prefix)
@@ -186,7 +186,7 @@ def _member(stream: BinaryIO, index: int) -> bytes:
 
 
 def _name(info: zipfile.ZipInfo) -> str:
-    """The name of a member; without a flag it is of a Russian Windows, or of a Mac."""
+    """Return the name of a member; without a flag it is of a Russian Windows, or of a Mac."""
     if info.flag_bits & _UTF8:
         return info.filename
     for encoding in ("utf-8", "cp866"):
@@ -282,7 +282,7 @@ def find_by_name(register: Register, submission: Submission) -> Match:
 
 
 def _tickets(grid: CellGrid, package: Package) -> dict[str, str]:
-    """Identifiers in a workbook → where they stand."""
+    """Return identifiers in a workbook → where they stand."""
     tickets: dict[str, str] = {}
     at = grid.names.get(TICKET_NAME.casefold())
     if at is not None:
@@ -305,7 +305,7 @@ def _take(tickets: dict[str, str], text: object, where: str) -> None:
 
 
 def own_properties(package: Package) -> dict[str, str]:
-    """Custom properties of a workbook, written at issue, by name."""
+    """Return custom properties of a workbook, written at issue, by name."""
     try:
         root = parse_xml(package.read("docProps/custom.xml"))
     except (KeyError, BadBook):
@@ -317,7 +317,7 @@ def own_properties(package: Package) -> dict[str, str]:
 
 
 def file_properties(package: Package) -> dict[str, str]:
-    """Authors and times of a workbook, as the file claims."""
+    """Return authors and times of a workbook, as the file claims."""
     wanted = {"creator", "lastModifiedBy", "created", "modified"}
     try:
         root = parse_xml(package.read("docProps/core.xml"))

@@ -26,7 +26,7 @@ from reports.grading.judging.traits import (
     SLIP,
     TEXT,
 )
-from reports.grading.judging.works import Trait, Work
+from reports.grading.judging.work_digest import Trait, Work
 from reports.shared.russian import short
 
 # Kind → the share of people who would have it by chance, before the class tells, and its most bits.
@@ -76,7 +76,7 @@ class Ring:
     held: bool
 
     def text(self, of: Work | None = None) -> str:
-        """What is shared and with whom, for one of them or for the class."""
+        """Tell what is shared and with whom, for one of them or for the class."""
         others = [who(work) for work in self.works if work is not of]
         counts = Counter(past.batch for past in self.past)
         others += [f"работы прошлых лет ({batch}): {n}" for batch, n in sorted(counts.items())]
@@ -91,7 +91,7 @@ class Ring:
 
 
 def who(work: Work) -> str:
-    """A work in a message."""
+    """Return a work in a message."""
     return f"{work.student} ({work.file})" if work.student else work.file
 
 

@@ -176,7 +176,7 @@ class Work:
 
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
-    """The small form of a result; ``shared`` holds the items of all works of a class."""
+    """Return the small form of a result; ``shared`` holds the items of all works of a class."""
     formulas, spellings = result.get("formulas", {}), result.get("spellings", {})
     entries = (_entry(line, formulas.get(line["id"]), spellings.get(line["id"]))
                for line in result["items"])  # fmt: skip
@@ -296,7 +296,7 @@ def feedback_line(
 
 
 def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assignment) -> str:
-    """The instructor's own words for a mistake, the first that fit."""
+    """Return the instructor's own words for a mistake, the first that fit."""
     item = judgement.item
     for message in assignment.rubric.messages if judgement.verdict == WRONG else ():
         about = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
@@ -308,7 +308,7 @@ def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assig
 
 
 def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
-    """The table or list of an item as a person calls it, in full and in short."""
+    """Return the table or list of an item as a person calls it, in full and in short."""
     table = assignment.model.tables.get(item.block)
     if table is not None:
         return f"Таблица {table.number}", table.number
@@ -337,7 +337,7 @@ def _cells(student: StudentBook, judgement: Judgement) -> list[dict[str, Any]]:
 
 
 def _where(student: StudentBook, judgement: Judgement) -> list[str]:
-    """The cells that a verdict is about, those below each other as ranges."""
+    """Return the cells that a verdict is about, those below each other as ranges."""
     item = judgement.item
     rows = set(judgement.rows)
     located: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
@@ -353,7 +353,7 @@ def _where(student: StudentBook, judgement: Judgement) -> list[str]:
 
 
 def _at(student: StudentBook, item: Item) -> list[str]:
-    """The cells of an item as ranges."""
+    """Return the cells of an item as ranges."""
     places = filter(None, map(student.placement.places.get, item.nodes))
     return [
         f"{location.sheet}!{range_text(location.span.first, location.span.last, location.column)}"
@@ -363,7 +363,7 @@ def _at(student: StudentBook, item: Item) -> list[str]:
 
 
 def _cells_of(student: StudentBook, item: Item) -> list[tuple[Location | None, int]]:
-    """The place of each value of an item and the value's index there."""
+    """Return the place of each value of an item and the value's index there."""
     return [
         (student.placement.places.get(node), i)
         for node in item.nodes

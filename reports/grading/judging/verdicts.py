@@ -35,7 +35,7 @@ from reports.grading.judging.response import FormulaResponse
 from reports.grading.reading.circularity import filled_copy
 from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
-from reports.recalculation.evaluate import BLANK, ERROR, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, TEXT
 from reports.recalculation.formulas import UnknownFormula
 
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
@@ -48,12 +48,6 @@ _BY_CHANCE = (
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 # How a cell that is not right is called, the worst first.
 _WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
-_ERRORS = {
-    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
-    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
-    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
-    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
-}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -459,5 +453,5 @@ def shown_errors(item: Item, student: StudentBook) -> str:
             if location is not None and row is not None:
                 text = student.engine.shown(location.sheet, location.column, row)
                 if isinstance(text, str) and text.startswith("#"):
-                    errors.setdefault(_ERRORS.get(text, text))
+                    errors.setdefault(ERROR_WORDS.get(text, text))
     return ", ".join(errors)

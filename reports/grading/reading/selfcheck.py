@@ -21,7 +21,7 @@ from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, StudentBook
 from reports.grading.reading.submissions import collect, own_properties
 from reports.model.blocks import Model
-from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, NUMBER, TEXT
 from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.grid import BadBook
 from reports.recalculation.read import read_grid, worksheets
@@ -257,7 +257,7 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
                 text = student.engine.shown(location.sheet, location.column, row)
             except UnknownFormula:
                 continue
-            wrong.setdefault(str(text), []).append(row)
+            wrong.setdefault(ERROR_WORDS.get(str(text), str(text)), []).append(row)
     for text, rows in wrong.items():
         where = _ranges(location.sheet, location.column, rows)
         results.append(BookFinding(what, f"ошибка {text}: {where}"))

@@ -6,7 +6,7 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -20,7 +20,7 @@ from reports.recalculation.grid import BadBook, CellGrid
 from reports.recalculation.sheets import parse_xml
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import reason
-from reports.workbook.intake import MAX_FILE, Package
+from reports.workbook.intake import LOCK, MAX_FILE, Package
 
 MAX_SUBMISSIONS = 5000
 _MANY = 200  # files of a student's zip: it must not use up the batch
@@ -94,6 +94,7 @@ def collect(path: Path) -> list[Submission]:
         files = _opened(_single(path, path.name), prefix="")
     else:
         raise InputError(Problem(str(path), "нет такого файла или папки", "проверьте путь"))
+    files = _without_locks(files)
     if not files:
         hint = "положите в папку файлы студентов"
         raise InputError(Problem(str(path), "нет ни одной сданной работы", hint))
@@ -123,11 +124,19 @@ def _single(file: Path, key: str) -> Submission:
 
 
 def _is_hidden(key: str) -> bool:
-    """Names of the system's own files, of Excel's locks, and texts typed into Moodle."""
+    """Names of the system's own files, and texts typed into Moodle."""
     return "_assignsubmission_onlinetext_" in key or any(
-        part.startswith((".", "~$")) or part.casefold() in ("__macosx", "thumbs.db", "desktop.ini")
+        part.startswith(".") or part.casefold() in ("__macosx", "thumbs.db", "desktop.ini")
         for part in key.split("/")
     )
+
+
+def _without_locks(files: Sequence[Submission]) -> list[Submission]:
+    """Leave out Excel's lock files beside books; one alone was handed in for its book."""
+    folder = {file.key: file.key.rpartition("/")[0] for file in files}
+    locks = {key for key in folder if key.rpartition("/")[2].startswith(LOCK)}
+    books = {at for key, at in folder.items() if key not in locks}
+    return [file for file in files if file.key not in locks or folder[file.key] not in books]
 
 
 def _opened(file: Submission, prefix: str) -> list[Submission]:

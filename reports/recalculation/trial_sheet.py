@@ -83,7 +83,7 @@ class PinnedGrid:
     """
 
     grid: CellGrid
-    cells: Callable[[str, int], Sequence[Cells]]
+    cells: Callable[[str, int], Sequence[Cells]] = lambda _sheet, _column: ()
     rounded: bool = True
     _columns: dict[tuple[str, int], CellColumn] = field(default_factory=dict)
 

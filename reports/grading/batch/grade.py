@@ -56,6 +56,7 @@ from reports.grading.judging.work_digest import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
+from reports.grading.pages.side_by_side import comparisons
 from reports.grading.pages.states import state_of, state_of_result
 from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
@@ -451,17 +452,21 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
         summary["decided"] = decided_groups(load_decisions(self.folder), self.by_number())
+        compared = comparisons(rings, self._result)
+        summary["compared"] = [{"page": each.page, "text": each.text} for each in compared]
         self._settle(rows, rings)
         maximum = self.register.rubric.maximum
         data = {**summary, "rows": [plain_row(row) for row in rows], "anonymous": bool(self._veil)}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
+        names = [work.file for work in self.ordered]
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
             "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"], summary["decided"]),
             "moodle.csv": moodle_csv(rows),
-            "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
+            "summary.html": self.shown(class_page(summary), *names),
             "summary.json": text + "\n",
         }
+        files |= {each.page: self.shown(each.html, *names) for each in compared}
         if any(work.moodle_id for work in self.ordered):
             files["moodle-feedback.zip"] = feedback_zip(rows, self.folder)
         for name, content in files.items():

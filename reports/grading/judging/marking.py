@@ -28,7 +28,7 @@ from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
 from reports.grading.judging.spelling import chooses_a_number
-from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
+from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, texts_of, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.tries import spellings
 from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
@@ -248,6 +248,7 @@ class Marker:
             result["spellings"] = spellings(student)
         own = OwnFormulas(student, tables.textbook)
         result["traits"] = traits_of(own, result["items"])
+        result["texts"] = texts_of(student, result["traits"])
         for text in _of_the_program(own, result["formulas"]):
             _doubt(result, text)
 

@@ -112,8 +112,8 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def class_page(summary: dict[str, Any]) -> str:
-    """Compute the summary of a class."""
-    shown = {"decided": (), **summary}
+    """Return the page of a class."""
+    shown = {"decided": (), "compared": (), **summary}
     return _environment().get_template("summary.html.j2").render(summary=shown, words=WORDS)
 
 
@@ -156,6 +156,14 @@ def rows(labels: list[str], limit: int = 14) -> str:
     named = [label.replace(".", ",") for label in labels if label]
     text = "; ".join(named[:limit])
     return f"{text} и ещё {len(named) - limit}" if len(named) > limit else text
+
+
+def compared_page(
+    names: Sequence[str], lines: Sequence[Mapping[str, Any]], text: str, bits: float, more: int
+) -> str:
+    """Return the page of works beside each other, for the teacher alone."""
+    template = _environment().get_template("compared.html.j2")
+    return template.render(names=names, lines=lines, text=text, bits=bits, more=more)
 
 
 # --- curves --------------------------------------------------------------------------------------

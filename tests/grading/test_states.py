@@ -103,7 +103,7 @@ def test_every_output_says_one_state(tmp_path, monkeypatch):
         assert not any(line["Grade"] for line in filled)
         text = (out / "summary.html").read_text(encoding="utf-8")
         assert text.count(f">{State.HELD}<") == 2
-        # Before he decides the teacher sees the two beside each other; no student's page leads there.
+        # Before he decides the teacher sees the two beside each other, no student does.
         (side,) = (out / COMPARED).glob("*.html")
         beside = side.read_text(encoding="utf-8")
         assert f"{COMPARED}/{side.name}" in text and "лишнее действие, слово в слово" in beside

@@ -15,7 +15,7 @@ from typing import Any
 from reports.grading.batch.awards import ACCEPT, WITHDRAW, Award, award_of
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import UNKNOWN, unread_remark
+from reports.grading.judging.judgement import PART, UNKNOWN, part_remark, unread_remark
 from reports.grading.judging.scoring import rescored
 from reports.grading.judging.work_digest import Work
 from reports.grading.pages.gradebook import DECIDED, DECISION, GROUPS, OF_FILE
@@ -387,13 +387,14 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
         line = lines.get(entry.item)
         if line is not None:
             base = line["of"] if line["verdict"] == UNKNOWN and entry.word else line["points"]
-            line["points"] = _award(entry).of(base, decided_result.get("maximum", math.inf))
+            whole = decided_result.get("maximum", math.inf)
+            line["points"] = _award(entry).of(base, line["of"] if line["block"] == PART else whole)
             line["decision"] = asdict(entry)
             settled.add(entry.item)
     if decided_result["status"] == "graded":
         rescored(decided_result)
     whole = next((entry for entry in own if entry.item == WHOLE), None)
-    open_ = [i for i, line in lines.items() if line["verdict"] == UNKNOWN and i not in settled]
+    unknown = [line for line in lines.values() if line["verdict"] == UNKNOWN]
     if whole is not None:
         decided_result["decision"] = asdict(whole)
         award, points = _award(whole), decided_result.get("points")
@@ -401,9 +402,18 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
             most = decided_result.get("maximum", math.inf)
             decided_result["points"] = award.of(points or 0.0, most)
         decided_result["manual"], decided_result["doubts"] = [], []
-    elif not open_:
-        unread = unread_remark([e["label"] for e in lines.values() if e["verdict"] == UNKNOWN])
-        decided_result["manual"] = [text for text in decided_result["manual"] if text != unread]
+    else:
+        for remark, of_part in ((unread_remark, False), (part_remark, True)):
+            group = [line for line in unknown if (line["block"] == PART) == of_part]
+            left = [line for line in group if line["id"] not in settled]
+            key = "id" if of_part else "label"
+            said, still = (remark([line[key] for line in some]) for some in (group, left))
+            # Of columns all are named until the last is decided, of parts those that are left.
+            word = [still if of_part else said] if left else []
+            manual = decided_result["manual"]
+            decided_result["manual"] = [
+                new for text in manual for new in (word if text == said else [text])
+            ]
     return decided_result
 
 

@@ -129,7 +129,7 @@ class Assignment:
 
     @cached_property
     def points(self) -> Mapping[str, float]:
-        """Points of each item; together they make the maximum of the rubric."""
+        """Points of each item; together they make what the rubric gives for the book."""
         raw = dict(self._usual_points)
         blocks: dict[str, list[Item]] = {}
         for item in self.items:
@@ -145,7 +145,7 @@ class Assignment:
             if "." in pattern:
                 raw.update({id_: value for id_ in raw if fnmatchcase(id_, pattern)})
         total = sum(raw.values())
-        scale = self.rubric.maximum / total if total else 0.0
+        scale = self.rubric.calculated / total if total else 0.0
         return {id_: value * scale for id_, value in raw.items()}
 
     @cached_property
@@ -284,7 +284,7 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     check("minimum.tables", rubric.minimum.tables, sorted(filled), "заполняемой таблицы")
     check("needs", rubric.needs, known, what)
     check("needs", (name for needed in rubric.needs.values() for name in needed), known, what)
-    if not problems and assignment.rubric.maximum and not sum(assignment.points.values()):
+    if not problems and assignment.rubric.calculated and not sum(assignment.points.values()):
         hint = "исправьте [points] или [work]"
         problems.append(Problem(source, "ни один столбец не оценивается", hint))
     if problems:

@@ -22,6 +22,7 @@ from reports.grading.judging.judgement import (
     UNKNOWN,
     Judgement,
     fault,
+    part_remark,
     unread_remark,
 )
 from reports.grading.judging.proven import Proofs
@@ -32,7 +33,13 @@ from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, texts_
 from reports.grading.judging.trial_evaluation import trials_of
 from reports.grading.judging.tries import spellings
 from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
-from reports.grading.judging.work_digest import feedback_line, formula_marks, is_verbatim, own_marks
+from reports.grading.judging.work_digest import (
+    feedback_line,
+    formula_marks,
+    is_verbatim,
+    own_marks,
+    part_line,
+)
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
 from reports.grading.reading.student import StudentBook
@@ -239,6 +246,10 @@ class Marker:
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append(unread_remark(unknown))
+        parts = self.register.rubric.parts
+        items += [part_line(name, points) for name, points in parts.items()]
+        if parts:
+            result["manual"].append(part_remark([*parts]))
 
     @staticmethod
     def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:

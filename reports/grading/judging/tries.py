@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from reports.grading.judging.judgement import EMPTY
+from reports.grading.judging.judgement import EMPTY, PART
 from reports.grading.judging.work_digest import Work
 from reports.grading.reading.student import StudentBook
 from reports.shared.russian import plural
@@ -53,7 +53,7 @@ def _digest(parts: Sequence[str]) -> str:
 
 def words_of_try(result: Mapping[str, Any]) -> str:
     """Return the answer to a try: columns that are right, and the sheet of the first mistake."""
-    lines = [line for line in result["items"] if line["of"] > 0]
+    lines = [line for line in result["items"] if line["of"] > 0 and line["block"] != PART]
     right = sum(line["points"] >= line["of"] - _PAID for line in lines)
     words = f"верно {plural(right, 'столбец', 'столбца', 'столбцов')} из {len(lines)}"
     wrong = [line for line in lines if line["points"] < line["of"] - _PAID]
@@ -83,14 +83,15 @@ def words_of_all(tries: Sequence[Work], limit: int) -> str:
     if not graded:
         return ""
     rights = ", ".join(str(_right(work)) for work in graded)
-    asked = sum(entry.of > 0 for entry in graded[-1].items)
+    asked = sum(entry.of > 0 and entry.block != PART for entry in graded[-1].items)
     text = f"попыток {len(tries)} из {limit}, верно столбцов: {rights} из {asked}"
     probes = probed(graded)
     return f"{text}; подбор значений: {', '.join(probes[:_NAMED])}" if probes else text
 
 
 def _right(work: Work) -> int:
-    return sum(entry.of > 0 and entry.points >= entry.of - _PAID for entry in work.items)
+    paid = (entry for entry in work.items if entry.of > 0 and entry.block != PART)
+    return sum(entry.points >= entry.of - _PAID for entry in paid)
 
 
 def probed(tries: Sequence[Work]) -> list[str]:

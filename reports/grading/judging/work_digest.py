@@ -22,6 +22,7 @@ from reports.grading.judging.causes import Causes
 from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
+    PART,
     RIGHT,
     STILL,
     TYPED,
@@ -32,6 +33,7 @@ from reports.grading.judging.judgement import (
 from reports.grading.reading.placement import Location, address, range_text, stretches
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
+from reports.shared.russian import capital
 from reports.workbook.layout import Layout
 
 _TELLING = 6  # tokens of a formula that may tell who wrote it
@@ -137,6 +139,7 @@ class Entry:
     formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
     reason: str = ""  # why a person has to look, and the formula that he looks at
     sample: str = ""
+    block: str = ""
     spelling: tuple[str, str] = ("", "")  # of its formulas and of their numbers, for tries
 
 
@@ -229,6 +232,7 @@ def _entry(
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
         reason=line.get("reason", "") if verdict == UNKNOWN else "",
         sample=line.get("sample", "") if verdict == UNKNOWN else "",
+        block=line.get("block", ""),
         spelling=(spelling[0], spelling[1]) if spelling else ("", ""),
     )
 
@@ -293,6 +297,17 @@ def feedback_line(
                 "right": _plain(judgement.expected),
             }
     return line
+
+
+def part_line(name: str, points: float) -> dict[str, Any]:
+    """Return the line of what a person marks; it waits for his points."""
+    return {
+        "id": name, "block": PART, "table": "", "heading": capital(name), "label": capital(name),
+        "title": "", "symbol": "", "indexed": "", "unit": "", "source": "",
+        "digits": {}, "verdict": UNKNOWN, "points": 0.0, "of": points,
+        "reason": "ставит преподаватель", "cause": "", "message": "", "origins": [],
+        "right_mark": "", "rows": [], "where": [], "at": [], "typed": [],
+    }  # fmt: skip
 
 
 def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assignment) -> str:

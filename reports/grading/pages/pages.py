@@ -13,7 +13,7 @@ from markupsafe import Markup, escape
 from kshm.nomenclature.digits import Digits
 from reports.document.text.symbols import with_indices
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import UNKNOWN, WORDS
+from reports.grading.judging.judgement import PART, UNKNOWN, WORDS
 from reports.grading.pages.gradebook import with_points
 from reports.grading.pages.states import State, state_of_result
 from reports.shared.resources import templates_dir
@@ -51,7 +51,8 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     full = rubric.feedback.mode == "full"
     lines = [_line(line, full) for line in result.get("items", [])]
     labels = {line["id"]: line["label"] for line in lines}
-    wrong = [line for line in lines if line["verdict"] not in ("right", "carried")]
+    wrong = [line for line in lines
+             if line["verdict"] not in ("right", "carried") and line["block"] != PART]  # fmt: skip
     rank = {word: number for number, word in enumerate(WORDS)}
     wrong.sort(key=lambda line: (rank[line["verdict"]], -(line["of"] - line["points"])))
     empty = [

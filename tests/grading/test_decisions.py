@@ -425,3 +425,21 @@ def test_parts_marked_by_hand_stand_in_the_same_sum(tmp_path):
     for parts in ({"записка": 101}, {"1": 5}, {"записка": 60, "защита": 60}):
         with pytest.raises(InputError):
             rubric_of({"parts": parts}, "рубрика")
+
+
+def test_another_rubric_is_shown_before_it_is_applied(tmp_path):
+    """Who gains and who loses, what was decided standing; the results stay as they were."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out, ("2", "всё", "80", ""))
+    before = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text('[points]\n"geometry" = 90\n', encoding="utf-8")
+    issued, secret = classroom.folder() / "issued", classroom.folder() / "secret.key"
+    command = ["grade", str(issued), str(where), "-o", str(out), "--preview"]
+    keys = ["--rubric", str(rubric), "--secret", str(secret)]
+    shown = CliRunner().invoke(main, [*command, *keys])
+    assert shown.exit_code == 0, shown.output
+    first, *others = shown.output.splitlines()
+    assert classroom.book(1).student.full in first and "(−" in first
+    assert others == ["Без изменений: 1", "Ничего не записано: это показ."]
+    assert before == {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}

@@ -45,7 +45,7 @@ from reports.grading.batch.settled import (
     result_text,
     settled,
 )
-from reports.grading.batch.setup import Graded, GradeSetup
+from reports.grading.batch.setup import Effect, Graded, GradeSetup
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
@@ -200,7 +200,7 @@ class _Batch:
         self._group_author = ""
         self.past: Past = kept_past(folder / RESULTS / _PAST)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
-        self.effects: list[tuple[str, float | None, float | None]] = []
+        self.effects: list[Effect] = []
         self._settled: set[str] = set()  # keys of results whose files say more than the program
 
     @property
@@ -298,9 +298,7 @@ class _Batch:
             self._decided(decisions, also=kept)
         return refused
 
-    def _effects(
-        self, before: Sequence[Decision], after: Sequence[Decision]
-    ) -> list[tuple[str, float | None, float | None]]:
+    def _effects(self, before: Sequence[Decision], after: Sequence[Decision]) -> list[Effect]:
         """Students whom the new decisions are about, their points before and after."""
         touched = {entry.number for entry in {*before} ^ {*after}}
         counted = self.by_number()

@@ -177,7 +177,7 @@ FIRST_ALONE = (
     "tests/grading/test_outcomes.py",
     "tests/grading/test_proven.py",
     "tests/grading/test_regrading.py",
-    "tests/grading/test_rings.py",
+    "tests/grading/test_collusion.py",
     "tests/grading/test_rules.py",
     "tests/grading/test_typed.py",
     "tests/grading/test_verdicts.py",

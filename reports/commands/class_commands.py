@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from reports.grading.issuing.issue import Result
 
 _LEFT = "Не выдано"
+_NOTHING_WRITTEN = "Ничего не записано: это показ."
 _LEAST_CHANGE = 0.005  # points that are printed
 
 
@@ -41,6 +42,8 @@ _LEAST_CHANGE = 0.005  # points that are printed
 @path_option("--rubric", metavar="ФАЙЛ", help="Рубрика TOML (без неё — правила по умолчанию).")
 @path_option("--ranges", metavar="ФАЙЛ", help="Диапазоны, если их нет в разделе [variants].")
 @path_option("--secret", metavar="ФАЙЛ", help="Файл секрета преподавателя.")
+@click.option("--tries", type=click.IntRange(0, 20), metavar="ЧИСЛО",
+              help="Попыток до срока: сервер сразу говорит, сколько столбцов верно.")  # fmt: skip
 @click.option("--jobs", default=0, metavar="ЧИСЛО", help="Число процессов (по умолчанию все ядра).")
 @path_option("--try-rubric", "samples", metavar="ФАЙЛ",
              help="Не выдавать, а проверить рубрику на пробных работах.")  # fmt: skip
@@ -53,6 +56,7 @@ def issue(
     rubric: Path | None,
     ranges: Path | None,
     secret: Path | None,
+    tries: int | None,
     jobs: int,
     samples: Path | None,
 ) -> int:
@@ -69,6 +73,7 @@ def issue(
     done = issue_books(
         source, roster, folder, seed=seed,
         rubric_file=rubric, ranges_file=ranges, secret_file=secret, jobs=jobs,
+        tries=tries,
     )  # fmt: skip
     if done.new_secret is not None:
         click.echo(
@@ -176,7 +181,8 @@ def _tell_effects(effects: Sequence[tuple[str, float | None, float | None]]) -> 
     "50% столбца; + принять, - отменить), примечание.",
 )
 @click.option("--preview", is_flag=True,
-              help="С --decide: показать, кому сколько баллов, ничего не записывая.")  # fmt: skip
+              help="С --decide или --rubric: показать, кому сколько баллов, ничего не "
+                   "записывая.")  # fmt: skip
 @click.option(
     "--author", metavar="ИМЯ", default="", help="Кто решает (по умолчанию имя пользователя)."
 )
@@ -221,15 +227,26 @@ def grade(
     from reports.grading.batch.setup import GradeSetup
 
     author = author or _user()
+    if preview and rubric is not None and None not in (issued, submitted, folder):
+        from reports.grading.batch.rubric_preview import rubric_effects
+
+        assert issued is not None and submitted is not None and folder is not None
+        setup = GradeSetup(workers=jobs, timeout_s=timeout)
+        _tell_effects(
+            rubric_effects(issued, submitted, folder, rubric, secret_file=secret, options=setup)
+        )
+        click.echo(_NOTHING_WRITTEN, err=True)
+        return DONE
     if preview and (not decisions or issued is not None):
-        raise KshmError("--preview показывает решение: grade -o ПАПКА --decide … --preview")
+        raise KshmError("--preview показывает решение: grade -o ПАПКА --decide … --preview, или "
+                        "рубрику: grade ВЫДАЧА СДАНО -o ПАПКА --rubric ФАЙЛ --preview")  # fmt: skip
     if decisions and issued is None and folder is not None:
         setup = GradeSetup(decisions=decisions, author=author, form=form)
         if preview or _is_for_many(decisions):
             seen = decide_all(folder, replace(setup, preview=True))
             _tell_effects(seen.effects)
             if preview:
-                click.echo("Ничего не записано: это показ.", err=True)
+                click.echo(_NOTHING_WRITTEN, err=True)
                 return DONE
             if sys.stdin.isatty() and not click.confirm("Применить?", default=True):
                 return DONE

@@ -9,6 +9,9 @@ from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 if TYPE_CHECKING:
     from formualizer import Workbook
 
@@ -65,7 +68,6 @@ _FUNCTIONS: dict[str, tuple[Callable[..., Any], int, int]] = {
     "POWER": (math.pow, 2, 2), "MOD": (_mod, 2, 2), "NOT": (lambda value: not value, 1, 1),
     "CEILING": (_ceiling, 1, 2), "FLOOR": (_floor, 1, 2),
 }  # fmt: skip
-NOT_LIFTED = frozenset(_FUNCTIONS)
 
 
 def _convert(value: Any, unit: Any, other: Any) -> Any:  # noqa: ANN401
@@ -88,18 +90,43 @@ def _aggregate(code: float, option: float, block: Any) -> Any:  # noqa: ANN401
         return {"type": "Error", "kind": "Value"}
 
 
-# Functions of texts and rectangles, called as they are.
-_WHOLE = {"CONVERT": _convert, "AGGREGATE": _aggregate}
+def _matrix(block: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Return the numbers of a rectangle; ValueError where a cell is blank or holds a text."""
+    lines = block if isinstance(block, list) else [[block]]
+    if any(isinstance(c, bool) or not isinstance(c, (int, float)) for line in lines for c in line):
+        raise ValueError
+    return np.array(lines, dtype=float)
+
+
+def _of_matrices(function: Callable[..., Any], *blocks: Any) -> Any:  # noqa: ANN401
+    try:
+        result = np.asarray(function(*map(_matrix, blocks)))
+    except np.linalg.LinAlgError:  # of a singular matrix
+        return {"type": "Error", "kind": "Num"}
+    except ValueError:
+        return {"type": "Error", "kind": "Value"}
+    return result.tolist()
+
+
+# Functions of texts and rectangles, called as they are, and how many arguments they take.
+_WHOLE: dict[str, tuple[Callable[..., Any], int]] = {
+    "CONVERT": (_convert, 3), "AGGREGATE": (_aggregate, 3),
+    "MMULT": (partial(_of_matrices, np.matmul), 2),
+    "MDETERM": (partial(_of_matrices, np.linalg.det), 1),
+    "MINVERSE": (partial(_of_matrices, np.linalg.inv), 1),
+}  # fmt: skip
 # Of negative numbers, of angles, of ranges.
 WRONG = frozenset(("CEILING", "FLOOR", *_WHOLE))
+NOT_LIFTED = frozenset((*_FUNCTIONS, "MMULT", "MDETERM", "MINVERSE"))
 
 
 def register(book: Workbook, names: Iterable[str]) -> None:
     """Register the functions in place of formualizer's own; errors keep their kind."""
     for name in names:
         if name in _WHOLE:
+            whole, count = _WHOLE[name]
             book.register_function(
-                name, _WHOLE[name], min_args=3, max_args=3, allow_override_builtin=True
+                name, whole, min_args=count, max_args=count, allow_override_builtin=True
             )
             continue
         function, least, most = _FUNCTIONS[name]

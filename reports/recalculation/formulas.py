@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from reports.recalculation.array_functions import UNITS
+from reports.recalculation.functions import ALLOWED, BY_PERSON, TAKES_ARRAYS, TAKES_RANGES
 
 MAX_LENGTH = 8192
 MAX_ROW, MAX_COLUMN = 1_048_576, 16_384
@@ -32,35 +33,6 @@ _SPLIT = re.compile(
 # A template holds the row number as \0; a formula with other rows in it holds distances.
 HERE = "\0"
 _REF = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
-# Functions of values only: nothing volatile, nothing that builds an address or leaves the book.
-_ALLOWED = """
-ABS ACOS ACOSH ACOT AGGREGATE AND ASIN ASINH ATAN ATAN2 ATANH AVEDEV AVERAGE AVERAGEA AVERAGEIF
-AVERAGEIFS CEILING CEILING.MATH CHOOSE COLUMN COLUMNS COMBIN COMPLEX CONCATENATE CONVERT COS COSH
-COT COUNT COUNTA COUNTBLANK COUNTIF COUNTIFS CSC DEGREES DEVSQ EVEN EXP FACT FALSE FLOOR FLOOR.MATH
-FORECAST FORECAST.LINEAR GCD GEOMEAN HARMEAN HLOOKUP IF IFERROR IFNA IFS IMABS IMAGINARY IMREAL
-INDEX INT INTERCEPT ISBLANK ISERR ISERROR ISEVEN ISLOGICAL ISNA ISNONTEXT ISNUMBER ISODD ISTEXT
-LARGE LCM LEFT LEN LET LN LOG LOG10 LOOKUP MATCH MAX MAXA MAXIFS MEDIAN MID MIN MINA MINIFS MOD
-MROUND N NA NOT ODD OR PI POWER PRODUCT QUOTIENT RADIANS RANK RANK.EQ RIGHT ROUND ROUNDDOWN ROUNDUP
-ROW ROWS SEC SERIESSUM SIGN SIN SINH SLOPE SMALL SQRT SQRTPI STDEV STDEV.P STDEV.S STDEVP SUBSTITUTE
-SUBTOTAL SUM SUMIF SUMIFS SUMPRODUCT SUMSQ SUMX2MY2 SUMX2PY2 SUMXMY2 SWITCH T TAN TANH TRIM TRUE
-TRUNC VAR VAR.P VAR.S VARP VLOOKUP XLOOKUP XMATCH XOR
-"""
-ALLOWED = frozenset(_ALLOWED.split())
-# Where a rectangle may stand as a whole: every argument of these, some of the others.
-_OF_RECTANGLES = """
-AND OR XOR AVEDEV AVERAGE AVERAGEA COUNT COUNTA COUNTBLANK GCD GEOMEAN HARMEAN LCM MAX MEDIAN MIN
-PRODUCT ROWS COLUMNS SLOPE INTERCEPT STDEV STDEV.P STDEV.S STDEVP SUM SUMSQ VAR VAR.P VAR.S VARP
-SUMIFS AVERAGEIFS COUNTIFS MINIFS MAXIFS
-DEVSQ MAXA MINA FORECAST FORECAST.LINEAR SERIESSUM SUBTOTAL
-"""
-_TAKES_RANGES: dict[str, Collection[int]] = {
-    **dict.fromkeys(_OF_RECTANGLES.split(), range(256)),
-    "INDEX": (0,), "MATCH": (1,), "VLOOKUP": (1,), "HLOOKUP": (1,), "LOOKUP": (1, 2),
-    "XLOOKUP": (1, 2), "XMATCH": (1,), "SUMIF": (0, 2), "AVERAGEIF": (0, 2), "COUNTIF": (0,),
-    "AGGREGATE": (2,), "RANK": (1,), "RANK.EQ": (1,), "LARGE": (0,), "SMALL": (0,),
-}  # fmt: skip
-# Inside of these a rectangle is taken value by value.
-_TAKES_ARRAYS = frozenset(("SUMPRODUCT", "SUMX2MY2", "SUMX2PY2", "SUMXMY2"))
 _TOTALS = frozenset(map(str, range(1, 12)))
 _PLAIN_TOTALS = _TOTALS - {"3"} | {"12"}
 _PREFIX = re.compile(r"_XL(?:FN|WS|PM)\.")
@@ -76,7 +48,7 @@ _NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
 _ENDS = (("op", ","), ("op", ")"))
 
 
-class UnknownFormula(ValueError):  # noqa: N818 - it is no mistake of the writer's
+class UnknownFormula(ValueError):  # noqa: N818 - it is not the student's error
     """A formula that the referee cannot calculate for certain: a person must look."""
 
 
@@ -92,7 +64,7 @@ class Ref:
 
 @lru_cache(maxsize=1024)
 def column_number(letters: str) -> int:
-    """Number of a column from 1."""
+    """Return number of a column from 1."""
     number = 0
     for letter in letters.upper():
         number = number * 26 + ord(letter) - 64
@@ -162,7 +134,7 @@ def _distance(cell: str, row: int, column: int) -> str:
 
 
 def row_template(text: str, row: int) -> str | list[str | int]:
-    """A formula whose rows move when it is filled down, for ``filled``."""
+    """Return a formula whose rows move when it is filled down, for ``filled``."""
     pieces: list[str | int] = []
     at = 0
     for match in _SPLIT.finditer(text):
@@ -178,7 +150,7 @@ def row_template(text: str, row: int) -> str | list[str | int]:
 
 
 def filled(template: str | list[str | int], row: int) -> str:
-    """The formula that filling down would put into a row."""
+    """Return the formula that filling down would put into a row."""
     if isinstance(template, str):
         return template.replace(HERE, str(row))
     return "".join([piece if isinstance(piece, str) else str(row + piece) for piece in template])
@@ -188,7 +160,7 @@ def filled(template: str | list[str | int], row: int) -> str:
 
 
 def ref_of(text: str) -> Ref:
-    """The cell of a token ``ref``."""
+    """Return the cell of a token ``ref``."""
     match = _REF.fullmatch(text)
     assert match is not None
     return Ref(int(match[2]), int(match[4]), not match[1], not match[3])
@@ -213,13 +185,13 @@ def render(tokens: Sequence[Token], row: int, column: int, sheet: str = "") -> s
 
 
 def quoted(sheet: str) -> str:
-    """A sheet as it stands before a reference."""
+    """Return a sheet as it stands before a reference."""
     plain = sheet.replace("'", "''")
     return f"'{plain}'!"
 
 
 def unquoted(token: str) -> str:
-    """The sheet that such a token names."""
+    """Return the sheet that such a token names."""
     return token[1:-2].replace("''", "'") if token.startswith("'") else token[:-1]
 
 
@@ -269,7 +241,9 @@ class Formula:
         """Why the formula is never calculated, empty where it may be."""
         foreign = sorted(self.functions - ALLOWED)
         if foreign:
-            return f"функция {foreign[0]}" if foreign[0] != _GOOGLE else GOOGLE_ARRAY
+            why = BY_PERSON.get(foreign[0])
+            word = f"функция {foreign[0]}: {why}" if why else f"функция {foreign[0]}"
+            return word if foreign[0] != _GOOGLE else GOOGLE_ARRAY
         texts = [value[1:-1] for kind, value in self.pattern if kind == "text"]
         if "CONVERT" in self.functions and not self._converts_known_units():
             return "функция CONVERT, единицы — только длины, массы и углы"
@@ -310,7 +284,7 @@ class Formula:
     @cached_property
     def takes_arrays(self) -> bool:
         """Whether a part of the formula is calculated value by value."""
-        return not self.functions.isdisjoint(_TAKES_ARRAYS)
+        return not self.functions.isdisjoint(TAKES_ARRAYS)
 
     @cached_property
     def gives_array(self) -> bool:
@@ -339,11 +313,11 @@ class _TokenPlace:
     @property
     def whole(self) -> bool:
         """Whether the function takes a rectangle here."""
-        return self.argument in _TAKES_RANGES.get(self.function, ())
+        return self.argument in TAKES_RANGES.get(self.function, ())
 
 
 def _places(pattern: tuple[Token, ...]) -> list[_TokenPlace]:
-    """The place of every token."""
+    """Return the place of every token."""
     contexts = [_TokenPlace("", 0, False)]
     positions = []
     for at, (kind, value) in enumerate(pattern):
@@ -356,7 +330,7 @@ def _places(pattern: tuple[Token, ...]) -> list[_TokenPlace]:
         if (kind, value) == ("op", "("):
             before = pattern[at - 1] if at else ("", "")
             name = _PREFIX.sub("", before[1].upper()) if before[0] == "name" else ""
-            contexts.append(_TokenPlace(name, 0, contexts[-1].spread or name in _TAKES_ARRAYS))
+            contexts.append(_TokenPlace(name, 0, contexts[-1].spread or name in TAKES_ARRAYS))
     return positions
 
 
@@ -369,7 +343,7 @@ def is_doubtful(text: str, *, in_product: bool = False) -> bool:
 
 
 def formula_at(text: str, row: int, column: int) -> Formula:
-    """The formula of a cell.
+    """Return the formula of a cell.
 
     Raises:
         UnknownFormula: a sign outside the language, or a formula that is too long.
@@ -379,7 +353,7 @@ def formula_at(text: str, row: int, column: int) -> Formula:
 
 @lru_cache(maxsize=20_000)
 def formula_of(tokens: tuple[Token, ...]) -> Formula:
-    """The one formula with these tokens."""
+    """Return the one formula with these tokens."""
     return Formula(tokens)
 
 

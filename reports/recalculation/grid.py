@@ -55,7 +55,7 @@ class Run:
         return self.first + self.count - 1
 
     def part(self, first: int, count: int) -> Run:
-        """The same formula in other rows of the column."""
+        """Return the same formula in other rows of the column."""
         problem = self.problem or ("часть формулы массива" if self.array else "")
         return Run(self.sheet, self.column, first, count, self.formula, self.text, problem)
 
@@ -78,7 +78,7 @@ class _Order:
         return cls(of, len(of), runs, [run.first for run in runs], reached)
 
     def between(self, first: int, last: int) -> list[Run]:
-        """The only ones that can have cells in some rows."""
+        """Return the only ones that can have cells in some rows."""
         return self.runs[bisect_left(self.reached, first) : bisect_right(self.firsts, last)]
 
 
@@ -102,7 +102,7 @@ class CellColumn:
         return saved
 
     def runs_in(self, first: int, last: int) -> list[Run]:
-        """The runs with cells in some rows."""
+        """Return the runs with cells in some rows."""
         runs = self.runs
         if len(runs) > _FEW:
             order = self._order
@@ -127,7 +127,7 @@ class CellGrid:
     cells: int = 0
 
     def column(self, sheet: str, number: int) -> CellColumn:
-        """A column, empty where there is none."""
+        """Return a column, empty where there is none."""
         return self.sheets.get(sheet, {}).get(number) or CellColumn()
 
     def constant(self, sheet: str, row: int, column: int) -> Constant | None:
@@ -148,7 +148,7 @@ class CellGrid:
                 yield from column.runs
 
     def named(self, name: str) -> Area | None:
-        """The cells of a defined name."""
+        """Return the cells of a defined name."""
         cell = self.names.get(name)
         if cell is not None:
             return Area(cell[0], cell[1], cell[1], cell[2], cell[2])
@@ -162,7 +162,7 @@ class CellGrid:
         return [n for n in columns if area.first_column <= n <= area.last_column]
 
     def runs_of(self, area: Area) -> Iterator[Run]:
-        """The runs with cells in a rectangle."""
+        """Return the runs with cells in a rectangle."""
         for number in self.columns_of(area):
             yield from self.sheets[area.sheet][number].runs_in(area.first_row, area.last_row)
 
@@ -171,7 +171,7 @@ class CellGrid:
         return (area for _, area in self.located(run))
 
     def located(self, run: Run) -> Iterator[tuple[Reference, Area]]:
-        """References of a run with the cells that they name, over all its rows."""
+        """Return references of a run with the cells that they name, over all its rows."""
         for reference in run.formula.references if run.formula is not None else ():
             if reference.name:
                 area = self.named(reference.name)
@@ -205,7 +205,7 @@ def is_backwards(run: Run, reference: Reference) -> bool:
 
 
 def _without(run: Run, rows: set[int]) -> list[Run]:
-    """The parts of a run outside some rows."""
+    """Return the parts of a run outside some rows."""
     span = range(run.first, run.last + 1)
     if rows.isdisjoint(span):
         return [run]

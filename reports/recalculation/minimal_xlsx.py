@@ -32,7 +32,7 @@ def folded(text: str) -> str:
 
 
 def plain_book(grid: CellGrid, runs: Collection[Run]) -> bytes:
-    """The workbook with all constants of a grid and some of its runs."""
+    """Return the workbook with all constants of a grid and some of its runs."""
     stream = io.BytesIO()
     numbers = range(1, len(grid.sheets) + 1)
     of_sheet: dict[str, list[Run]] = {}
@@ -134,7 +134,7 @@ def _formula(grid: CellGrid, run: Run, row: int) -> str:
 
 
 def formula_text(grid: CellGrid, run: Run, row: int, column: int) -> str:
-    """Formula of a run in one cell without its ``=``, as formualizer takes it."""
+    """Return formula of a run in one cell without its ``=``, as formualizer takes it."""
     assert run.formula is not None
     tokens = [_plain(grid, token) for token in run.formula.pattern]
     if len(tokens) > _CHAIN:

@@ -40,7 +40,7 @@ class RangeCorners(NamedTuple):
 
 
 def area_of(tokens: Sequence[Token], grid: CellGrid) -> RangeCorners | None:
-    """The range that some tokens without a sheet are, None where they are none."""
+    """Return the range that some tokens without a sheet are, None where they are none."""
     kinds = [kind for kind, _ in tokens]
     value = tokens[0][1] if tokens else ""
     if kinds == ["ref", "op", "ref"] and tokens[1][1] == ":":
@@ -130,7 +130,7 @@ def _crossing_cell(tokens: tuple[Token, ...], run: Run, grid: CellGrid) -> list[
 
 
 def _meant(first: Ref, last: Ref, run: Run) -> str:
-    """The cell of a range in the row or column of a formula, empty where it is not one."""
+    """Return the cell of a range in the row or column of a formula, empty where it is not one."""
     left, right = (r.column if r.column_fixed else run.column + r.column for r in (first, last))
     rows = [
         [r.row if r.row_fixed else row + r.row for r in (first, last)]
@@ -211,7 +211,7 @@ def _picked(tokens: tuple[Token, ...], grid: CellGrid) -> list[Token]:
 
 
 def _indexed(tokens: tuple[Token, ...], grid: CellGrid) -> list[Token]:
-    """The cell that these arguments of INDEX name; nothing where it takes reckoning."""
+    """Return the cell that these arguments of INDEX name; nothing where it takes reckoning."""
     sheet = [token for token in tokens[:1] if token[0] == "sheet"]
     tail = tokens[len(sheet) :]
     if _COMMA not in tail:
@@ -229,7 +229,7 @@ def _indexed(tokens: tuple[Token, ...], grid: CellGrid) -> list[Token]:
 
 
 def _cell_of_range(first: Ref, last: Ref, numbers: list[int]) -> str:
-    """A cell of a range, empty where these numbers name none."""
+    """Return a cell of a range, empty where these numbers name none."""
     if (first.row_fixed, first.column_fixed) != (last.row_fixed, last.column_fixed):
         return ""
     height, width = last.row - first.row + 1, last.column - first.column + 1

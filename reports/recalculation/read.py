@@ -128,7 +128,7 @@ def _localized(tokens: tuple[Token, ...], sheet: str, local: Local) -> tuple[Tok
 
 
 def put_in(grid: CellGrid, names: Meanings, local: Local) -> None:
-    """The formulas of a grid with names replaced by what they stand for.
+    """Replace names in the formulas of a grid by what they stand for.
 
     A formula that then refers to no cell is left: a number by a name is for a person to see.
     """

@@ -151,7 +151,7 @@ def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:
 
 
 def _filled(part: _FormColumn, texts: list[bytes], strings: list[str]) -> CellColumn:
-    """A column with the values of another book.
+    """Return a column with the values of another book.
 
     Raises:
         ValueError: a value that is none, or is not written plainly.

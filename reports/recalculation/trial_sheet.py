@@ -83,12 +83,12 @@ class PinnedGrid:
     """
 
     grid: CellGrid
-    cells: Callable[[str, int], Sequence[Cells]]
+    cells: Callable[[str, int], Sequence[Cells]] = lambda _sheet, _column: ()
     rounded: bool = True
     _columns: dict[tuple[str, int], CellColumn] = field(default_factory=dict)
 
     def column(self, sheet: str, number: int) -> CellColumn:
-        """A column with its constants."""
+        """Return a column with its constants."""
         key = (sheet, number)
         column = self._columns.get(key)
         if column is None:
@@ -102,7 +102,7 @@ class PinnedGrid:
         return column
 
     def runs_of(self, area: Area) -> list[Run]:
-        """The runs with cells in a rectangle."""
+        """Return the runs with cells in a rectangle."""
         columns = (self.column(area.sheet, n) for n in self.grid.columns_of(area))
         return [run for c in columns for run in c.runs_in(area.first_row, area.last_row)]
 
@@ -112,7 +112,7 @@ class PinnedGrid:
 
 
 def needed(grid: CellGrid, areas: Iterable[Area]) -> CellGrid:
-    """The columns of a grid with some cells, and those that their formulas read in turn."""
+    """Return the columns of a grid with some cells, and those that their formulas read in turn."""
     sheets = _needed(grid, areas, lambda sheet, number: grid.sheets[sheet][number])
     return CellGrid(sheets, grid.names, grid.areas)
 
@@ -215,7 +215,7 @@ def _moved(run: Run, sheet: str, *, rounded: bool) -> Run:
 
 @lru_cache(maxsize=20_000)
 def _qualified(formula: Formula, sheet: str) -> Formula:
-    """A formula whose references all name their sheet."""
+    """Return a formula whose references all name their sheet."""
     token = ("sheet", quoted(sheet))
     pattern = []
     before = ("", "")
@@ -256,7 +256,7 @@ def _cut(tokens: Sequence[tuple[str, str]], at: int) -> tuple[int, int]:
 
 @lru_cache(maxsize=20_000)
 def unrounded(formula: Formula) -> Formula:
-    """A formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π."""
+    """Return a formula without its ROUND, ROUNDUP and ROUNDDOWN, and with all digits of π."""
     if not rounds(formula):
         return formula
     tokens = [
@@ -274,7 +274,7 @@ def unrounded(formula: Formula) -> Formula:
 
 
 def _unrounded_column(column: CellColumn) -> CellColumn:
-    """A column whose formulas do not round."""
+    """Return a column whose formulas do not round."""
     runs = [replace(r, formula=unrounded(r.formula)) if r.formula else r for r in column.runs]
     return CellColumn(column.constants, column.errors, runs)
 
@@ -286,7 +286,7 @@ def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:
 
 
 def full(number: float) -> float:
-    """A number, or what it is the first digits of: π and its usual multiples."""
+    """Return a number, or what it is the first digits of: π and its usual multiples."""
     return next((x for x in _FULL if 1e-14 < abs(number / x - 1) < _NEAR), number)
 
 
@@ -315,7 +315,7 @@ def rounded_to(formula: Formula) -> int | None:
 
 
 def _digits(tokens: Sequence[tuple[str, str]], comma: int, end: int) -> int | None:
-    """The number that stands from a comma to an end."""
+    """Return the number that stands from a comma to an end."""
     try:
         return int("".join(value for _, value in tokens[comma + 1 : end]))
     except ValueError:

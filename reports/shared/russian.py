@@ -171,6 +171,14 @@ def _follows(before: str, after: str) -> bool:
     return stem == other and digits != "" != next_digits and int(next_digits) == int(digits) + 1
 
 
+def plural(count: int, one: str, few: str, many: str) -> str:
+    """A number with its noun: 1 столбец, 2 столбца, 12 столбцов."""
+    tens, units = count // 10 % 10, count % 10
+    if tens == 1 or units == 0 or units > 4:
+        return f"{count} {many}"
+    return f"{count} {one if units == 1 else few}"
+
+
 def instrumental(count: int, one: str, many: str) -> str:
     """A count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
     return (

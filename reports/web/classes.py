@@ -151,10 +151,11 @@ class Classes(Queue):
                 command = ["grade", "-o", "results", "--decide", *decision, "--preview"]
         else:
             # An earlier one counts where a later one turns out to be somebody else's.
+            tries = load_register(folder / "issued").rubric.attempts.tries
             works = {
                 f"страница/{each.stem}/{path.name}": path
                 for each in folder.glob("works/*.xlsx")
-                for path in (*earlier(each)[-1:], each)
+                for path in (*earlier(each)[-max(1, tries - 1) :], each)
             }
             write_zip(folder / "submitted.zip", works, folder / "moodle.zip")
         if (folder / "worksheet.csv").exists() and not data.get("preview"):
@@ -247,8 +248,8 @@ class Classes(Queue):
         try:
             name, number = self.signer.loads(request.path_params["link"])
             folder = self._find(name)
-            books = load_register(folder / "issued").books
-            book = next(book for book in books if book.number == number)
+            register = load_register(folder / "issued")
+            book = next(book for book in register.books if book.number == number)
         except (BadData, StopIteration):
             raise HTTPException(404, "нет такой страницы") from None
         about, work = read_json(folder / "about.json"), folder / "works" / book.file
@@ -262,12 +263,26 @@ class Classes(Queue):
             "deadline": about.get("deadline") or "",
             "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
+        limit, tried = register.rubric.attempts.tries, len(entry["earlier"]) + entry["handed"]
         entry["handed"] = entry["handed"] or bool(row.get("file"))
-        closed = "" if not about["open"] or about.get("late") else (
-            "страницы проверки уже открыты: новая книга не засчитывается, пока преподаватель "
-            "не разрешит"
+        closed = ""
+        if limit and tried >= limit:
+            closed = f"попытки кончились: {tried} из {limit}"
+        elif about["open"] and not about.get("late"):
+            closed = (
+                "страницы проверки уже открыты: новая книга не засчитывается, пока преподаватель "
+                "не разрешит"
+            )
+        # After the deadline nobody learns how his work stands.
+        early = limit and not _is_past(about.get("deadline") or "")
+        return Shown(
+            {**entry, "closed": closed, "tries": [tried, limit]}, files, {"work": work},
+            closed=closed, tries=str(folder / "issued") if early else "",
         )  # fmt: skip
-        return Shown({**entry, "closed": closed}, files, {"work": work}, closed=closed)
+
+
+def _is_past(until: str) -> bool:
+    return bool(until) and datetime.now() > datetime.fromisoformat(until)
 
 
 def _handed(work: Path, until: str) -> Data:

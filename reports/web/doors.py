@@ -28,6 +28,7 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
+from reports.grading.batch.tries import told_of_try
 from reports.grading.pages.moodle import check_upload
 from reports.grading.reading.selfcheck import refuse_foreign, remarks
 from reports.inputs.form_fields import Data
@@ -326,7 +327,7 @@ class Shown:
     """What a thing at a path tells; which files it gives and takes, by words of its own.
 
     ``names`` are what files are called where that is not their name; ``closed`` says why none
-    is taken.
+    is taken; a book is tried by the register of the folder ``tries``.
     """
 
     told: Data
@@ -334,6 +335,7 @@ class Shown:
     takes: Mapping[str, Path] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
     closed: str = ""
+    tries: str = ""
 
 
 def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -> list[Route]:
@@ -365,6 +367,9 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
                     own = str(job.gives["book"])
                     await ask(request, refuse_foreign, str(file), own, seconds=BOOK_S)
                     data = await ask(request, remarks, str(file), own, seconds=BOOK_S)
+                    if job.tries:
+                        data |= await ask(request, told_of_try, str(file), job.tries,
+                                          seconds=BOOK_S)  # fmt: skip
                 keep_earlier(target, file)
             else:
                 check_upload(file, target.suffix)

@@ -34,6 +34,10 @@ MAX_UNPACKED = 300 * 2**20
 MAX_PARTS = 2000
 MAX_RATIO = 400
 _HEAD = 4096
+LOCK, _MAX_LOCK = "~$", 1024  # how Excel calls its lock files, and their bytes: 165
+_WORD = b"word/document.xml"
+_ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
+_OLD_BOOKS = tuple(f"{name}\0".encode("utf-16-le") for name in ("Workbook", "Book"))
 # What may stand before the root element of a part: no DOCTYPE, whatever hides it from a look at
 # the beginning (a long remark, another coding).
 _ROOT = re.compile(
@@ -191,18 +195,30 @@ def check_data(data: bytes, name: str) -> Package:
     if not data:
         _refuse(name, "файл пуст", "сохраните книгу заново")
     kind = kind_of(data)
+    if len(data) <= _MAX_LOCK and LOCK in Path(name).name:
+        what = "это временный файл, который Excel держит рядом с открытой книгой"
+        _refuse(name, what, f"закройте книгу и возьмите файл без «{LOCK}» в имени")
     if kind == OFFICE:
-        _refuse(
-            name, "книга зашифрована или в старом формате .xls", "сохраните её как .xlsx без пароля"
-        )
+        _refuse(name, *_old_or_locked(data))
     if kind != ARCHIVE:
         _refuse(name, f"{CALLED.get(kind, 'это текст')}, а не книга .xlsx", "нужна сама книга")
     try:
         package = Package(data)
         _check_parts(name, package)
     except _DAMAGED:
+        if _WORD in data:
+            _refuse(name, "это повреждённый документ Word, а не книга .xlsx", "нужна сама книга")
         _refuse(name, "файл .xlsx повреждён", "сохраните его заново")
     return package
+
+
+def _old_or_locked(data: bytes) -> tuple[str, str]:
+    """What a file of the old Office container is, and what to do."""
+    if _ENCRYPTED in data:
+        return "книга закрыта паролем", "сохраните её без пароля: Файл → Сведения → Защита книги"
+    if any(stream in data for stream in _OLD_BOOKS):
+        return "книга в старом формате .xls", _SAVE_AS
+    return "это старый или зашифрованный документ Office, а не книга .xlsx", "нужна сама книга"
 
 
 def _check_parts(name: str, package: Package) -> None:

@@ -19,7 +19,7 @@ from pathlib import Path
 import xlsxwriter
 from openpyxl import load_workbook
 
-from reports.grading.judging.rings import rings_of
+from reports.grading.judging.collusion import rings_of
 from tests.bench._figure import Figure
 from tests.grading.drawn import manners
 from tests.grading.drawn.classroom import BASES, DrawnClass

@@ -10,8 +10,8 @@ from tempfile import NamedTemporaryFile, mkdtemp
 import pytest
 from openpyxl import Workbook
 
-from reports.grading.batch.marks import marking
 from reports.grading.batch.pool import Outcome
+from reports.grading.batch.worker import marking
 from reports.grading.issuing import handout as handouts
 from reports.grading.issuing import issue as issuing
 from reports.grading.issuing.assignment import Assignment

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 from datetime import datetime
@@ -19,11 +20,12 @@ from reports.commands import class_commands
 from reports.grading.batch import grade as room
 from reports.grading.batch.decisions import WHOLE, Decision, from_gradebook
 from reports.grading.batch.grade import GradeSetup, decide, grade
-from reports.grading.issuing.rubric import Rubric, rubric_of
+from reports.grading.issuing.rubric import Attempts, Rubric, rubric_of
 from reports.grading.judging.judgement import EMPTY, RIGHT, WRONG
 from reports.grading.judging.scoring import HandedIn, late_factor, score
-from reports.grading.judging.works import Work, work_of
+from reports.grading.judging.work_digest import Work, work_of
 from reports.grading.pages.gradebook import DECISION, OF_FILE
+from reports.grading.pages.states import State
 from reports.grading.pages.summary import choose, table_rows
 from reports.shared.errors import InputError
 from tests.grading import classroom
@@ -340,7 +342,7 @@ def test_the_best_attempt_counts_where_the_rubric_says_so():
 
     first, second = result(90.0, "2026-01-01"), result(60.0, "2026-01-02")
     assert choose([first, second])[1] is second
-    assert choose([first, second], "best")[1] is first
+    assert choose([first, second], Attempts(count="best"))[1] is first
     thief = result(0.0, "2026-01-03", 2)
     assert choose([first, second, thief])[1] is second  # a stranger's file is never mine
 
@@ -389,3 +391,55 @@ def test_a_work_of_nothing_paid_is_not_filled_in():
 
 
 assert os
+
+
+def test_parts_marked_by_hand_stand_in_the_same_sum(tmp_path):
+    """The book keeps what note and defence leave; until both have points the work waits."""
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text('[parts]\n"записка" = 20\n"защита" = 30\n', encoding="utf-8")
+    where, out = tmp_path / "in", tmp_path / "out"
+    where.mkdir()
+    data = filled_book(classroom.handout(1), classroom.assignment(1))
+    (where / classroom.book(1).file).write_bytes(data)
+
+    def told() -> tuple[float | None, str, str]:
+        rows = json.loads((out / "summary.json").read_text(encoding="utf-8"))["rows"]
+        return rows[0]["points"], rows[0]["status"], rows[0]["remark"]
+
+    issued = classroom.folder() / "issued"
+    grade(issued, where, out, rubric_file=rubric, secret_file=classroom.folder() / "secret.key",
+          options=GradeSetup(workers=1))  # fmt: skip
+    assert told() == (50, State.BY_HAND, "ставит преподаватель: записка, защита")
+    decide(out, GradeSetup(decisions=[("1", "записка", "15", "без чертежа")]))
+    points, state, remark = told()
+    assert (points, state) == (65, State.BY_HAND) and "ставит преподаватель: защита" in remark
+    decide(out, GradeSetup(decisions=[("1", "защита", "90%", "")]))
+    assert told()[:2] == (92, State.CHECKED)
+    table = (out / "gradebook.csv").read_text("utf-8-sig").splitlines()
+    cells = next(csv.DictReader(table, delimiter=";"))
+    assert (cells["Записка"], cells["Защита"]) == ("15", "27")
+    page = next((out / "pages").glob("*.html")).read_text(encoding="utf-8")
+    assert "Записка" in page and "92 из 100" in page
+    decide(out, GradeSetup(decisions=[("1", "защита", "-", "")]))
+    assert told()[:2] == (65, State.BY_HAND)
+    for parts in ({"записка": 101}, {"1": 5}, {"записка": 60, "защита": 60}):
+        with pytest.raises(InputError):
+            rubric_of({"parts": parts}, "рубрика")
+
+
+def test_another_rubric_is_shown_before_it_is_applied(tmp_path):
+    """Who gains and who loses, what was decided standing; the results stay as they were."""
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out, ("2", "всё", "80", ""))
+    before = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text('[points]\n"geometry" = 90\n', encoding="utf-8")
+    issued, secret = classroom.folder() / "issued", classroom.folder() / "secret.key"
+    command = ["grade", str(issued), str(where), "-o", str(out), "--preview"]
+    keys = ["--rubric", str(rubric), "--secret", str(secret)]
+    shown = CliRunner().invoke(main, [*command, *keys])
+    assert shown.exit_code == 0, shown.output
+    first, *others = shown.output.splitlines()
+    assert classroom.book(1).student.full in first and "(−" in first
+    assert others == ["Без изменений: 1", "Ничего не записано: это показ."]
+    assert before == {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}

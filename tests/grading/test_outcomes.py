@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import shutil
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +15,8 @@ import pytest
 from openpyxl import Workbook, load_workbook
 from openpyxl.cell.rich_text import CellRichText
 
+from reports.formula.numeric import evaluate_tree
+from reports.formula.parse import names, parse
 from reports.grading.batch import grade as grading
 from reports.grading.batch.grade import GradeSetup, decide, grade
 from reports.grading.issuing.issue import assignment_for
@@ -25,6 +29,7 @@ from reports.grading.pages.questions import questions_for
 from reports.grading.reading.submissions import Submission
 from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError
+from reports.shared.russian import written as printed
 from reports.workbook.layout import Layout
 from tests.grading import classroom
 from tests.grading.classroom import graded_here, issue_class
@@ -168,6 +173,32 @@ def test_questions_are_about_the_students_own_numbers():
     column = run.value(largest.item)
     shown = f"{abs(column).max():.2f}".replace(".", ",")
     assert shown in largest.answer
+
+
+def test_questions_have_reasons_and_numbers_that_give_the_answer():
+    assignment = classroom.assignment(1)
+    model, graph = assignment.model, assignment.graph
+    asked = [one for seed in range(40) for one in questions_for(assignment, str(seed))]
+    assert {one.kind for one in asked} == {"largest", "change", "sign", "substitution"}
+    assert not any("° ), а остальное" in one.text or "°), а остальное" in one.text for one in asked)
+    for one in asked:
+        item = next(item for item in assignment.items if item.id == one.item)
+        if one.kind == "largest":
+            assert re.search(r"Решает .+: .+ против .+\.", one.answer), one.answer
+        if one.kind != "substitution":
+            continue
+        expression = graph.expression(item.nodes[0])
+        texts = re.findall(r" = ([−0-9,.·e]+)(?=[;.])", one.answer.partition("Числа:")[2])
+        numbers = [float(text.replace(",", ".").replace("−", "-")) for text in texts]
+        known = dict(zip(sorted(names(expression)), numbers, strict=True))
+        value = float(evaluate_tree(parse(expression), known.__getitem__))
+        assert one.answer.startswith(printed(value + 0.0, item.quantity.digits)), one.answer
+    twins = Counter(item.symbol for item in assignment.items)
+    for one in asked:
+        item = next(item for item in assignment.items if item.id == one.item)
+        if twins[item.symbol] > 1 and one.item.partition(".")[0] in model.tables:
+            blocks = {other.block for other in assignment.items if other.symbol == item.symbol}
+            assert ("лист «" in one.text) == (len(blocks) > 1)
 
 
 def test_copies_and_questions_lie_beside_the_pages_without_answers(handed, tmp_path):

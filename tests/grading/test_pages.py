@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 from openpyxl import load_workbook
 
-from reports.grading.judging.works import Entry, work_of
+from reports.grading.judging.work_digest import Entry, work_of
 from reports.grading.pages.gradebook import TITLE, gradebook_xlsx
 from reports.grading.pages.pages import line_chart, number, student_page
 from reports.grading.pages.summary import summarise

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from reports.grading.batch.extras import put_off
 from reports.grading.batch.rubric_trial import try_rubric
+from reports.grading.batch.run_setup import put_off
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.roster import Student, read_roster
 from reports.grading.issuing.rubric import Rubric, load_rubric, rubric_of

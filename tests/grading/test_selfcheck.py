@@ -107,7 +107,7 @@ def test_everything_odd_is_told_with_its_cells(tmp_path):
     ]
     assert found["Цилиндры!L8"] == "ячейка заперта, а изменена: теперь 5.0"
     assert found["П3.1 vп1"] == "число вместо формулы: П3.1!E6:E18"
-    assert found["Массы λ"] == "ошибка #DIV/0!: Массы!C7"
+    assert found["Массы λ"] == "ошибка #ДЕЛ/0! — деление на ноль: Массы!C7"
     assert "INDIRECT" in found["Массы Vc"]
     assert found["П4.1 Mкр"] == "пусто: П4.1!I6:I30"
     assert found["П4.1 Kуд"] == "пусто: П4.1!H9"

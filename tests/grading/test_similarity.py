@@ -6,7 +6,7 @@ import json
 import tracemalloc
 
 from reports.grading.judging import similarity
-from reports.grading.judging.works import Work, work_of
+from reports.grading.judging.work_digest import Work, work_of
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 

@@ -11,8 +11,9 @@ from openpyxl import load_workbook
 
 from reports.grading.batch import grade as room
 from reports.grading.batch.grade import GradeSetup, decide, grade
-from reports.grading.judging import rings
+from reports.grading.judging import collusion
 from reports.grading.pages.gradebook import TITLE
+from reports.grading.pages.side_by_side import COMPARED
 from reports.grading.pages.states import State
 from reports.workbook.layout import Layout
 from tests.grading import classroom
@@ -102,6 +103,13 @@ def test_every_output_says_one_state(tmp_path, monkeypatch):
         assert not any(line["Grade"] for line in filled)
         text = (out / "summary.html").read_text(encoding="utf-8")
         assert text.count(f">{State.HELD}<") == 2
+        # Before he decides the teacher sees the two beside each other, no student does.
+        (side,) = (out / COMPARED).glob("*.html")
+        beside = side.read_text(encoding="utf-8")
+        assert f"{COMPARED}/{side.name}" in text and "лишнее действие, слово в слово" in beside
+        own = json.loads(next((out / "results").glob("02*.json")).read_text("utf-8"))["texts"]
+        assert beside.count(f"<code>{own['P3_1.s1_mm']}</code>") == 2
+        assert not any(COMPARED in page for page in pages(out))
     words = (("1", "всё", "+", "сам"), ("2", "всё", "40", ""), ("3", "всё", "×0,5", ""),
              ("4", "всё", "70", ""))  # fmt: skip
     decide(out, GradeSetup(decisions=words))
@@ -121,7 +129,7 @@ def test_what_two_works_share_stands_in_the_gradebook_and_for_moodle_with_its_bi
 ):
     """Where it is too little to hold them, students do not read it."""
     monkeypatch.setattr(room, "grade_all", classroom.graded_here)
-    monkeypatch.setattr(rings, "HELD", 100.0)
+    monkeypatch.setattr(collusion, "HELD", 100.0)
     where, out = works(tmp_path / "in"), tmp_path / "out"
     graded(where, out)
     assert told(out)["summary"][0] == (State.CHECKED, 100)

@@ -10,8 +10,16 @@ import pytest
 from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
 from reports.grading.issuing.register import Register
 from reports.grading.issuing.roster import Student
-from reports.grading.reading.submissions import Match, Submission, find_by_name, find_owner
+from reports.grading.reading.submissions import (
+    Match,
+    Submission,
+    collect,
+    find_by_name,
+    find_owner,
+)
 from reports.recalculation.grid import CellColumn, CellGrid
+from reports.shared.errors import InputError
+from reports.workbook.intake import check_package
 from tests.grading import classroom
 
 FORGED = "K" + "A" * 24
@@ -198,3 +206,15 @@ def test_a_name_in_the_letters_of_a_passport_is_known(name):
         assert find_by_name(register, submission(f"{surname}.xlsx")).book is mine
     match = find_owner(register, submission("work.xlsx", name), grid_with(mine.ticket), Parts())
     assert (match.book, match.doubts) == (mine, ())
+
+
+def test_a_lock_file_of_excel_alone_is_told_and_beside_its_book_is_left_out(tmp_path):
+    lock, book = "~$книга.xlsx", "книга.xlsx"
+    (tmp_path / "alone").mkdir()
+    (tmp_path / "alone" / lock).write_bytes(b"\x04user" + b" " * 160)
+    (tmp_path / "both").mkdir()
+    for name in (lock, book):
+        (tmp_path / "both" / name).write_bytes(b"\x04user" + b" " * 160)
+    assert [each.key for each in collect(tmp_path)] == [f"alone/{lock}", f"both/{book}"]
+    with pytest.raises(InputError, match="временный файл, который Excel держит рядом"):
+        check_package(tmp_path / "alone" / lock)

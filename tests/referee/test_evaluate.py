@@ -6,14 +6,16 @@ import io
 import math
 import re
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reports.recalculation.evaluate import Evaluator
 from reports.recalculation.formulas import UnknownFormula, formula_of, pattern, quoted, render
+from reports.recalculation.functions import ALLOWED, BY_ENGINE, BY_PERSON, BY_PROGRAM
 from reports.recalculation.read import read_grid
-from reports.recalculation.trial_sheet import Bench, Cells, pinned, unrounded
+from reports.recalculation.trial_sheet import Bench, Cells, PinnedGrid, pinned, unrounded
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
 from tests.workbook.made import coarse_book
@@ -74,6 +76,33 @@ def test_functions_that_people_seldom_need_are_calculated():
     assert found == pytest.approx(SELDOM, rel=1e-12)
 
 
+# As LibreOffice 7.4 calculates them; what it lacks by hand.
+OF_RECTANGLES = {
+    "SUM(MMULT(A1:B2,A1:B2))": 54.0, "INDEX(MMULT(A1:B2,A1:B2),2,1)": 15.0, "MDETERM(A1:B2)": -2.0,
+    "INDEX(MINVERSE(A1:B2),1,2)": 1.0, "SUM(MMULT(TRANSPOSE(A1:A3),B1:B3))": 44.0,
+    "SUM(TRANSPOSE(A1:A3))": 9.0, "CORREL(A1:A3,B1:B3)": 1.0,
+    'VALUE("12")+1': 13.0, 'FIND("b","abc")': 2.0, 'SEARCH("B","abc")': 2.0,
+    "ERF(1)": 0.842700792949715, 'IMARGUMENT("3+4i")': 0.927295218001612,
+    'IMREAL(IMPRODUCT("1+2i","3-1i"))': 5.0, 'IMABS(IMDIV("3+4i","1+0i"))': 5.0,
+    "SUM(FILTER(B1:B3,A1:A3>2))": 10.0, "INDEX(SORT(A1:A3),1)": 1.0, "SUM(SEQUENCE(3))": 6.0,
+    "SUM(TAKE(A1:A3,2))": 4.0, "SUM(DROP(A1:A3,2))": 5.0, "SUM(VSTACK(A1:A2,B1:B2))": 10.0,
+}  # fmt: skip
+
+
+def test_functions_of_rectangles_are_calculated():
+    cells = {"A1": 1, "A2": 3, "A3": 5, "B1": 2, "B2": 4, "B3": 6}
+    cells |= {f"E{row}": f"={text}" for row, text in enumerate(OF_RECTANGLES, 1)}
+    engine = engine_of(cells)
+    found = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(OF_RECTANGLES, 1)}
+    assert found == pytest.approx(OF_RECTANGLES, rel=1e-12)
+    odd = {"A1": 1, "A2": 2, "B1": 2, "B2": 4, "C1": "слово"}
+    texts = {"E1": "=MMULT(A1:B2,A1:A1)", "E2": "=SUM(MINVERSE(A1:B2))", "E3": "=MDETERM(C1:C1)"}
+    engine = engine_of(odd | texts)
+    assert [engine.shown("Sheet", 5, row) for row in (1, 2, 3)] == ["#VALUE!", "#NUM!", "#VALUE!"]
+    spilt = engine_of(cells, {"G1:H2": "=MMULT(A1:B2,A1:B2)"})
+    assert [spilt.shown("Sheet", column, 2) for column in (7, 8)] == [15.0, 22.0]
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -84,7 +113,7 @@ def test_functions_that_people_seldom_need_are_calculated():
         "SUBTOTAL(A1,A1:A3)",
         "AGGREGATE(14,6,A1:A3,1)",
         "AGGREGATE(9,5,A1:A3)",
-        "SUM(MMULT(A1:A3,A1:A1))",
+        "SUM(OFFSET(A1,1,0))",
     ],
 )
 def test_what_the_engine_would_get_wrong_in_them_is_unknown(text):
@@ -260,7 +289,7 @@ def test_formulas_on_other_cells():
     (run,) = engine.grid.sheets["Sheet"][3].runs
     second = engine.grid.sheets["Sheet"][2].runs[1]
     cells = [Cells("Sheet", 2, (1, 2), (1.0, 5.0))]
-    bench = Bench(pinned(engine.grid, cells), {"sum": [run], "product": [second]})
+    bench = Bench(PinnedGrid(pinned(engine.grid, cells)), {"sum": [run], "product": [second]})
     assert bench.values("sum", [1]).tolist() == [6.0]  # of the constants, not of the formulas
     assert bench.values("product", [2]).tolist() == [31.0]
     bench.put([Cells("Sheet", 2, (1, 2), (2.0, 7.0)), Cells("Sheet", 1, (2,), (1.0,))])
@@ -272,7 +301,7 @@ def test_formulas_on_other_cells():
 def test_array_formulas_on_other_cells():
     engine = engine_of({"A1": 1.0, "A2": 2.0}, {"B1:C2": "=A1:A2*{1,10}"})
     first, second = (engine.grid.sheets["Sheet"][n].runs[0] for n in (2, 3))
-    bench = Bench(engine.grid, {"b": [first], "c": [second]})
+    bench = Bench(PinnedGrid(engine.grid), {"b": [first], "c": [second]})
     assert bench.values("c", [1, 2]).tolist() == [10.0, 20.0]
     bench.put([Cells("Sheet", 1, (1, 2), (3.0, 4.0))])
     assert bench.values("b", [1, 2]).tolist() == [3.0, 4.0]
@@ -281,8 +310,8 @@ def test_array_formulas_on_other_cells():
 def test_a_formula_without_its_roundings():
     engine = engine_of({"A1": 2.345, "B1": "=ROUND(A1*2,0)+INT(A1)+ROUNDUP(MAX(A1,ROUND(A1,1)),1)"})
     (run,) = engine.grid.sheets["Sheet"][2].runs
-    assert Bench(engine.grid, {"b": [run]}).values("b", [1]).tolist() == [5 + 2 + 2.4]
-    plain = Bench(engine.grid, {"b": [run]}, rounded=False)
+    assert Bench(PinnedGrid(engine.grid), {"b": [run]}).values("b", [1]).tolist() == [5 + 2 + 2.4]
+    plain = Bench(PinnedGrid(engine.grid), {"b": [run]}, rounded=False)
     assert plain.values("b", [1])[0] == pytest.approx(4.69 + 2 + 2.345)
 
 
@@ -294,7 +323,22 @@ def test_sums_and_products_of_any_length_are_calculated():
     assert engine.values("Sheet", 2, 1, 3)[0].tolist() == [1000, 2 - 299 * 2 + 2 + 1, -500]
 
 
-@pytest.mark.parametrize("text", ["MMULT(A1:A1,A1:A1)", "NOSUCH(A1)", "A1+Таблица1[Столбец]"])
+@pytest.mark.parametrize("text", ["OFFSET(A1,1,0)", "NOSUCH(A1)", "A1+Таблица1[Столбец]"])
 def test_why_a_formula_is_not_calculated_is_said_in_russian(text):
     with pytest.raises(UnknownFormula, match=r"^(функция|ссылка на умную таблицу)"):
         engine_of({"A1": 9, "C1": f"={text}"}).shown("Sheet", 3, 1)
+
+
+def test_the_manual_lists_what_is_done_for_each_function():
+    text = (Path(__file__).parents[2] / "docs" / "grading.md").read_text(encoding="utf-8")
+    section = text.partition("### Какие функции считаются")[2].partition("**Баллы.**")[0]
+    engine, _, others = section.partition("Считает сама программа")
+    program, _, person = others.partition("Смотрит человек")
+    named = re.compile(r"\b[A-Z][A-Z0-9.]*[A-Z0-9]\b|\b[NT]\b")
+    assert set(named.findall(engine)) == BY_ENGINE
+    assert set(named.findall(program)) == BY_PROGRAM
+    for name, why in BY_PERSON.items():
+        assert re.search(rf"\| {why} \|[^|]*\b{name}\b", person), name
+    assert not BY_ENGINE & BY_PROGRAM and not ALLOWED & BY_PERSON.keys()
+    with pytest.raises(UnknownFormula, match="функция OFFSET: строит адрес ячейки"):
+        engine_of({"A1": 9, "C1": "=OFFSET(A1,1,0)"}).shown("Sheet", 3, 1)

@@ -20,6 +20,8 @@ from reports.workbook.read import load_workbook_input
 from tests.conftest import sample
 from tests.workbook.made import book, coarse, coarse_book, coarse_model
 
+OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+
 
 @lru_cache(maxsize=1)
 def opened_input_sheet() -> Workbook:
@@ -104,7 +106,10 @@ def test_a_foreign_workbook_is_refused(tmp_path: Path) -> None:
         (b"Rar!\x1a\x07", "это архив RAR или 7z, а не книга"),
         (b"%PDF-1.4", "это документ PDF, а не книга"),
         (b"PK\x03\x04 broken", "повреждён"),
-        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 100, "зашифрована"),
+        (OLE + b"\0" * 100, "это старый или зашифрованный документ Office"),
+        (OLE + "EncryptedPackage".encode("utf-16-le"), "книга закрыта паролем"),
+        (OLE + "Workbook\0".encode("utf-16-le"), "книга в старом формате .xls"),
+        (b"PK\x03\x04\x14\0\0\0word/document.xml", "это повреждённый документ Word, а не книга"),
         (b"[engine]\n", "не книга"),
     ],
 )

@@ -49,7 +49,7 @@ class Award:
 
 
 def award_of(text: str, rubric: Rubric, worth: float | None) -> Award:
-    """The award that a person has written; ``worth`` is what a share is a share of.
+    """Return the award that a person has written; ``worth`` is what a share is a share of.
 
     Args:
         text: 40, 50%, ×0,75, +5, -5, оценка 4; «+» takes the program's points as they are.

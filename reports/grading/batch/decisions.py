@@ -15,9 +15,9 @@ from typing import Any
 from reports.grading.batch.awards import ACCEPT, WITHDRAW, Award, award_of
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import UNKNOWN, unread_remark
+from reports.grading.judging.judgement import PART, UNKNOWN, part_remark, unread_remark
 from reports.grading.judging.scoring import rescored
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from reports.grading.pages.gradebook import DECIDED, DECISION, GROUPS, OF_FILE
 from reports.grading.pages.groups import NAME, WaitingGroup
 from reports.shared.errors import InputError, Problem, one_line
@@ -83,7 +83,7 @@ def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
 
 
 def refuse_too_many(decisions: Sequence[Decision], register: Register) -> None:
-    """Refuse to go on with points that are more than a work can get now.
+    """Raise InputError where points exceed the maximum.
 
     Raises:
         InputError: there are such decisions.
@@ -107,7 +107,7 @@ def refuse_wrong_words(
     words: Sequence[tuple[str, str, str, str]], register: Register, files: Collection[str],
     items: Collection[str],
 ) -> None:  # fmt: skip
-    """Refuse what no work makes a decision: before hours of grading, and before a file is written.
+    """Validate decisions before grading starts.
 
     Raises:
         InputError: no such student, file or item, or points that are none.
@@ -137,7 +137,7 @@ def of_groups(
     words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup],
     kept: Sequence[Decision] = (), *, anew: bool = False,
 ) -> list[Spoken]:  # fmt: skip
-    """The words of a command with those on a group said of each of its works.
+    """Expand a decision on a group into one per work.
 
     What was decided on together can be taken back; ``anew``: or decided otherwise.
 
@@ -320,14 +320,14 @@ def words_of_groups(
 
 
 def written(entry: Decision) -> str:
-    """The points of a decision as the gradebook has them."""
+    """Return the points of a decision as the gradebook has them."""
     return entry.word or (ACCEPT if entry.points is None else f"{entry.points:g}")
 
 
 def decided_groups(
     decisions: Sequence[Decision], works: Mapping[int, Work]
 ) -> list[dict[str, Any]]:
-    """Groups that were decided on together: what was said, of whom."""
+    """Return groups that were decided on together: what was said, of whom."""
     groups: dict[str, dict[str, Any]] = {}
     for entry in decisions:
         work = works.get(entry.number)
@@ -365,7 +365,7 @@ def _lines(path: Path, title: str = _SHEET) -> tuple[list[tuple[Any, ...]], str,
 
 
 def _meant(cell: Any) -> Any:  # noqa: ANN401 - a cell of openpyxl and what it holds
-    """The value of a cell as its sheet shows it: 0.5 in the format of per cents is 50%."""
+    """Return the value of a cell as its sheet shows it: 0.5 in the format of per cents is 50%."""
     value = cell.value
     if type(value) in (int, float) and "%" in _PLAIN_TEXT.sub("", cell.number_format or ""):
         return f"{value * 100:.10g}%"
@@ -375,7 +375,7 @@ def _meant(cell: Any) -> Any:  # noqa: ANN401 - a cell of openpyxl and what it h
 
 
 def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
-    """A result as the person has decided on its file; without such decisions the same."""
+    """Return a result as the person has decided on its file; without such decisions the same."""
     own = _of(result, decisions)
     if not own:
         return result
@@ -387,13 +387,14 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
         line = lines.get(entry.item)
         if line is not None:
             base = line["of"] if line["verdict"] == UNKNOWN and entry.word else line["points"]
-            line["points"] = _award(entry).of(base, decided_result.get("maximum", math.inf))
+            whole = decided_result.get("maximum", math.inf)
+            line["points"] = _award(entry).of(base, line["of"] if line["block"] == PART else whole)
             line["decision"] = asdict(entry)
             settled.add(entry.item)
     if decided_result["status"] == "graded":
         rescored(decided_result)
     whole = next((entry for entry in own if entry.item == WHOLE), None)
-    open_ = [i for i, line in lines.items() if line["verdict"] == UNKNOWN and i not in settled]
+    unknown = [line for line in lines.values() if line["verdict"] == UNKNOWN]
     if whole is not None:
         decided_result["decision"] = asdict(whole)
         award, points = _award(whole), decided_result.get("points")
@@ -401,19 +402,28 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
             most = decided_result.get("maximum", math.inf)
             decided_result["points"] = award.of(points or 0.0, most)
         decided_result["manual"], decided_result["doubts"] = [], []
-    elif not open_:
-        unread = unread_remark([e["label"] for e in lines.values() if e["verdict"] == UNKNOWN])
-        decided_result["manual"] = [text for text in decided_result["manual"] if text != unread]
+    else:
+        for remark, of_part in ((unread_remark, False), (part_remark, True)):
+            group = [line for line in unknown if (line["block"] == PART) == of_part]
+            left = [line for line in group if line["id"] not in settled]
+            key = "id" if of_part else "label"
+            said, still = (remark([line[key] for line in some]) for some in (group, left))
+            # Of columns all are named until the last is decided, of parts those that are left.
+            word = [still if of_part else said] if left else []
+            manual = decided_result["manual"]
+            decided_result["manual"] = [
+                new for text in manual for new in (word if text == said else [text])
+            ]
     return decided_result
 
 
 def _award(entry: Decision) -> Award:
-    """The award of a decision, its change read from its word."""
+    """Return the award of a decision, its change read from its word."""
     return award_of(entry.word, _ANY, None) if entry.word else Award(entry.points)
 
 
 def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
-    """The result that counts: it waits for a person where another file was decided on."""
+    """Return the result that counts: it waits for a person where another file was decided on."""
     own = {entry.item for entry in _of(result, decisions)}
     former = {entry.item for entry in decisions if entry.number == result["number"]} - own
     if WHOLE in own or not former:

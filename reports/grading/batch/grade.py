@@ -25,9 +25,11 @@ from reports.grading.batch.decisions import (
     waiting,
     words_of_groups,
 )
-from reports.grading.batch.extras import (
+from reports.grading.batch.memory import keep_past, kept_past, remember, remembered
+from reports.grading.batch.pool import Job, Outcome, grade_all, grade_far
+from reports.grading.batch.run_setup import (
     RESULTS,
-    Veil,
+    Pseudonyms,
     fill_form,
     put_off,
     refuse_another_class,
@@ -35,8 +37,6 @@ from reports.grading.batch.extras import (
     write_copies,
     write_questions,
 )
-from reports.grading.batch.memory import keep_past, kept_past, remember, remembered
-from reports.grading.batch.pool import Job, Outcome, grade_all, grade_far
 from reports.grading.batch.settled import (
     as_graded,
     file_stem,
@@ -45,17 +45,18 @@ from reports.grading.batch.settled import (
     result_text,
     settled,
 )
-from reports.grading.batch.setup import Graded, GradeSetup
+from reports.grading.batch.setup import Effect, Graded, GradeSetup
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
+from reports.grading.judging.collusion import Past, Ring, rings_of
 from reports.grading.judging.marking import FORMAT, Marker, blank_result
-from reports.grading.judging.rings import Past, Ring, rings_of
 from reports.grading.judging.similarity import suspicions
-from reports.grading.judging.works import Shared, Work, work_of
+from reports.grading.judging.work_digest import Shared, Work, work_of
 from reports.grading.pages.gradebook import gradebook_csv, gradebook_xlsx, moodle_csv
 from reports.grading.pages.moodle import feedback_zip, filled, read_worksheet
 from reports.grading.pages.pages import class_page, student_page
+from reports.grading.pages.side_by_side import comparisons
 from reports.grading.pages.states import state_of, state_of_result
 from reports.grading.pages.summary import choose, summarise, table_rows, waiting_groups
 from reports.grading.reading.submissions import Submission, collect
@@ -182,7 +183,7 @@ class _Batch:
 
     def __init__(self, register: Register, folder: Path, *, anonymous: bool = False) -> None:
         self.register, self.folder = register, folder
-        self._veil = Veil(register) if anonymous else None
+        self._veil = Pseudonyms(register) if anonymous else None
         self.works: dict[str, Work] = {}
         self._shared: Shared = {}
         self.waiting: list[Submission] = []
@@ -199,7 +200,7 @@ class _Batch:
         self._group_author = ""
         self.past: Past = kept_past(folder / RESULTS / _PAST)
         self._stands = (folder / "gradebook.xlsx").exists()  # of an earlier run, to the end
-        self.effects: list[tuple[str, float | None, float | None]] = []
+        self.effects: list[Effect] = []
         self._settled: set[str] = set()  # keys of results whose files say more than the program
 
     @property
@@ -208,19 +209,19 @@ class _Batch:
         return self.register.trial_seed[:12]
 
     def shown(self, page: str, *files: str) -> str:
-        """A page as people see it: with numbers for names where that is asked."""
+        """Return a page as people see it: with numbers for names where that is asked."""
         return page if self._veil is None else self._veil.over(page, files)
 
     def by_number(self) -> dict[int, Work]:
-        """The work that counts of each student, by the number of the variant."""
-        return choose(list(self.works.values()), self.register.rubric.attempts.count)
+        """Return the work that counts of each student, by the number of the variant."""
+        return choose(list(self.works.values()), self.register.rubric.attempts)
 
     def counted(self) -> list[Work]:
-        """The work that counts of each student."""
+        """Return the work that counts of each student."""
         return [work for _, work in sorted(self.by_number().items())]
 
     def results(self, submissions: Sequence[Submission]) -> list[Job]:
-        """The files that count with their results, as people have decided."""
+        """Return the files that count with their results, as people have decided."""
         by_key = {submission.key: submission for submission in submissions}
         decisions = load_decisions(self.folder)
         return [
@@ -260,7 +261,7 @@ class _Batch:
         kept = load_decisions(self.folder)
         rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
         seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
-        counted = choose(seen, rubric.attempts.count)
+        counted = choose(seen, rubric.attempts)
         self._kept = from_gradebook(book, kept, counted, rubric)
         self._by_group, self._group_author = words_of_groups(book, kept)
         refuse_too_many(self._kept, self.register)
@@ -297,9 +298,7 @@ class _Batch:
             self._decided(decisions, also=kept)
         return refused
 
-    def _effects(
-        self, before: Sequence[Decision], after: Sequence[Decision]
-    ) -> list[tuple[str, float | None, float | None]]:
+    def _effects(self, before: Sequence[Decision], after: Sequence[Decision]) -> list[Effect]:
         """Students whom the new decisions are about, their points before and after."""
         touched = {entry.number for entry in {*before} ^ {*after}}
         counted = self.by_number()
@@ -352,7 +351,7 @@ class _Batch:
             write_text(self._json_of(work), result_text(final))
 
     def _result(self, work: Work) -> dict[str, Any]:
-        """The result of a work as the program has made it."""
+        """Return the result of a work as the program has made it."""
         result: dict[str, Any] = json.loads(self._json_of(work).read_text(encoding="utf-8"))
         return as_graded(result)
 
@@ -379,7 +378,7 @@ class _Batch:
         self.works[result["key"]] = work_of(result, self._shared)
 
     def _results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
-        """The results of an earlier run that can be read."""
+        """Return the results of an earlier run that can be read."""
         for path in sorted((self.folder / RESULTS).glob("*.json")):
             result = read_json(path) if path.name != FILE else {}
             if result.get("format") == FORMAT and result.get("fingerprint"):
@@ -451,17 +450,21 @@ class _Batch:
         rows = table_rows(self.register, self.ordered, rings)
         summary = summarise(self.register, self.ordered, rings)
         summary["decided"] = decided_groups(load_decisions(self.folder), self.by_number())
+        compared = comparisons(rings, self._result)
+        summary["compared"] = [{"page": each.page, "text": each.text} for each in compared]
         self._settle(rows, rings)
         maximum = self.register.rubric.maximum
         data = {**summary, "rows": [plain_row(row) for row in rows], "anonymous": bool(self._veil)}
         text = json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1)
+        names = [work.file for work in self.ordered]
         files: dict[str, str | bytes] = {
             "gradebook.csv": gradebook_csv(rows, maximum),
             "gradebook.xlsx": gradebook_xlsx(rows, maximum, summary["groups"], summary["decided"]),
             "moodle.csv": moodle_csv(rows),
-            "summary.html": self.shown(class_page(summary), *(w.file for w in self.ordered)),
+            "summary.html": self.shown(class_page(summary), *names),
             "summary.json": text + "\n",
         }
+        files |= {each.page: self.shown(each.html, *names) for each in compared}
         if any(work.moodle_id for work in self.ordered):
             files["moodle-feedback.zip"] = feedback_zip(rows, self.folder)
         for name, content in files.items():
@@ -477,7 +480,7 @@ class _Batch:
         write_text(self.folder / "moodle-worksheet.csv", worksheet.text)
 
     def write_pdf(self) -> None:
-        """A PDF beside every page.
+        """Write a PDF beside every page.
 
         Raises:
             SystemPartMissing: pango is not on this machine.

@@ -11,8 +11,8 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from reports.grading.judging.rings import PastWork
-from reports.grading.judging.works import Work
+from reports.grading.judging.collusion import PastWork
+from reports.grading.judging.work_digest import Work
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, write_text
 
@@ -56,7 +56,7 @@ def remember(folder: Path, batch: str, works: Sequence[Work]) -> None:
 
 
 def kept_past(path: Path) -> list[PastWork]:
-    """What an earlier run has kept of earlier classes."""
+    """Tell what an earlier run has kept of earlier classes."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         return [PastWork(b, n, tuple(map(tuple, traits))) for b, n, *traits in data]

@@ -21,14 +21,14 @@ from pathlib import Path
 from typing import Any
 
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from reports.grading.reading.submissions import Submission
 from reports.shared.errors import InputError, KshmError
 from reports.shared.parallel_map import in_order
 from reports.shared.workers import MEMORY, Died, NeverStarted, Workers
 
 TIMEOUT_S = 60.0
-_NEEDS = "reports.grading.batch.marks"  # by name: this process marks nothing
+_NEEDS = "reports.grading.batch.worker"  # by name: this process marks nothing
 _AHEAD = 2  # files for a process: writing a result must not keep it waiting
 
 SLOW = "проверка заняла слишком много времени"
@@ -105,7 +105,7 @@ def _marking(register_folder: Path) -> Callable[[Submission], Marked]:
 def copies(
     jobs: Sequence[Job], rubric: Rubric, workers: int, timeout_s: float
 ) -> Iterator[tuple[Work, bytes]]:
-    """Marked copies as they come; a book that cannot be copied costs its copy alone."""
+    """Return marked copies as they come; a book that cannot be copied costs its copy alone."""
     if not jobs:
         return
     with Workers(min(workers, len(jobs)), _copying, rubric, needs=_COPIES, memory=MEMORY) as pool:
@@ -152,7 +152,7 @@ def grade_far(
 def _parts(
     submissions: Sequence[Submission], register: str, timeout_s: float, unread: list[Submission]
 ) -> Iterator[ClusterPart]:
-    """The parts, read as they are sent; what cannot be read stays here."""
+    """Return the parts, read as they are sent; what cannot be read stays here."""
     for begin in range(0, len(submissions), PART):
         read = []
         for item in submissions[begin : begin + PART]:

@@ -48,7 +48,7 @@ class Sample(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class TrialResult:
     """A sample with the points that the rubric gives."""
 
     sample: Sample
@@ -62,7 +62,7 @@ class Tried:
 
 def try_rubric(
     base_file: Path, samples_file: Path, *, rubric_file: Path | None, ranges_file: Path | None
-) -> list[Tried]:
+) -> list[TrialResult]:
     """Grade sample works made from the base.
 
     Raises:
@@ -77,7 +77,9 @@ def try_rubric(
     marker = Marker(Register("trial", 1, base.source, rubric, (book,)))
     solved = _Solved(assignment, handout_bytes(assignment, identifier))
     return [
-        Tried(sample, float(marker.mark(_handed(sample, rubric), solved.book(sample))["points"]))
+        TrialResult(
+            sample, float(marker.mark(_handed(sample, rubric), solved.book(sample))["points"])
+        )
         for sample in samples
     ]
 
@@ -137,7 +139,7 @@ class _Solved:
             self._book[cell.sheet].cell(cell.row, cell.column).value = value
 
     def book(self, sample: Sample) -> bytes:
-        """The work of a sample."""
+        """Return the work of a sample."""
         changes: dict[Cell, Content] = {}
         for item in self.assignment.items:
             for names, change in (

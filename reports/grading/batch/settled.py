@@ -23,7 +23,7 @@ _KEYS = ("points", "raw", "manual", "doubts")
 
 
 def settled(program: Result, shown: Result, state: State, doubts: Sequence[str]) -> Result:
-    """The result for readers: what is held has no points until a person has decided.
+    """Return the result for readers: what is held has no points until a person has decided.
 
     Args:
         program: the result as the program has made it.
@@ -46,7 +46,7 @@ def settled(program: Result, shown: Result, state: State, doubts: Sequence[str])
 
 
 def as_graded(result: Result) -> Result:
-    """The result as the program has made it, whatever has been decided since."""
+    """Return the result as the program has made it, whatever has been decided since."""
     itself = result.pop(_ITSELF, None)
     if itself is None:
         return result
@@ -64,19 +64,19 @@ def is_settled(result: Result) -> bool:
 
 
 def result_text(result: dict[str, Any]) -> str:
-    """A result as a file."""
+    """Return a result as a file."""
     return json.dumps(result, ensure_ascii=False, allow_nan=False, sort_keys=True) + "\n"
 
 
 def plain_row(row: dict[str, Any]) -> dict[str, Any]:
-    """A row of the gradebook as plain data, with the items that only a person can judge."""
+    """Return a row of the gradebook as plain data, with the items that only a person can judge."""
     items = row["result"].items if row["result"] else ()
     unknown = [item.id for item in items if item.verdict == UNKNOWN]
     return {key: value for key, value in row.items() if key != "result"} | {"unknown": unknown}
 
 
 def file_stem(result: dict[str, Any], *, number_only: bool) -> str:
-    """A file name that depends on the submission alone; it may tell no name."""
+    """Return a file name that depends on the submission alone; it may tell no name."""
     mark = hashlib.sha256(result["key"].encode()).hexdigest()[:6]
     if number_only:
         return f"{result['number'] or 0:03d}-{mark}"

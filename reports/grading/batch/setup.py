@@ -9,6 +9,8 @@ from typing import Any
 
 from reports.grading.batch.pool import TIMEOUT_S
 
+Effect = tuple[str, float | None, float | None]  # whom, points before and after
+
 
 @dataclass(frozen=True, slots=True)
 class GradeSetup:
@@ -38,7 +40,7 @@ class Graded:
     summary: dict[str, Any]
     reused: int
     seconds: float
-    effects: Sequence[tuple[str, float | None, float | None]] = ()  # whom, points before and after
+    effects: Sequence[Effect] = ()
 
     @property
     def needs_a_person(self) -> bool:

@@ -120,7 +120,7 @@ class Assignment:
         return all(map(_is_constant, _outcomes(tree)))
 
     def _is_idle(self, node: str, readers: Sequence[str]) -> bool:
-        """Whether a helper serves nothing but marks and remarks, or a drawing alike for all."""
+        """Tell whether a helper column feeds no graded value."""
         if readers and all(map(self._is_fixed, readers)):
             return True
         return all(
@@ -129,7 +129,7 @@ class Assignment:
 
     @cached_property
     def points(self) -> Mapping[str, float]:
-        """Points of each item; together they make the maximum of the rubric."""
+        """Points of each item; together they make what the rubric gives for the book."""
         raw = dict(self._usual_points)
         blocks: dict[str, list[Item]] = {}
         for item in self.items:
@@ -145,7 +145,7 @@ class Assignment:
             if "." in pattern:
                 raw.update({id_: value for id_ in raw if fnmatchcase(id_, pattern)})
         total = sum(raw.values())
-        scale = self.rubric.maximum / total if total else 0.0
+        scale = self.rubric.calculated / total if total else 0.0
         return {id_: value * scale for id_, value in raw.items()}
 
     @cached_property
@@ -194,7 +194,7 @@ class Assignment:
         return replace(self.model, blocks=self.blocks)
 
     def with_model(self, model: Model) -> Assignment:
-        """The same tables for a model with the same blocks."""
+        """Return the same tables for a model with the same blocks."""
         other = Assignment(model, self.rubric, self.fill, self.given)
         for name in _SHARED:
             other.__dict__[name] = getattr(self, name)
@@ -209,7 +209,7 @@ class Assignment:
         return nodes_of(block)
 
     def length(self, node: str) -> int:
-        """Number of values of a node."""
+        """Return number of values of a node."""
         return len(self.model.tables[node.split(".", maxsplit=1)[0]].rows) if "." in node else 1
 
     @cached_property
@@ -284,7 +284,7 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     check("minimum.tables", rubric.minimum.tables, sorted(filled), "заполняемой таблицы")
     check("needs", rubric.needs, known, what)
     check("needs", (name for needed in rubric.needs.values() for name in needed), known, what)
-    if not problems and assignment.rubric.maximum and not sum(assignment.points.values()):
+    if not problems and assignment.rubric.calculated and not sum(assignment.points.values()):
         hint = "исправьте [points] или [work]"
         problems.append(Problem(source, "ни один столбец не оценивается", hint))
     if problems:
@@ -345,7 +345,7 @@ def _items(block: Block) -> Iterator[Item]:
 
 
 def _is_mark(column: Column) -> bool:
-    """A column that only marks where an extreme lies: nobody would make it by hand."""
+    """Return a column that only marks where an extreme lies: nobody would make it by hand."""
     return column.helper and column.quantity.digits.hides == "unused"
 
 
@@ -360,7 +360,7 @@ def _is_copy(text: str) -> bool:
 
 
 def _outcomes(tree: ast.expr) -> Iterator[ast.expr]:
-    """What a formula may come to, whatever its conditions say."""
+    """Tell what a formula may come to, whatever its conditions say."""
     if isinstance(tree, ast.IfExp):
         yield from _outcomes(tree.body)
         yield from _outcomes(tree.orelse)
@@ -401,7 +401,7 @@ def _scalar_item(block: str, scalar: Scalar) -> Item:
 
 
 def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
-    """The model in which tables that repeat a filled one at a phase are read from that one.
+    """Return the model in which tables that repeat a filled one at a phase are read from that one.
 
     The forces of cylinder 2 are those of cylinder 1 some degrees later: given as numbers
     they would be the answers, given by the same formulas they would be the textbook.
@@ -434,7 +434,7 @@ def _count_changed(shifted: TableSpec, table: TableSpec) -> int:
 
 
 def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation) -> TableSpec:
-    """A table with those columns read from another that are the same at the phase."""
+    """Return a table with those columns read from another that are the same at the phase."""
     step = own.rows[1] - own.rows[0] if len(own.rows) > 1 else 0.0
     if not step or not np.allclose(np.diff(own.rows), step):
         return table
@@ -473,7 +473,7 @@ def states(
     known: dict[str, str] = {}
 
     def outside(node: str) -> frozenset[str]:
-        """What a node refers to; rows that follow from those before them refer in circles."""
+        """Tell what a node refers to; rows that follow from those before them refer in circles."""
         table = model.whole_tables.get(node)
         if table is None:
             return graph.references(node)

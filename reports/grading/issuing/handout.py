@@ -104,17 +104,17 @@ class _HandoutWriter(BlockWriter):
 
 
 def anchor_name(table: str, index: int) -> str:
-    """Defined name of a column's header cell, by which the column is found again."""
+    """Return defined name of a column's header cell, by which the column is found again."""
     return f"col_{table}_{index + 1}"
 
 
 def cell_name(key: str) -> str:
-    """Defined name of a scalar's cell where the solved book has none."""
+    """Return defined name of a scalar's cell where the solved book has none."""
     return f"cell_{key}"
 
 
 def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
-    """The work-book of one student."""
+    """Return the work-book of one student."""
     full = assignment.model
     layout = Layout.of(full)
     check_names(layout)
@@ -152,7 +152,7 @@ def _given_values(assignment: Assignment) -> Values:
 
 
 def _charts(assignment: Assignment) -> tuple[ChartSpec, ...]:
-    """The charts whose tables are all in the work-book."""
+    """Return the charts whose tables are all in the work-book."""
     kept = {block.id for block in assignment.blocks}
     sheets = {block.sheet for block in assignment.blocks}
     return tuple(
@@ -219,7 +219,7 @@ def _anchors(book: Workbook, model: Model, layout: Layout) -> None:
 
 
 def _identify(book: Workbook, ticket: str) -> None:
-    """The identifier as a cell, a defined name and a property: one of them survives."""
+    """Write the identifier as a cell, a defined name and a property: one of them survives."""
     sheet = book[CONTENTS_SHEET]
     row = sheet.max_row + 2
     sheet.cell(row, 1, TICKET_TITLE).style = styles.TEXT
@@ -239,7 +239,7 @@ def input_mark(value: object) -> str:
 
 
 def _mark_inputs(book: Workbook, model: Model) -> None:
-    """Marks by which the student is told that input data were changed."""
+    """Write marks by which the student is told that input data were changed."""
     texts = [""]
     for name, item in model.fields.items():
         entry = f"{name}={input_mark(shown(item))}"
@@ -345,7 +345,7 @@ def _is_given_anyway(node: str, assignment: Assignment) -> bool:
 
 
 def _digits(values: Iterable[float], count: int) -> set[str]:
-    """The first digits of numbers without sign and point; short and round ones tell nothing.
+    """Return the first digits of numbers without sign and point; short and round ones tell nothing.
 
     Nor does what is left of the cosine of 90°.
     """
@@ -396,7 +396,7 @@ def _of_scalars(
 
 
 def _is_round(digits: set[str]) -> bool:
-    """Whether digits are those that the number of a row may have: 1.06, and row 106."""
+    """Tell whether the digits could be a row number."""
     return all(len(text.rstrip("0")) < _DIGITS for text in digits)
 
 

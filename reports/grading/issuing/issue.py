@@ -73,7 +73,7 @@ class Variant:
 
 
 def load_base(path: Path, beside: Path | None = None) -> Base:
-    """A base file with its section [variants], or with the ranges in a file beside it.
+    """Return a base file with its section [variants], or with the ranges in a file beside it.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -109,7 +109,7 @@ def variant_key(drawn: Mapping[str, float | int | str]) -> str:
 def draw_variants(
     base: Base, students: Sequence[str], seed: int, taken: Iterable[str] = ()
 ) -> list[Variant]:
-    """A variant for each student, the same for the same seed and student; none is ``taken``.
+    """Return a variant for each student, the same for the same seed and student; none is ``taken``.
 
     Raises:
         InputError: the ranges do not give enough different variants that pass the check.
@@ -135,7 +135,7 @@ def draw_variants(
 
 
 def _draw(base: Base, rng: random.Random, taken: set[str]) -> Variant | str:
-    """A variant that nobody has, or why one of those tried is none."""
+    """Return a variant that nobody has, or why one of those tried is none."""
     why = ""
     for values in _values(base.ranges, rng):
         variant = _variant(base, values, taken)
@@ -158,7 +158,7 @@ def _values(
 
 
 def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -> Variant | str:
-    """The variant, or why the check does not accept it; nothing where it is taken."""
+    """Return the variant, or why the check does not accept it; nothing where it is taken."""
     drawn = {item.key: value for item, value in zip(base.ranges, values, strict=True)}
     if variant_key(drawn) in taken:
         return ""
@@ -203,8 +203,11 @@ def issue(
     ranges_file: Path | None = None,
     secret_file: Path | None = None,
     jobs: int = 1,
+    tries: int | None = None,
 ) -> Result:
     """Issue a variant to each student; ``jobs`` processes write the books, 0 one a processor.
+
+    ``tries`` takes the place of the rubric's.
 
     Raises:
         InputError: everything that is wrong with the files.
@@ -213,6 +216,9 @@ def issue(
     base = load_base(base_file, ranges_file)
     roster = roster_of(roster_file)
     rubric = load_rubric(rubric_file)
+    if tries is not None:
+        attempts = rubric.attempts.model_copy(update={"tries": tries})
+        rubric = rubric.model_copy(update={"attempts": attempts})
     source = rubric_file.name if rubric_file is not None else "рубрика по умолчанию"
     assignment_of(build_model(base.loaded.model), rubric, source)
     _refuse_foreign(folder)
@@ -254,7 +260,7 @@ class Handouts:
     _first: Assignment | None = None
 
     def __call__(self, book: Issued) -> bytes:
-        """The work-book of a student.
+        """Return the work-book of a student.
 
         Raises:
             InputError: it would hold answers.
@@ -299,7 +305,7 @@ def _write(folder: Path, book: Issued, data: bytes) -> None:
 
 
 def _slug(name: str) -> str:
-    """A file name that no system minds."""
+    """Return a file name that no system minds."""
     return re.sub(r"[^a-z0-9]+", "-", latin(name)).strip("-")[:60] or "student"
 
 
@@ -316,14 +322,14 @@ def _refuse_foreign(folder: Path) -> None:
 
 
 def _refuse_own(read: Path | None, folder: Path) -> None:
-    """A new issue takes the folder's place: what it is made from must not lie there."""
+    """Refuse a source inside the folder that a new issue replaces."""
     if read is not None and folder.resolve() in read.resolve().parents and folder.is_dir():
         what = "файл лежит в папке выдачи и пропал бы вместе с прежней выдачей"
         raise InputError(Problem(str(read), what, "укажите другую папку ключом -o"))
 
 
 def _refuse_inside(secret: Path, folder: Path) -> None:
-    """The secret must not go out with the work-books."""
+    """Refuse a secret that would go out with the work-books."""
     if folder.resolve() in secret.resolve().parents:
         what = "секрет не должен лежать в папке выдачи"
         raise InputError(Problem(str(secret), what, "укажите другое место ключом --secret"))

@@ -80,7 +80,7 @@ def listings(path: Path) -> list[RosterListing]:
 
 
 def refused(path: Path, what: str, hint: str) -> InputError:
-    """The error of a file that is no list."""
+    """Return the error of a file that is no list."""
     return InputError(Problem(path.name, what, hint))
 
 
@@ -107,7 +107,7 @@ def _csv_lines(path: Path, text: str) -> list[RosterLine]:
 
 
 def _text(path: Path, data: bytes) -> str:
-    """The text of a list in the one encoding that gives Russian words."""
+    """Return the text of a list in the one encoding that gives Russian words."""
     try:
         return data.decode("utf-16" if kind_of(data) == UTF16 else "utf-8-sig")
     except UnicodeDecodeError:
@@ -228,7 +228,7 @@ def _fault(cell: ReadOnlyCell, source: ReadOnlyCell) -> str:
 
 
 def _shown(cell: ReadOnlyCell) -> str:
-    """The text of a cell as its sheet shows it."""
+    """Return the text of a cell as its sheet shows it."""
     value = cell.value
     if not isinstance(value, (int, float)):
         return str(value or "")

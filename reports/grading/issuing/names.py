@@ -108,7 +108,7 @@ def twin(text: str) -> str:
 
 
 def foreign_letters(text: str) -> str:
-    """The Latin letters of words that are Cyrillic otherwise, and the other way round."""
+    """Return the Latin letters of words that are Cyrillic otherwise, and the other way round."""
     letters = ""
     for word in re.findall(r"[^\W\d_]+", text):
         latin_ones = [char for char in word if "LATIN" in unicodedata.name(char, "")]

@@ -49,7 +49,7 @@ def secret_path(given: Path | None) -> Path:
 
 
 def read_secret(path: Path) -> bytes:
-    """The secret.
+    """Return the secret.
 
     Raises:
         InputError: it is missing or is none.
@@ -72,12 +72,12 @@ def _no_secret(path: Path) -> Problem:
 
 
 def kept_secret(path: Path) -> bytes:
-    """The secret of a file, a new one where there is none; InputError if it is none."""
+    """Return the secret of a file, a new one where there is none; InputError if it is none."""
     return read_secret(path) if path.exists() else make_secret(path)
 
 
 def make_secret(path: Path) -> bytes:
-    """A new secret in a file that only its owner can read.
+    """Return a new secret in a file that only its owner can read.
 
     Raises:
         InputError: the file cannot be written.
@@ -96,7 +96,7 @@ def make_secret(path: Path) -> bytes:
 
 
 def ticket(secret: bytes, *, batch: str, student: str, file: str, variant: Any) -> str:  # noqa: ANN401
-    """Identifier of one issued work-book: 120 bits of an HMAC-SHA256 in capital letters."""
+    """Return identifier of one issued work-book: 120 bits of an HMAC-SHA256 in capital letters."""
     message = json.dumps([batch, student, file, variant], ensure_ascii=False, sort_keys=True)
     digest = hmac.new(secret, message.encode(), hashlib.sha256).digest()
     return "K" + base64.b32encode(digest[:15]).decode("ascii")
@@ -141,7 +141,7 @@ class Register:
         return hashlib.sha256(" ".join(book.ticket for book in self.books).encode()).hexdigest()
 
     def json_text(self) -> str:
-        """The register as a file."""
+        """Return the register as a file."""
         data = {
             "format": "kshm-register",
             "version": VERSION,
@@ -156,7 +156,7 @@ class Register:
         return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
 
     def csv_text(self) -> str:
-        """A table to look at: who got what."""
+        """Return a table to look at: who got what."""
         stream = io.StringIO()
         writer = csv.writer(stream, delimiter=";", lineterminator="\n")
         keys = list(self.books[0].drawn)
@@ -184,12 +184,12 @@ class Register:
 
 
 def ticket_of(secret: bytes, batch: str, student: Student, file: str, raw: dict[str, Any]) -> str:
-    """Identifier of a student's work-book."""
+    """Return identifier of a student's work-book."""
     return ticket(secret, batch=batch, student=student.id, file=file, variant=raw)
 
 
 def load_register(folder: Path) -> Register:
-    """The register of a folder that ``kshm issue`` made.
+    """Return the register of a folder that ``kshm issue`` made.
 
     Raises:
         InputError: there is none, or it is damaged.
@@ -233,7 +233,7 @@ def _issued(book: dict[str, Any]) -> Issued:
 
 
 def checked_register(issued: Path, secret_file: Path | None) -> Register:
-    """The register, proved to be the one that was issued with the secret.
+    """Return the register, proved to be the one that was issued with the secret.
 
     Raises:
         InputError: it is not.

@@ -31,7 +31,7 @@ class Reissue:
 
 
 def reissue(folder: Path, batch: str, secret: Path, students: Sequence[Student]) -> Reissue:
-    """What an earlier issue in a folder leaves to be issued.
+    """Tell what an earlier issue in a folder leaves to be issued.
 
     A student keeps number, file, variant and identifier; one who comes back gets his own again.
 

@@ -134,12 +134,12 @@ class _List:
         return {key: cells[i] if i < len(cells) else "" for key, i in self.columns.items()}
 
     def text(self, line: RosterLine) -> str:
-        """What stands under the heads of names."""
+        """Tell what stands under the heads of names."""
         given = self.given(line)
         return " ".join(given[key] for key in (*_SURNAMES, "name") if given.get(key))
 
     def where(self, line: RosterLine) -> str:
-        """The cell of a surname, for messages."""
+        """Return the cell of a surname, for messages."""
         return self.listing.place(
             line, next(self.columns[k] for k in _SURNAMES if k in self.columns)
         )
@@ -198,7 +198,7 @@ def _continues(head: RosterLine, line: RosterLine) -> bool:
 
 
 def _unmarked(line: RosterLine, columns: dict[str, int]) -> RosterLine:
-    """A line whose names have no number, bullet or other sign before and behind them."""
+    """Return a line whose names have no number, bullet or other sign before and behind them."""
     cells = list(line.cells)
     for index in {columns[key] for key in _SURNAMES if key in columns}:
         if index < len(cells):
@@ -248,7 +248,7 @@ def _joined(
 
 
 def _together(cells: Sequence[str]) -> str:
-    """A name whose parts stand in several cells; a remark is none of them."""
+    """Return a name whose parts stand in several cells; a remark is none of them."""
     return " ".join([*filter(None, cells[:1]), *filter(_is_name, cells[1:])])
 
 
@@ -354,7 +354,7 @@ def _students(headed: _List) -> list[Student]:
 
 
 def _student(headed: _List, line: RosterLine) -> Student | Problem:
-    """The student of a line, or what is wrong with it."""
+    """Return the student of a line, or what is wrong with it."""
     given, where = headed.given(line), headed.where(line)
     surname, name = _named(given)
     own = headed.columns.get("extension")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from datetime import date, datetime
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from reports.formula.parse import FormulaError, parse
@@ -20,6 +20,7 @@ Share = Annotated[float, Field(ge=0, le=1)]
 Positive = Annotated[float, Field(gt=0)]
 Points = Annotated[float, Field(ge=0, le=1e6)]
 Name = Annotated[str, Field(min_length=1, max_length=100)]
+PartName = Annotated[str, Field(pattern=r"^[^\W\d_][\w -]{0,39}$")]
 Letters = Annotated[str, Field(pattern=r"^[A-Z]{0,3}$")]
 _WANTED = {
     "less_than_equal": "нужно число от 0 до 1",
@@ -37,6 +38,7 @@ _WANTED = {
     "model_type": "нужен раздел",
     "string_type": "нужен текст",
     "missing": "ключ обязателен",
+    "parts": "части [parts] вместе не больше maximum",
     "formula": "нужна формула на языке таблиц: r_crank*(1 - cos(rad(phi_deg)))",
     "string_pattern_mismatch": "нужны буквы столбца или адрес ячейки: B, E12",
     "string_too_short": "нужен текст",
@@ -106,7 +108,7 @@ class Late(_Section):
     @field_validator("deadline", mode="before")
     @classmethod
     def _with_its_hour(cls, value: object) -> object:
-        """A day alone would end as it begins: who hands in on that day would be late."""
+        """Refuse a day alone: it would end as it begins."""
         if type(value) is date:
             raise PydanticCustomError("datetime_parsing", "no hour")
         return value
@@ -136,9 +138,14 @@ class Message(_Section):
 
 
 class Attempts(_Section):
-    """[attempts]: which of several files counts."""
+    """[attempts]: which of several files counts, and how many a student may hand in.
+
+    With ``tries`` the server says at once how many columns are right; 0 sets no limit and says
+    nothing.
+    """
 
     count: Literal["last", "best"] = "last"
+    tries: Annotated[int, Field(ge=0, le=20)] = 0
 
 
 class Copying(_Section):
@@ -164,7 +171,7 @@ class MarkScale(_Section):
     none: Annotated[str, Field(max_length=20)] = "2"
 
     def mark(self, points: float) -> str:
-        """The mark for points."""
+        """Return the mark for points."""
         reached = [(least, mark) for mark, least in self.marks.items() if points >= least]
         return max(reached)[1] if reached else self.none
 
@@ -188,11 +195,12 @@ class Feedback(_Section):
 
 
 class Rubric(_Section):
-    """All rules."""
+    """All rules; ``parts`` are what a person marks beside the book: note, defence, sheet."""
 
     maximum: Positive = 100.0
     work: WorkTables = WorkTables()
     points: dict[str, Points] = {}
+    parts: dict[PartName, Positive] = {}
     credit: Credit = Credit()
     formulas: Formulas = Formulas()
     tolerance: ToleranceRules = ToleranceRules()
@@ -206,9 +214,20 @@ class Rubric(_Section):
     form: Form = Form()
     feedback: Feedback = Feedback()
 
+    @property
+    def calculated(self) -> float:
+        """Points of the book: what a person's parts leave of the maximum."""
+        return self.maximum - sum(self.parts.values())
+
+    @model_validator(mode="after")
+    def _leaves_points(self) -> Self:
+        if self.calculated < 0:
+            raise PydanticCustomError("parts", "more than the maximum")
+        return self
+
 
 def load_rubric(path: Path | None) -> Rubric:
-    """The rubric of a file, or the defaults.
+    """Return the rubric of a file, or the defaults.
 
     Raises:
         InputError: everything that is wrong with the file.
@@ -227,7 +246,7 @@ def load_rubric(path: Path | None) -> Rubric:
 
 
 def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
-    """The rubric of a mapping.
+    """Return the rubric of a mapping.
 
     Raises:
         InputError: everything that is wrong with it.

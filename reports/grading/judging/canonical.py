@@ -1,4 +1,4 @@
-"""Formulas of a sheet as trees that do not tell manners of writing from each other.
+"""Canonical trees: formulas that differ in notation alone are equal.
 
 Addresses and names become the nodes that they stand for, helper cells the formulas in them;
 RADIANS, ROUND, SQRT, POWER, brackets, the order of summands and factors, 3.1416 for π make no
@@ -28,12 +28,12 @@ _COMPARED = ("=", "<>", "<", ">", "<=", ">=")
 
 
 def num(value: float) -> Tree:
-    """A number to three digits: 57.3 stands for 180/π."""
+    """Return a number to three digits: 57.3 stands for 180/π."""
     return ("num", float(f"{value:.3g}") if isfinite(value) else 0.0)
 
 
 def add(*terms: Tree) -> Tree:
-    """A sum without brackets, in the order of the alphabet."""
+    """Return a sum without brackets, in the order of the alphabet."""
     flat: list[Tree] = []
     known = 0.0
     for term in terms:
@@ -48,7 +48,7 @@ def add(*terms: Tree) -> Tree:
 
 
 def mul(*factors: Tree) -> Tree:
-    """A product without brackets: equal factors as one power, numbers as one."""
+    """Return a product without brackets: equal factors as one power, numbers as one."""
     powers: dict[Tree, float] = {}
     known = 1.0
     stack = list(factors)
@@ -70,7 +70,7 @@ def mul(*factors: Tree) -> Tree:
 
 
 def power(base: Tree, exponent: Tree) -> Tree:
-    """A power; that of a product is the product of powers."""
+    """Return a power; that of a product is the product of powers."""
     if exponent[0] != "num":
         return ("pow", base, exponent)
     n = exponent[1]
@@ -101,7 +101,7 @@ _CALLS: dict[str, Callable[..., Tree]] = {
 
 @dataclass
 class Reader:
-    """Cells of a book, as far as a tree asks for them.
+    """Resolve references while a tree is built.
 
     Attributes:
         node_at: sheet, row and column → node and index of its value, None outside the tables.
@@ -134,7 +134,7 @@ class Reader:
     def cell(
         self, sheet: str, row: int, column: int, index: int, depth: int, *, fixed: bool
     ) -> Tree:
-        """What a reference to one cell stands for."""
+        """Tell what a reference to one cell stands for."""
         known = self.node_at(sheet, row, column)
         if known is not None:
             node, number, count = known
@@ -328,7 +328,7 @@ def leaves(tree: Tree) -> Iterator[str]:
 
 
 def subtrees(tree: Tree) -> Iterator[Tree]:
-    """A tree and all trees in it."""
+    """Return a tree and all trees in it."""
     yield tree
     for part in tree[1:]:
         if isinstance(part, tuple):

@@ -73,7 +73,7 @@ class Causes:
         )
 
     def find(self, judgement: Judgement) -> str:
-        """The cause in words, empty where none fits."""
+        """Return the cause in words, empty where none fits."""
         item, values = judgement.item, judgement.values
         finite = values[np.isfinite(values)]
         if not finite.size:
@@ -91,7 +91,7 @@ class Causes:
         return rows_text(judgement, rows, self._explained(judgement, rows)) if rows else cause
 
     def _as_written(self, item: Item, cause: str) -> str:
-        """The same cause in the words of what the student has written."""
+        """Return the same cause in the words of what the student has written."""
         runs = [run for node in item.nodes for run in self.student.runs(node)]
         formulas = [run.formula for run in runs if run.formula is not None]
         if cause in _OF_SIGN and any(map(squares_a_minus, formulas)):
@@ -114,7 +114,7 @@ class Causes:
         return False
 
     def _common(self, judgement: Judgement) -> str:
-        """A cause that all values have in common."""
+        """Return a cause that all values have in common."""
         finite = judgement.values[np.isfinite(judgement.values)]
         if not finite.any():  # anything small enough is nought
             return "все значения равны нулю" if len(judgement.values) > 1 else "получен нуль"
@@ -124,7 +124,7 @@ class Causes:
         return "" if few else self._explained(judgement)
 
     def _explained(self, judgement: Judgement, rows: Sequence[int] = ()) -> str:
-        """The first usual mistake that gives the values, or those of some rows."""
+        """Return the first usual mistake that gives the values, or those of some rows."""
         item, values = judgement.item, judgement.values
         known = self._known(judgement)
         for base in [known, {}] if known else [{}]:
@@ -188,7 +188,7 @@ class Causes:
         return True
 
     def _elsewhere(self, item: Item) -> list[Scene]:
-        """What the formulas of an item give for the trials, where it can be calculated.
+        """Tell what the formulas of an item give for the trials, where it can be calculated.
 
         The input data that are alike for the class are varied where no number of the formulas
         may stand for them.
@@ -213,7 +213,7 @@ class Causes:
         return {}
 
     def _known(self, judgement: Judgement) -> dict[str, object]:
-        """The student's own earlier values, where they are not the right ones."""
+        """Return the student's own earlier values, where they are not the right ones."""
         nodes = frozenset().union(*(self.student.precedents(n) for n in judgement.item.nodes))
         known = known_values(self.student.answers, nodes - set(judgement.item.nodes))
         return known if any(self._is_off(node, value) for node, value in known.items()) else {}
@@ -264,7 +264,7 @@ class Causes:
         return self._rewritten(item, scene.run, change)
 
     def _inputs(self, item: Item) -> Iterator[Attempt]:
-        """An input of the formula taken for its result."""
+        """Return an input of the formula taken for its result."""
         fields = self.student.assignment.model.fields
         for name in sorted(self._names(item.nodes[0])):
             if name in fields and isinstance(fields[name].value, (int, float)):
@@ -273,7 +273,7 @@ class Causes:
                 yield f"{title} вместо {item.symbol}", partial(_one, name)
 
     def _typed_in(self, item: Item, scene: Scene, fits: Callable[[Array], bool]) -> Iterator[str]:
-        """A wrong number that stands in the formulas for what the textbook's refers to."""
+        """Return a wrong number that stands in the formulas for what the textbook's refers to."""
         graph, model = self.student.assignment.graph, self.student.assignment.model
         names_ = frozenset().union(*map(graph.references, item.nodes))
         names_ -= frozenset().union(*map(self.student.refers, item.nodes))
@@ -289,7 +289,7 @@ class Causes:
                     yield f"{symbol}: вписано число {short(number)}, а у вас {short(right)}"
 
     def _moved_reference(self, item: Item) -> str:
-        """A reference to one cell that was filled down without its $."""
+        """Return a reference to one cell that was filled down without its $."""
         grid, placement = self.student.grid, self.student.placement
         single = {
             (location.sheet, location.column, location.rows[0]): name
@@ -310,7 +310,7 @@ class Causes:
         return parse(self.student.assignment.graph.expression(node) or "0")
 
     def _text(self, node: str) -> str:
-        """The formula of a node, as changed ones are spelt."""
+        """Return the formula of a node, as changed ones are spelt."""
         if node not in self._texts:
             self._texts[node] = ast.unparse(self._tree(node))
         return self._texts[node]
@@ -408,12 +408,12 @@ class Causes:
 
 
 def _times(factor: float, scene: Scene) -> Array:
-    """The right values so many times."""
+    """Return the right values so many times."""
     return scene.right * factor
 
 
 def _one(name: str, scene: Scene) -> Array:
-    """The value of an input or a scalar."""
+    """Return the value of an input or a scalar."""
     return np.array([float(scene.run.value(name))])
 
 
@@ -424,7 +424,7 @@ def _at_rows(node: str, rows: NDArray[np.intp], scene: Scene) -> Array | None:
 
 
 def _greatest(node: str, scene: Scene) -> Array | None:
-    """The largest of a column, None where there is none."""
+    """Return the largest of a column, None where there is none."""
     value = scene.run.value(node)
     if isinstance(value, str) or not np.isfinite(value).any():
         return None

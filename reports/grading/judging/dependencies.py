@@ -47,7 +47,7 @@ Judgements = dict[str, Judgement]
 
 
 @dataclass(frozen=True, slots=True)
-class Grounds:
+class Precedents:
     """Circular nodes of a work, and those of them that pass numbers on."""
 
     student: StudentBook
@@ -57,15 +57,17 @@ class Grounds:
     hidden: frozenset[str]  # circular with other input data only
 
     @classmethod
-    def of(cls, judgements: Judgements, student: StudentBook, response: FormulaResponse) -> Grounds:
-        """The grounds of items that are judged by themselves."""
+    def of(
+        cls, judgements: Judgements, student: StudentBook, response: FormulaResponse
+    ) -> Precedents:
+        """Return the grounds of items that are judged by themselves."""
         circular = circles(student)
         hidden = _hidden_circles(judgements, student, response) - circular
         return cls(student, response, circular, calculated(student, circular), hidden)
 
 
-def on_circles(judgements: Judgements, grounds: Grounds) -> None:
-    """A circle is no result."""
+def on_circles(judgements: Judgements, grounds: Precedents) -> None:
+    """Take circles for no result."""
     for id_, judgement in judgements.items():
         at = grounds.circular & set(judgement.item.nodes)
         if at and judgement.verdict != UNKNOWN:
@@ -75,14 +77,14 @@ def on_circles(judgements: Judgements, grounds: Grounds) -> None:
                                       reason=reason)  # fmt: skip
 
 
-def on_hidden_circles(judgements: Judgements, grounds: Grounds) -> None:
+def on_hidden_circles(judgements: Judgements, grounds: Precedents) -> None:
     """Leave to a person a circle that other input data close."""
     for id_, judgement in judgements.items():
         if judgement.paid > 0 and grounds.hidden & set(judgement.item.nodes):
             judgements[id_] = replace(judgement, verdict=UNKNOWN, paid=0.0, reason=_ROUND_ELSEWHERE)
 
 
-def without_ground(judgements: Judgements, grounds: Grounds) -> None:
+def without_ground(judgements: Judgements, grounds: Precedents) -> None:
     """Blanks and circles pass nothing on: what rests on them is no result."""
     student, void = grounds.student, set(grounds.circular - grounds.right)
     for judgement in judgements.values():
@@ -125,7 +127,7 @@ def _hidden_circles(
 def _reached(
     nodes: set[str], void: set[str], resting: frozenset[str], student: StudentBook
 ) -> set[str]:
-    """The blanks and circles nearest to some nodes, by way of what rests on them too."""
+    """Return the blanks and circles nearest to some nodes, by way of what rests on them too."""
     nearest: set[str] = set()
     seen = set(nodes)
     stack = list(nodes)
@@ -139,7 +141,7 @@ def _reached(
     return nearest
 
 
-def backwards(judgements: Judgements, grounds: Grounds) -> None:
+def backwards(judgements: Judgements, grounds: Precedents) -> None:
     """Nothing is earned by going back from what was typed in, given or is not calculated.
 
     A column that the textbook's way leads to must not be where its own values come from,
@@ -176,7 +178,7 @@ def backwards(judgements: Judgements, grounds: Grounds) -> None:
 
 
 def _going_back(judgement: Judgement, source: Judgement | None, student: StudentBook) -> str:
-    """The verdict on an item whose formulas take a later column, empty where they may.
+    """Return the verdict on an item whose formulas take a later column, empty where they may.
 
     What was not calculated at all gives nothing.  A formula that is wrong may be a mistake of
     one who knew another way: a person sees whether there is one.
@@ -192,7 +194,7 @@ def _going_back(judgement: Judgement, source: Judgement | None, student: Student
     return "" if later.isdisjoint(judgement.item.nodes) else UNKNOWN
 
 
-def carried(judgements: Judgements, grounds: Grounds) -> None:
+def carried(judgements: Judgements, grounds: Precedents) -> None:
     """Right formulas on earlier values that are wrong name the columns these came from.
 
     Roundings on the way, and values that are not known, are nobody's mistake.
@@ -246,7 +248,7 @@ class GroundRule:
     """A change of verdicts by what they rest on."""
 
     name: str
-    apply: Callable[[Judgements, Grounds], None]
+    apply: Callable[[Judgements, Precedents], None]
 
 
 GROUND_RULES = (

@@ -38,6 +38,8 @@ WORDS = {
 }
 
 
+PART = "part"  # block of the lines that a person marks: note, defence, sheet
+
 E = TypeVar("E")
 _MOST_LABELS = 8
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
@@ -55,8 +57,13 @@ def fault(error: Exception) -> str:
     return one_line(f"внутренняя ошибка проверки ({type(error).__name__}: {error})", _FAULT)
 
 
+def part_remark(names: Sequence[str]) -> str:
+    """What is said of parts that wait for a person's points."""
+    return "ставит преподаватель: " + ", ".join(names)
+
+
 def unread_remark(labels: Sequence[str]) -> str:
-    """What is said of a work some of whose items a person has to look at."""
+    """Tell what is said of a work some of whose items a person has to look at."""
     return "не удалось проверить: " + ", ".join(labels[:_MOST_LABELS])
 
 

@@ -137,7 +137,7 @@ def angles_of(student: StudentBook, node: str) -> tuple[float, ...]:
 
 
 def of_angles(value: float, angles: tuple[float, ...]) -> float | None:
-    """An angle, its sine or cosine with all digits, of which a number has the first ones."""
+    """Return an angle, its sine or cosine with all digits, of which a number has the first ones."""
     if not isfinite(value):
         return None
     known = _functions(angles)
@@ -179,7 +179,7 @@ def _changing(runs: Sequence[Run]) -> set[float]:
 
 
 def _number(text: str) -> float:
-    """A number as a formula tells it, NaN where it is a text or a cell."""
+    """Return a number as a formula tells it, NaN where it is a text or a cell."""
     try:
         return float(text)
     except ValueError:
@@ -187,7 +187,7 @@ def _number(text: str) -> float:
 
 
 def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:
-    """Runs that are a list of numbers, by ``id``: alike but for them, or full of them.
+    """Return runs that are a list of numbers, by ``id``: alike but for them, or full of them.
 
     With ``cells`` formulas that take other cells each are alike too: one may count by cells.
     """

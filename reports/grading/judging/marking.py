@@ -22,16 +22,24 @@ from reports.grading.judging.judgement import (
     UNKNOWN,
     Judgement,
     fault,
+    part_remark,
     unread_remark,
 )
 from reports.grading.judging.proven import Proofs
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.scoring import HandedIn, score
 from reports.grading.judging.spelling import chooses_a_number
-from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, traits_of
+from reports.grading.judging.traits import OwnFormulas, Textbook, pasted, texts_of, traits_of
 from reports.grading.judging.trial_evaluation import trials_of
+from reports.grading.judging.tries import spellings
 from reports.grading.judging.verdicts import NUMBERS_ALONE, judge_all
-from reports.grading.judging.works import feedback_line, formula_marks, is_verbatim, own_marks
+from reports.grading.judging.work_digest import (
+    feedback_line,
+    formula_marks,
+    is_verbatim,
+    own_marks,
+    part_line,
+)
 from reports.grading.reading.placement import address
 from reports.grading.reading.restoring import issued_formulas, leave_out_unused, restore
 from reports.grading.reading.student import StudentBook
@@ -63,7 +71,7 @@ T = TypeVar("T")
 
 
 def blank_result(submission: Submission) -> Result:
-    """The result of a file before anything is known about it."""
+    """Return the result of a file before anything is known about it."""
     return {
         "format": FORMAT,
         "key": submission.key,
@@ -121,7 +129,7 @@ class Marker:
         self._forms = Forms()
 
     def mark(self, submission: Submission, data: bytes) -> Result:
-        """The result of one file; whatever is wrong with it is part of the result."""
+        """Return the result of one file; whatever is wrong with it is part of the result."""
         result = blank_result(submission)
         result["sha256"] = hashlib.sha256(data).hexdigest()
         try:
@@ -147,7 +155,7 @@ class Marker:
         return result
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
-        """The tables of a student's work-book and where they were issued."""
+        """Return the tables of a student's work-book and where they were issued."""
         known = self._assignments.get(book.number)
         if known is None:
             first = self._first
@@ -177,7 +185,7 @@ class Marker:
         return _Tables(assignment, Layout.of(assignment.model), self.register)
 
     def refused(self, result: Result, submission: Submission, why: str) -> Result:
-        """The result of a file that cannot be graded."""
+        """Return the result of a file that cannot be graded."""
         _take_match(result, find_by_name(self.register, submission))
         result |= {"status": "refused", "reason": why}
         result["manual"].append(f"файл не принят: {why}")
@@ -188,7 +196,7 @@ class Marker:
         return FormulaResponse(student, self._tables(student.assignment).proofs)
 
     def student(self, book: Issued, grid: CellGrid, package: Package | None = None) -> StudentBook:
-        """The workbook under its assignment."""
+        """Return the workbook under its assignment."""
         student = StudentBook.of(*self.assignment(book), grid)
         student.package = package
         restore(student)
@@ -238,13 +246,20 @@ class Marker:
         unknown = [line["label"] for line in items if line["verdict"] == UNKNOWN]
         if unknown:
             result["manual"].append(unread_remark(unknown))
+        parts = self.register.rubric.parts
+        items += [part_line(name, points) for name, points in parts.items()]
+        if parts:
+            result["manual"].append(part_remark([*parts]))
 
     @staticmethod
     def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:
         """Marks and traits of a work for the comparison with others, and with the program."""
         result["formulas"] = formula_marks(student, tables.own)
+        if tables.register.rubric.attempts.tries:
+            result["spellings"] = spellings(student)
         own = OwnFormulas(student, tables.textbook)
         result["traits"] = traits_of(own, result["items"])
+        result["texts"] = texts_of(student, result["traits"])
         for text in _of_the_program(own, result["formulas"]):
             _doubt(result, text)
 
@@ -348,7 +363,7 @@ def _take_match(result: Result, match: Match) -> None:
 
 
 def _altered(student: StudentBook, package: Package) -> list[str]:
-    """The first of these cells, in the book as it was saved."""
+    """Return the first of these cells, in the book as it was saved."""
     return altered(student, read_grid(package) if student.changed else None)[:50]
 
 

@@ -81,7 +81,7 @@ _NAMELESS = SCALE_FUNCTIONS | SHIFTS | {"rad", "deg", "element", "col_last", "ro
 
 
 def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
-    """What may have become of the formula of a value of a block, the likeliest first."""
+    """Tell what may have become of the formula of a value of a block, the likeliest first."""
     used = names(ast.unparse(tree))
     texts = frozenset(name for name in used if _is_text(name, block, model))
 
@@ -133,7 +133,7 @@ def _is_text(name: str, block: str, model: Model) -> bool:
 
 
 def _columns(table: TableSpec, used: frozenset[str]) -> Iterator[Mistake]:
-    """A column of the same table and unit taken for one of the formula's."""
+    """Return a column of the same table and unit taken for one of the formula's."""
     for column in table.columns:
         for other in table.columns if column.key in used else ():
             if other is not column and other.quantity.unit == column.quantity.unit:
@@ -179,7 +179,7 @@ def symbol_of(name: str, block: str, model: Model) -> str:
 
 
 def _plain(tree: ast.expr, block: str, model: Model) -> str:
-    """A part of a formula in a line."""
+    """Return a part of a formula in a line."""
     return plain(ast.unparse(tree), lambda name: symbol_of(name, block, model))
 
 

@@ -20,11 +20,11 @@ Array = NDArray[np.float64]
 _LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A
 # By what the numbers are multiplied and what is added: noughts move too, roots and arcs have a
 # value for some, and what is cut off at a limit is not for all.
-_SHAKES = ((0.07, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3, 0.5))
+FACTORS = ((0.07, 0.0), (1.5, 0.0), (0.8, 1.0), (-1.0, -1.0), (0.1, 0.1), (-0.3, 0.5))
 
 
 @dataclass(frozen=True)
-class Shaking:
+class Perturbation:
     """A work on the right numbers of an engine; ``pins`` has them in its cells, not rounded."""
 
     student: StudentBook
@@ -63,17 +63,17 @@ class Shaking:
 
     def _shakes(self, names: Collection[str]) -> list[dict[str, Array]]:
         """Each cell otherwise than the one beside it, but the same whoever refers to it."""
-        shakes: list[dict[str, Array]] = [{} for _ in _SHAKES]
+        shakes: list[dict[str, Array]] = [{} for _ in FACTORS]
         for name, own in self._values(names).items():
             rng = np.random.default_rng(crc32(name.encode()))
-            for shake, (times, more) in zip(shakes, _SHAKES, strict=True):
+            for shake, (times, more) in zip(shakes, FACTORS, strict=True):
                 shake[name] = own * times * rng.uniform(0.8, 1.2, own.size) + more * rng.uniform(
                     1, 2, own.size
                 )
         return shakes
 
     def _steadied(self, shakes: Sequence[dict[str, Array]]) -> Iterator[dict[str, Array]]:
-        """The same with the angles and orders of the tables, and what follows as it follows.
+        """Return the same with the angles and orders of the tables, and what follows as it follows.
 
         A formula may look the greatest up among the others, or ask for the second order.
         """
@@ -89,7 +89,7 @@ class Shaking:
         return self.trial.expected.fork({n: v if "." in n else v[0] for n, v in changes.items()})
 
     def _values(self, names: Collection[str]) -> dict[str, Array]:
-        """The right numbers of nodes and inputs."""
+        """Return the right numbers of nodes and inputs."""
         return self._numbers(self.trial.expected, names)
 
     @staticmethod

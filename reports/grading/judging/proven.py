@@ -29,7 +29,7 @@ class Signatures:
     student: StudentBook
 
     def of(self, node: str) -> tuple[object, ...] | None:
-        """What a node's formulas are, None where they may do otherwise in another book.
+        """Tell what a node's formulas are, None where they may do otherwise in another book.
 
         All that they name must be found, and be cells that every book of the class holds alike.
         """
@@ -45,7 +45,7 @@ class Signatures:
         return tuple(parts)
 
     def _areas(self, run: Run) -> tuple[Area, ...] | None:
-        """The cells that a formula names, None where not all are known."""
+        """Return the cells that a formula names, None where not all are known."""
         formula = run.formula
         if formula is None or run.problem or run.array is not None:
             return None

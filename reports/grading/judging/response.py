@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.judgement import Rule, close, decide, distance, tolerance
 from reports.grading.judging.literal_tables import is_of_angles, listed, reads_a_list
-from reports.grading.judging.perturbation import Shaking
+from reports.grading.judging.perturbation import Perturbation
 from reports.grading.judging.proven import EXACT, Proofs, Signatures, settled
 from reports.grading.judging.trial_evaluation import Trial, Tryout, fixed, turned
 from reports.grading.reading.student import StudentBook
@@ -163,7 +163,7 @@ class FormulaResponse:
         return np.concatenate([self._fixed(node) for node in item.nodes])
 
     def _fixed(self, node: str, *, alike: bool = False) -> NDArray[np.bool_]:
-        """The same of a node, or where it is the same for the class alone."""
+        """Return the same of a node, or where it is the same for the class alone."""
         trials = [trial for trial in self.trials if trial.decides or not alike]
         return fixed(node, self.student.expected, trials)
 
@@ -190,10 +190,10 @@ class FormulaResponse:
         )
 
     @cached_property
-    def shaking(self) -> Shaking:
+    def shaking(self) -> Perturbation:
         """The work on nobody's variant: what tells its own from others is not seen."""
         pins = self.tryout.pins(self.trials[-1], rounded=False)  # small changes show
-        return Shaking(self.student, self.trials[-1], pins)
+        return Perturbation(self.student, self.trials[-1], pins)
 
     def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
@@ -340,7 +340,7 @@ class FormulaResponse:
         return evidence
 
     def _runs_at(self, node: str, lists: set[int]) -> Iterator[tuple[list[int], bool]]:
-        """Indices of the cells of each run, and whether it is one of a list."""
+        """Return indices of the cells of each run, and whether it is one of a list."""
         rows = self.student.placement.places[node].rows
         index = {row: i for i, row in enumerate(rows) if row is not None}
         for run in self.student.runs(node):

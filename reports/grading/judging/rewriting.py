@@ -32,7 +32,7 @@ def _is_sum(tree: ast.AST) -> bool:
 
 
 def brackets(tree: ast.expr) -> list[str]:
-    """Sums in brackets by which a formula multiplies or divides, with a power or without."""
+    """Return sums in brackets by which a formula multiplies or divides, with a power or without."""
     bases: dict[str, None] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
@@ -68,7 +68,7 @@ class WithoutSummand(ast.NodeTransformer):
         self.wanted: ast.AST = ast.Constant(0)
 
     def changed(self, tree: ast.expr) -> ast.AST:
-        """The formula without it."""
+        """Return the formula without it."""
         terms = summands(tree)
         self.wanted = terms[self.number] if self.number < len(terms) else self.wanted
         return self.visit(tree)
@@ -90,7 +90,7 @@ class WithoutFactor(ast.NodeTransformer):
         return ast.unparse(node) == self.text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other side of a product, one in the place of what is divided."""
+        """Return the other side of a product, one in the place of what is divided."""
         if isinstance(node.op, (ast.Mult, ast.Div)):
             if self._is(node.right):
                 return self.visit(node.left)  # type: ignore[no-any-return]
@@ -107,7 +107,7 @@ class WithoutPower(ast.NodeTransformer):
         self.text = text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The name or function alone."""
+        """Return the name or function alone."""
         self.generic_visit(node)
         named = ast.unparse(node.left) == self.text
         return node.left if isinstance(node.op, ast.Pow) and named else node
@@ -120,19 +120,19 @@ class Squared(ast.NodeTransformer):
         self.text = text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """What has a power keeps it."""
+        """Keep what has a power as it is."""
         return node if is_power(node) else self.generic_visit(node)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
-        """The name of a table is no quantity."""
+        """Pass by the name of a table: it is no quantity."""
         return node
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
-        """The square of a name."""
+        """Return the square of a name."""
         return self._squared(node)
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The square of a function."""
+        """Return the square of a function."""
         node.args = [self.visit(argument) for argument in node.args]
         return self._squared(node)
 
@@ -145,7 +145,7 @@ class WithoutRoot(ast.NodeTransformer):
     """Leaves the root out."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """What stands under it."""
+        """Tell what stands under it."""
         self.generic_visit(node)
         rooted = isinstance(node.func, ast.Name) and node.func.id == "sqrt"
         return node.args[0] if rooted else node
@@ -155,7 +155,7 @@ class SumOfSizes(ast.NodeTransformer):
     """Adds the sizes of two sides instead of the root of the sum of their squares."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The sum of the sizes."""
+        """Return the sum of the sizes."""
         self.generic_visit(node)
         match node:
             case ast.Call(
@@ -177,7 +177,7 @@ class WithoutFunction(ast.NodeTransformer):
         self.name = name
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """What stands in its brackets."""
+        """Tell what stands in its brackets."""
         self.generic_visit(node)
         named = isinstance(node.func, ast.Name) and node.func.id == self.name
         return node.args[0] if named and len(node.args) == 1 else node
@@ -187,7 +187,7 @@ class SingleAngle(ast.NodeTransformer):
     """Takes an angle for its double in the sines and cosines."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The ratio of the angle itself."""
+        """Return the ratio of the angle itself."""
         if isinstance(node.func, ast.Name) and node.func.id in ("sin", "cos"):
             node.args = [WithoutNumber(2.0).visit(argument) for argument in node.args]
         return node
@@ -200,7 +200,7 @@ class LowerPower(ast.NodeTransformer):
         self.text = text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The lower power."""
+        """Return the lower power."""
         self.generic_visit(node)
         exponent = exponent_of(node)
         if exponent > LEAST and ast.unparse(node.left) == self.text:
@@ -209,7 +209,7 @@ class LowerPower(ast.NodeTransformer):
 
 
 def exponent_of(node: ast.AST) -> float:
-    """The number that something is raised to, 1 where there is no such."""
+    """Return the number that something is raised to, 1 where there is no such."""
     if is_power(node) and isinstance(node.right, ast.Constant):
         value = node.right.value
         return float(value) if isinstance(value, (int, float)) else 1.0
@@ -220,7 +220,7 @@ class Swapped(ast.NodeTransformer):
     """Swaps the arguments of atan2, whose order a spreadsheet has the other way round."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The function with its arguments in the other order."""
+        """Return the function with its arguments in the other order."""
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id == "atan2":
             node.args = node.args[::-1]
@@ -228,7 +228,7 @@ class Swapped(ast.NodeTransformer):
 
 
 def otherwise(tree: ast.expr) -> ast.expr:
-    """The formula of what no condition picks: few tell the vector of nought apart."""
+    """Return the formula of what no condition picks: few tell the vector of nought apart."""
     return otherwise(tree.orelse) if isinstance(tree, ast.IfExp) else tree
 
 
@@ -239,11 +239,11 @@ class OtherPi(ast.NodeTransformer):
         self.value = ast.Constant(value)
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
-        """The rough π."""
+        """Return the rough π."""
         return self.value if node.id == "pi" else node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """An angle turned into radians or degrees by it."""
+        """Return an angle turned into radians or degrees by it."""
         self.generic_visit(node)
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if name not in ("rad", "deg"):
@@ -257,7 +257,7 @@ class WithoutPowers(ast.NodeTransformer):
     """Takes the power of a number from what stands in brackets."""
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The bracket alone."""
+        """Return the bracket alone."""
         self.generic_visit(node)
         squared = isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant)
         return node.left if squared and isinstance(node.left, ast.BinOp) else node
@@ -270,7 +270,7 @@ class OtherExponent(ast.NodeTransformer):
         self.more = more
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other exponent."""
+        """Return the other exponent."""
         self.generic_visit(node)
         if not isinstance(node.op, ast.Pow):
             return node
@@ -289,7 +289,7 @@ class WithoutNumber(ast.NodeTransformer):
         self.value = value
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other side."""
+        """Return the other side."""
         self.generic_visit(node)
         if isinstance(node.op, (ast.Mult, ast.Div)):
             for side, other in ((node.right, node.left), (node.left, node.right)):
@@ -316,7 +316,7 @@ class OtherRatio(ast.NodeTransformer):
         self.number, self.seen, self._OTHER = number, -1, other or self._COS
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The other ratio of the same angle."""
+        """Return the other ratio of the same angle."""
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in self._OTHER:
             self.seen += 1
@@ -329,7 +329,7 @@ class NoRadians(ast.NodeTransformer):
     """Leaves the conversion out."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """The angle as it is."""
+        """Return the angle as it is."""
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id == "rad":
             return node.args[0]
@@ -343,7 +343,7 @@ class Renamed(ast.NodeTransformer):
         self.old, self.new = old, new
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
-        """What is taken."""
+        """Tell what is taken."""
         return parse(self.new) if node.id == self.old else node
 
 
@@ -354,7 +354,7 @@ class Flipped(ast.NodeTransformer):
         self.number, self.pair, self.seen = number, {one: other, other: one}, -1
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """The other operation."""
+        """Return the other operation."""
         self.generic_visit(node)
         other = self.pair.get(type(node.op))
         if other is not None:

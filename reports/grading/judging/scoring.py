@@ -10,7 +10,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT
+from reports.grading.judging.judgement import CARRIED, EMPTY, PART, RIGHT
 from reports.grading.reading.submissions import CLOCKS, MOODLE
 from reports.shared.russian import short
 
@@ -27,9 +27,9 @@ class HandedIn:
 
 
 def score(result: Result, rubric: Rubric, handed: HandedIn) -> None:
-    """The points of a result from those of its lines, and what takes them away."""
+    """Set the points of a result from those of its lines, and what takes them away."""
     lines = result["items"]
-    paid = [line for line in lines if line["of"] > 0]
+    paid = [line for line in lines if line["of"] > 0 and line.get("block") != PART]
     result["filled"] = _filled(paid)
     result["maximum"] = rubric.maximum
     result["enough"] = result["filled"] >= rubric.minimum.filled

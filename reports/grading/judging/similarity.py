@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from reports.grading.judging.rings import Ring, who
-from reports.grading.judging.works import Work, is_verbatim
+from reports.grading.judging.collusion import Ring, who
+from reports.grading.judging.work_digest import Work, is_verbatim
 
 Works = Sequence[Work]
 
@@ -83,7 +83,7 @@ def _same_files(results: Works) -> list[str]:
 
 
 def _same_values(graded: Works) -> list[str]:
-    """The same wrong values where the right ones differ, pair by pair."""
+    """Return the same wrong values where the right ones differ, pair by pair."""
     by_mark: dict[tuple[str, str], list[tuple[str, Work]]] = {}
     for result in graded:
         for line, right in result.rights:

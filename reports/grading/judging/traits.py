@@ -17,10 +17,10 @@ from typing import Any
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.judging.canonical import Reader, Tree, leaves, subtrees
 from reports.grading.judging.judgement import EMPTY, WRONG
-from reports.grading.judging.works import Trait, idle_steps
+from reports.grading.judging.work_digest import Trait, idle_steps
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
-from reports.recalculation.formulas import Formula, Token, UnknownFormula
+from reports.recalculation.formulas import Formula, Token, UnknownFormula, render
 from reports.recalculation.grid import Run
 from reports.workbook.layout import Layout
 
@@ -28,6 +28,7 @@ FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT, NAME = (
     "form", "slip", "error", "idle", "helper", "text", "layout", "name",
 )  # fmt: skip
 _MOST_HELPERS = 300  # runs outside the tables that are looked at
+_LONGEST = 300  # signs of a formula that a person compares
 _PASTED = 6  # formulas of the program on a sheet that green cells only refer to
 _TELLING = 6  # tokens of a formula that may tell who wrote it
 _MOST_NAMES = 100  # sets of names for which trees are kept
@@ -229,6 +230,17 @@ def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trai
         else:
             traits.append((FORM, item.id, mark, spelt, _manner(trees, right) or item.id))
     return [*traits, *_idle_traits(idle), *_helper_traits(own), *_name_traits(own)]
+
+
+def texts_of(student: StudentBook, traits: Sequence[Trait]) -> dict[str, str]:
+    """Return the formulas of the items of some traits as they stand in their first rows."""
+    telling = {item for _, item, *_ in traits}
+    texts = {}
+    for item in student.assignment.items:
+        run = _main(student.runs(item.nodes[0])) if item.id in telling else None
+        if run is not None and run.formula is not None:
+            texts[item.id] = render(run.formula.pattern, run.first, run.column)[:_LONGEST]
+    return texts
 
 
 def _idle_traits(idle: Sequence[tuple[str, list[str], str]]) -> list[Trait]:

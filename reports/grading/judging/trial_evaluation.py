@@ -63,7 +63,7 @@ class Trial:
 
 
 def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tuple[Trial, ...]:
-    """The sets for a class, the same for the same seed."""
+    """Return the sets for a class, the same for the same seed."""
     rng = random.Random(seed)
     values = _varied(assignment, books)
     trials = [_first(assignment, _others(values, rng), decides=True)]
@@ -100,7 +100,7 @@ def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.boo
 def _first(
     assignment: Assignment, draws: Iterator[dict[str, float]], *, decides: bool
 ) -> Trial | None:
-    """The first draw for which the engine can be calculated."""
+    """Return the first draw for which the engine can be calculated."""
     own = Evaluation(assignment.model)
     nodes = [node for item in assignment.items for node in item.nodes]
     for _, inputs in zip(range(_TRIES), draws, strict=False):
@@ -203,7 +203,7 @@ def _everything(
 def known_numbers(
     fields: Mapping[str, Field], trials: Sequence[Trial]
 ) -> dict[float, tuple[str, float]]:
-    """Number → the input that it is, and how many of its units one of the book's has."""
+    """Return number → the input that it is, and how many of its units one of the book's has."""
     wanted: dict[float, tuple[str, float]] = {}
     drawn = trials[0].inputs if trials else {}
     names = sorted({name for trial in trials for name in trial.inputs})
@@ -284,7 +284,7 @@ class Tryout:
         return results
 
     def pins(self, trial: Trial, *, rounded: bool) -> PinnedGrid:
-        """The work with the right values of a trial in the cells of inputs and nodes."""
+        """Return the work with the right values of a trial in the cells of inputs and nodes."""
         key = (id(trial), rounded)
         if key not in self._pins:
             own = {} if rounded else self._full_constants
@@ -297,7 +297,7 @@ class Tryout:
         return self._pins[key]
 
     def _numbers(self, trial: Trial, columns: Iterable[tuple[str, int]]) -> Iterator[Cells]:
-        """The cells of some columns with the numbers of a trial."""
+        """Return the cells of some columns with the numbers of a trial."""
         return (part for column in columns for part in self._cells(trial, *column)[0])
 
     def _cells(self, trial: Trial, sheet: str, column: int) -> tuple[list[Cells], list[Cells]]:
@@ -335,7 +335,7 @@ class Tryout:
         return Trial({}, self.student.expected, decides=True)
 
     def alone(self, item: Item) -> Array | None:
-        """What the formulas of an item give where all that they refer to is right.
+        """Tell what the formulas of an item give where all that they refer to is right.
 
         So a mistake is told apart from those that were made before it.
         """
@@ -355,7 +355,7 @@ class Tryout:
             yield cells
 
     def _inputs(self, trial: Trial) -> list[Cells]:
-        """The cells of the input data, and the student's own that repeat them."""
+        """Return the cells of the input data, and the student's own that repeat them."""
         cells = [c for name, turned in trial.angles.items() for c in self._angles(name, turned)]
         for name, value in trial.inputs.items():
             cells += self.student.cells_of(name, value)
@@ -421,7 +421,7 @@ class Tryout:
         )
 
     def _full(self, value: float) -> float:
-        """A number with all digits of what it has the first ones of."""
+        """Return a number with all digits of what it has the first ones of."""
         exact = of_angles(value, self._all_angles)
         near = exact is not None and abs(exact - value) <= _FOUR
         return exact if near and exact is not None else full(value)

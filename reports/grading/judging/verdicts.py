@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging import response as say
-from reports.grading.judging.dependencies import GROUND_RULES, Grounds
+from reports.grading.judging.dependencies import GROUND_RULES, Precedents
 from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
@@ -35,7 +35,7 @@ from reports.grading.judging.response import FormulaResponse
 from reports.grading.reading.circularity import filled_copy
 from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
-from reports.recalculation.evaluate import BLANK, ERROR, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, TEXT
 from reports.recalculation.formulas import UnknownFormula
 
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
@@ -48,12 +48,6 @@ _BY_CHANCE = (
 _ENOUGH = 0.5  # share of right rows from which a column is paid by rows, of formulas among numbers
 # How a cell that is not right is called, the worst first.
 _WORST = (STILL, WRONG, BROKEN, EMPTY, TYPED)
-_ERRORS = {
-    "#DIV/0!": "#ДЕЛ/0! — деление на ноль", "#N/A": "#Н/Д — значение не найдено",
-    "#VALUE!": "#ЗНАЧ! — в вычислении текст", "#REF!": "#ССЫЛКА! — ссылка на удалённую ячейку",
-    "#NUM!": "#ЧИСЛО! — вычислить нельзя", "#NAME?": "#ИМЯ? — неизвестное имя",
-    "#CIRC!": "круговая ссылка", "#NULL!": "#ПУСТО! — области не пересекаются",
-}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +70,7 @@ def judge_all(student: StudentBook, response: FormulaResponse) -> Verdicts:
     judgements = {item.id: _judged(item, student, response) for item in items}
     faults: tuple[str, ...] = ()
     try:
-        grounds = Grounds.of(judgements, student, response)
+        grounds = Precedents.of(judgements, student, response)
     except Exception as error:
         return Verdicts(list(judgements.values()), (fault(error),))
     for rule in GROUND_RULES:
@@ -208,7 +202,7 @@ class ItemEvidence:
         return decide(CELL_RULES, self.cells(unlinked=self.unlinked), len(self.letters))
 
     def cells(self, *, unlinked: bool) -> CellEvidence:
-        """The evidence of each cell."""
+        """Return the evidence of each cell."""
         # A nought typed in among formulas is one; a column typed in is numbers throughout.
         among = len(self.formulas) >= _ENOUGH * len(self.letters)
         letters = np.array(list(self.letters))
@@ -337,7 +331,7 @@ def _by_chance(e: ItemEvidence) -> Judgement | None:
 
 
 def _by_cells(e: ItemEvidence) -> Judgement:
-    """The verdict that most cells have, but numbers in disguise before all others."""
+    """Return the verdict that most cells have, but numbers in disguise before all others."""
     counts, total = Counter(e.words), len(e.words)
     if counts.keys() == {RIGHT}:
         return replace(e.judgement, paid=1.0, typed=(), coarse=say.ROUNDED in e.letters)
@@ -400,7 +394,7 @@ def _reason(verdict: str, words: Sequence[str], kinds: str, letters: str, *, unl
 
 
 def _judge_text(item: Item, student: StudentBook, answer: Answer) -> Judgement:
-    """A result in words is compared as words."""
+    """Compare a result in words as words."""
     nothing, location, (node,) = np.full(1, np.nan), answer.location, item.nodes
     judgement = Judgement(item, WRONG, nothing, nothing, (0,))
     if location is None or location.rows[0] is None or answer.problem:
@@ -435,7 +429,7 @@ def _is_linked(item: Item, student: StudentBook) -> bool:
 
 
 def own_values(item: Item, student: StudentBook, precedents: frozenset[str] | None) -> Array:
-    """The textbook's formula on the student's own values of the cells that are referred to.
+    """Return the textbook's formula on the student's own values of the cells that are referred to.
 
     Cells that the formula does not refer to are calculated from those that it does:
     a student may skip a helper column.
@@ -459,5 +453,5 @@ def shown_errors(item: Item, student: StudentBook) -> str:
             if location is not None and row is not None:
                 text = student.engine.shown(location.sheet, location.column, row)
                 if isinstance(text, str) and text.startswith("#"):
-                    errors.setdefault(_ERRORS.get(text, text))
+                    errors.setdefault(ERROR_WORDS.get(text, text))
     return ", ".join(errors)

@@ -69,7 +69,7 @@ def explain(
 
 
 def _find_issued(file: Path) -> Path:
-    """The nearest folder with a register: here, beside the file or above it."""
+    """Return the nearest folder with a register: here, beside the file or above it."""
     for folder in (Path(), *file.resolve().parents):
         for candidate in (folder, folder / "issued"):
             if (candidate / FILE).is_file():

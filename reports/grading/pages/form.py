@@ -151,7 +151,7 @@ def _number(mark: str) -> int | str:
 
 
 def _general(what: str, students: Sequence[Row]) -> Value:
-    """What stands once in a form: the group, the date, how many; else the text itself."""
+    """Tell what stands once in a form: the group, the date, how many; else the text itself."""
     groups = ", ".join(sorted({row["group"] for row in students if row["group"]}))
     known: dict[str, Value] = {
         "группа": groups,

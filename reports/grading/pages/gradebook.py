@@ -34,7 +34,7 @@ _LARGE = 42  # students on one page; more take two, as many as these hold
 
 
 def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
-    """The gradebook: a row a student, a column a table; opens in Excel as it is."""
+    """Return the gradebook: a row a student, a column a table; opens in Excel as it is."""
     stream = io.StringIO()
     writer = csv.writer(stream, delimiter=";", lineterminator="\n")
     blocks = _blocks(rows)
@@ -58,7 +58,7 @@ def gradebook_csv(rows: Sequence[dict[str, Any]], maximum: float) -> str:
 
 
 def whole_remark(row: Mapping[str, Any]) -> str:
-    """The remark on a work with what it shares with others: for the teacher."""
+    """Return the remark on a work with what it shares with others: for the teacher."""
     return "; ".join(filter(None, (row["remark"], row.get("similar"))))
 
 

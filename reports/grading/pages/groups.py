@@ -7,10 +7,11 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from reports.grading.judging.judgement import UNKNOWN, unread_remark
-from reports.grading.judging.rings import Ring
-from reports.grading.judging.works import Work
+from reports.grading.judging.collusion import Ring
+from reports.grading.judging.judgement import PART, UNKNOWN, part_remark, unread_remark
+from reports.grading.judging.work_digest import Work
 
+_PARTS = part_remark(())  # each student has points of his own
 NAME = re.compile(r"Г-[0-9A-F]{6}")
 _NUMBERS = re.compile(r"\d+([.,]\d+)?")
 
@@ -43,7 +44,7 @@ def groups_of(
         decided = {entry["item"] for entry in work.decisions}
         marks = {trait[1]: trait[2] for trait in work.traits}
         for line in work.items:
-            if line.verdict != UNKNOWN or line.id in decided:
+            if line.verdict != UNKNOWN or line.id in decided or line.block == PART:
                 continue
             spelt = line.formula[0] if line.formula else line.sample
             key = line.id, f"{marks.get(line.id, spelt)} {line.reason}"
@@ -63,8 +64,9 @@ def groups_of(
 def _whole(work: Work, doubts: Sequence[str], rings: Sequence[Ring]) -> list[tuple[str, str]]:
     """What a person has to say about a whole work: words that are the same for a group, and why."""
     # Of its items each is asked about for itself.
-    unread = unread_remark([line.label for line in work.items if line.verdict == UNKNOWN])
-    reasons = [text for text in work.manual if text != unread]
+    unknown = [line for line in work.items if line.verdict == UNKNOWN]
+    unread = unread_remark([line.label for line in unknown if line.block != PART])
+    reasons = [text for text in work.manual if text != unread and not text.startswith(_PARTS)]
     texts = dict.fromkeys([*doubts, *reasons])
     lines = []
     for ring in rings:

@@ -27,7 +27,7 @@ _SIDE = (320, 170)  # px of a comment
 
 
 def marked_copy(data: bytes, result: dict[str, Any], rubric: Rubric) -> bytes:
-    """The book with its cells coloured by verdict and a comment at each column."""
+    """Return the book with its cells coloured by verdict and a comment at each column."""
     with warnings.catch_warnings(action="ignore"):  # of what a copy does not need
         book = load_workbook(io.BytesIO(data), rich_text=True)
     left, looks = _MOST_CELLS, dict[tuple[Any, ...], Any]()
@@ -61,7 +61,7 @@ def _fill(cell: Any, colour: str, looks: dict[tuple[Any, ...], Any]) -> None:  #
 
 
 def _words(line: dict[str, Any], rubric: Rubric) -> str:
-    """What is said of an item at its first cell."""
+    """Tell what is said of an item at its first cell."""
     parts = [f"{line['label']}: {WORDS[line['verdict']]}"]
     if line["of"]:
         parts.append(f"баллы {points(line['points'])} из {points(line['of'])}")

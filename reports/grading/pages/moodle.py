@@ -66,7 +66,7 @@ def check_upload(path: Path, kind: str) -> None:
 
 
 def read_worksheet(path: Path) -> str:
-    """The text of a worksheet.
+    """Return the text of a worksheet.
 
     Raises:
         InputError: it cannot be read, or is none.
@@ -186,7 +186,7 @@ def _of_line(line: Sequence[str], at: Mapping[str, int]) -> dict[str, str]:
 
 
 def _words(name: str) -> str:
-    """A name whichever part of it stands first."""
+    """Return a name whichever part of it stands first."""
     return " ".join(sorted(name.casefold().replace("ё", "е").split()))
 
 

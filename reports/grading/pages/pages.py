@@ -13,7 +13,7 @@ from markupsafe import Markup, escape
 from kshm.nomenclature.digits import Digits
 from reports.document.text.symbols import with_indices
 from reports.grading.issuing.rubric import Rubric
-from reports.grading.judging.judgement import UNKNOWN, WORDS
+from reports.grading.judging.judgement import PART, UNKNOWN, WORDS
 from reports.grading.pages.gradebook import with_points
 from reports.grading.pages.states import State, state_of_result
 from reports.shared.resources import templates_dir
@@ -51,7 +51,8 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
     full = rubric.feedback.mode == "full"
     lines = [_line(line, full) for line in result.get("items", [])]
     labels = {line["id"]: line["label"] for line in lines}
-    wrong = [line for line in lines if line["verdict"] not in ("right", "carried")]
+    wrong = [line for line in lines
+             if line["verdict"] not in ("right", "carried") and line["block"] != PART]  # fmt: skip
     rank = {word: number for number, word in enumerate(WORDS)}
     wrong.sort(key=lambda line: (rank[line["verdict"]], -(line["of"] - line["points"])))
     empty = [
@@ -112,8 +113,8 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def class_page(summary: dict[str, Any]) -> str:
-    """The summary of a class."""
-    shown = {"decided": (), **summary}
+    """Return the page of a class."""
+    shown = {"decided": (), "compared": (), **summary}
     return _environment().get_template("summary.html.j2").render(summary=shown, words=WORDS)
 
 
@@ -135,7 +136,7 @@ def _chart(line: dict[str, Any], full: bool) -> Markup:
 
 
 def number(value: float | None, digits: Mapping[str, Any] | None = None) -> str:
-    """A number as Russian print has it, with a digit more than the book."""
+    """Return a number as Russian print has it, with a digit more than the book."""
     if value is None:
         return "—"
     return short(value) if digits is None else written(value, Digits(**digits), more=1)
@@ -147,7 +148,7 @@ def points(value: float) -> str:
 
 
 def moment(text: str) -> str:
-    """A time as people write it: 05.12.2026 10:00."""
+    """Return a time as people write it: 05.12.2026 10:00."""
     return datetime.fromisoformat(text).strftime("%d.%m.%Y %H:%M")
 
 
@@ -158,11 +159,19 @@ def rows(labels: list[str], limit: int = 14) -> str:
     return f"{text} и ещё {len(named) - limit}" if len(named) > limit else text
 
 
+def compared_page(
+    names: Sequence[str], lines: Sequence[Mapping[str, Any]], text: str, bits: float, more: int
+) -> str:
+    """Return the page of works beside each other, for the teacher alone."""
+    template = _environment().get_template("compared.html.j2")
+    return template.render(names=names, lines=lines, text=text, bits=bits, more=more)
+
+
 # --- curves --------------------------------------------------------------------------------------
 
 
 def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tuple[str, str]) -> str:
-    """The chart's SVG; gaps where there is no number, one line where ``right`` is None."""
+    """Return the chart's SVG; gaps where there is no number, one line where ``right`` is None."""
     known = [v for line in (own, right or ()) for v in line if v is not None]
     if not known or len(x) < 2:
         return ""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.document.text.symbols import indexed
+from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.formula.plain import plain
 from reports.grading.issuing.assignment import Assignment, Item
@@ -27,6 +28,8 @@ Array = NDArray[np.float64]
 COUNT = 5  # questions for a student
 _MORE = 1.1  # an input is made larger by a tenth
 _TELLING = 0.005  # change of a value that is worth a question
+_DIGITS = (3, 4, 5, 6, 8, 10)  # of operands, as few as give the printed answer
+_WAVES = frozenset(("sin", "cos", "tan"))
 _DEAD = 180.0  # degrees between the dead centres
 
 
@@ -87,7 +90,7 @@ class _Maker:
             return None
         if abs(values[at]) <= abs(values[near]) * (1 + _TELLING):
             return None
-        name = f"{item.indexed} ({item.title})"
+        name = self._called(item)
         word = "наибольшее" if values[at] > 0 else "наименьшее"
         text = (
             f"Почему {name} принимает {word} значение при φ = {short(angles[at])}°, а не в мёртвой "
@@ -96,7 +99,7 @@ class _Maker:
         answer = (
             f"{self._is(item, values[at])} при {short(angles[at])}° и "
             f"{self._is(item, values[near])} при {short(angles[near])}°. {self._formula(item)}"
-            f"{self._beside(item, table, at, near)}"
+            f"{self._reason(item, at, near)}{self._beside(item, table, at, near)}"
         )
         return Question("largest", item.id, text, answer)
 
@@ -112,7 +115,7 @@ class _Maker:
             return None
         at = chance.choice(turns)
         text = (
-            f"Между какими углами около φ = {short(angles[at])}° {item.indexed} ({item.title}) "
+            f"Между какими углами около φ = {short(angles[at])}° {self._called(item)} "
             "меняет знак и что в формуле его меняет?"
         )
         turned = [
@@ -120,7 +123,7 @@ class _Maker:
             for node, own in self._columns_of(item, table)
             if own[at - 1] * own[at] < 0
         ]
-        why = f" Знак меняет: {', '.join(turned)}." if turned else ""
+        why = f" Знак меняет: {', '.join(turned)}." if turned else self._reason(item, at, at - 1)
         answer = (
             f"Между {short(angles[at - 1])}° ({self._is(item, values[at - 1])}) и "
             f"{short(angles[at])}° ({self._is(item, values[at])}). {self._formula(item)}{why}"
@@ -128,7 +131,7 @@ class _Maker:
         return Question("sign", item.id, text, answer)
 
     def change(self, item: Item, chance: random.Random) -> Question | None:
-        """What becomes of a value when an input is larger."""
+        """Tell what becomes of a value when an input is larger."""
         before = self._peak(item, self.run)
         inputs = [
             name
@@ -136,7 +139,7 @@ class _Maker:
             if (field := self.model.fields.get(name)) is not None
             and isinstance(field.value, float)
             and field.value > 0
-            and field.unit
+            and field.unit not in ("", "°")  # an angle of the layout is no quantity of so much
             and field.title.casefold() != item.title.casefold()
         ]
         if not before or not inputs or self._is_copy(item):
@@ -151,7 +154,7 @@ class _Maker:
         what = "наибольшее по модулю значение " if item.is_column else ""
         title = uncapital(field.title)
         text = (
-            f"Как изменится {what}{item.indexed} ({item.title}), если увеличить на 10 % величину "
+            f"Как изменится {what}{self._called(item)}, если увеличить на 10 % величину "
             f"«{title}» ({short(float(value))} {field.unit}), а остальное оставить?"
         )
         word = "вырастет" if share > 0 else "уменьшится"
@@ -162,16 +165,77 @@ class _Maker:
         return Question("change", item.id, text, answer)
 
     def substitution(self, item: Item, chance: random.Random) -> Question | None:
-        """A row calculated by hand."""
+        """Return a row calculated by hand."""
         column = self._column(item)
         if column is None:
             return None
-        table, values, angles = column
-        at = chance.choice(np.flatnonzero(_clear(values)).tolist() or [0])
+        _, values, angles = column
+        rows = np.flatnonzero(_clear(values)).tolist() or [0]
+        at = chance.choice(rows)
+        operands = self._operands(item, at, float(values[at]))
+        if operands is None:
+            return None
         where = f"φ = {short(angles[at])}°"
-        text = f"Подставьте числа и получите {item.indexed} ({item.title}) при {where}."
-        answer = f"{self._is(item, values[at])}. {self._formula(item)}"
-        return Question("substitution", item.id, text, answer + self._beside(item, table, at, at))
+        text = f"Подставьте числа и получите {self._called(item)} при {where}."
+        answer = f"{self._is(item, values[at])}. {self._formula(item)} Числа: {operands}."
+        return Question("substitution", item.id, text, answer)
+
+    def _operands(self, item: Item, at: int, value: float) -> str | None:
+        """What stands in a formula in a row, in so many digits that they give what is printed."""
+        node = item.nodes[0]
+        expression = self.assignment.graph.expression(node) or "0"
+        known = {name: self._in_row(name, node, at) for name in sorted(names(expression))}
+        numbers = {name: number for name, number in known.items() if number is not None}
+        if len(numbers) < len(known):
+            return None
+        printed = written(value + 0.0, item.quantity.digits)
+        for digits in _DIGITS:
+            rounded = {name: float(f"{number:.{digits}g}") for name, number in numbers.items()}
+            with np.errstate(all="ignore"):
+                result = float(np.ravel(evaluate_tree(parse(expression), rounded.__getitem__))[0])
+            if np.isfinite(result) and written(result + 0.0, item.quantity.digits) == printed:
+                return "; ".join(
+                    f"{self._symbol(node_of(name, item.block, self.model))} = "
+                    f"{short(number, digits)}"
+                    for name, number in rounded.items()
+                )
+        return None
+
+    def _in_row(self, name: str, node: str, at: int) -> float | None:
+        """The number of a name of a formula in a row, None where it is a text or a whole column."""
+        value = self.run.values_for(node)(name)
+        if isinstance(value, str):
+            return None
+        numbers = np.ravel(np.asarray(value, dtype=float))
+        is_row = numbers.size == np.size(self.run.value(node))
+        return float(numbers[at if is_row else 0]) if is_row or numbers.size == 1 else None
+
+    def _reason(self, item: Item, at: int, other: int) -> str:
+        """What in a formula makes most of the difference between two rows."""
+        node = item.nodes[0]
+        tree = parse(self.assignment.graph.expression(node) or "0")
+
+        def in_rows(part: ast.expr) -> tuple[float, float]:
+            with np.errstate(all="ignore"):
+                value = evaluate_tree(part, self.run.values_for(node))
+            rows = np.broadcast_to(np.asarray(value, dtype=float), (len(item.labels),))
+            return float(rows[at]), float(rows[other])
+
+        part = _decisive(tree, in_rows)
+        if part is tree:
+            return ""
+        first, second = (short(number, 4) for number in in_rows(part))
+        text = plain(
+            ast.unparse(part), lambda name: self._symbol(node_of(name, item.block, self.model))
+        )
+        return f" Решает {text}: {first} против {second}."
+
+    def _called(self, item: Item) -> str:
+        """An item with its title, and its sheet where other sheets have one of the same symbol."""
+        twins = {other.block for other in self.assignment.items if other.symbol == item.symbol}
+        table = self.model.tables.get(item.block)
+        where = f", лист «{table.sheet}»" if table is not None and len(twins) > 1 else ""
+        return f"{item.indexed} ({item.title}{where})"
 
     # --- what the tables say ----------------------------------------------------------------
 
@@ -206,7 +270,7 @@ class _Maker:
         return columns
 
     def _beside(self, item: Item, table: TableSpec, at: int, other: int) -> str:
-        """What the formula reads in two rows."""
+        """Tell what the formula reads in two rows."""
         parts = []
         for node, values in self._columns_of(item, table):
             digits = self.model.nodes[node].quantity.digits
@@ -234,6 +298,29 @@ class _Maker:
         unit = item.quantity.unit_label
         space = "" if unit == "°" else " "
         return f"{written(float(value) + 0.0, item.quantity.digits)}{space}{unit}".strip()
+
+
+def _decisive(tree: ast.expr, in_rows: Callable[[ast.expr], tuple[float, float]]) -> ast.expr:
+    """Return the term or factor of a formula whose values in two rows differ most."""
+    while True:
+        parts: list[ast.expr] = []
+        if isinstance(tree, ast.UnaryOp):
+            parts = [tree.operand]
+        elif isinstance(tree, ast.Call) and ast.unparse(tree.func) not in _WAVES:
+            parts = list(tree.args)
+        elif isinstance(tree, ast.BinOp):
+            parts = [tree.left, tree.right]
+        is_sum = isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Add | ast.Sub)
+        changes = [_change(*in_rows(part), is_sum=is_sum) for part in parts]
+        if not parts or max(changes) <= _TELLING:
+            return tree
+        tree = parts[changes.index(max(changes))]
+
+
+def _change(first: float, second: float, *, is_sum: bool) -> float:
+    """How much two values differ: what a term adds, by what share a factor changes."""
+    size = max(abs(first), abs(second))
+    return abs(first - second) if is_sum or not size else abs(first - second) / size
 
 
 def _clear(values: Array) -> Array:

@@ -9,10 +9,12 @@ from statistics import mean, median
 from typing import Any
 
 from reports.grading.issuing.register import Register
+from reports.grading.issuing.rubric import Attempts
+from reports.grading.judging.collusion import Ring
 from reports.grading.judging.judgement import CARRIED, EMPTY, RIGHT, TYPED, UNKNOWN, WRONG
-from reports.grading.judging.rings import Ring
 from reports.grading.judging.similarity import signals, suspicions
-from reports.grading.judging.works import Work
+from reports.grading.judging.tries import in_order, words_of_all
+from reports.grading.judging.work_digest import Work
 from reports.grading.pages.groups import WaitingGroup, groups_of
 from reports.grading.pages.pages import moment
 from reports.grading.pages.states import State, state_of
@@ -23,12 +25,15 @@ _BESIDE = (".doc", ".docx", ".odt", ".rtf", ".txt", ".md", ".pdf", ".jpg", ".jpe
            ".dwg", ".dxf", ".cdw", ".frw", ".pptx", ".xmcd", ".html")  # fmt: skip
 _NOBODYS = {"number": None, "group": "", "id": "", "email": "", "moodle_id": "", "points": None,
             "provisional": None, "manual": True, "doubts": (), "decision": None}  # fmt: skip
+LAST = Attempts()
 _BAR = 160  # px of the longest bar
 _STEPS = 10
 
 
-def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
-    """The result that counts for each student: of several graded files the last or the best.
+def choose(results: Sequence[Work], attempts: Attempts = LAST) -> dict[int, Work]:
+    """Return the result that counts for each student: of several graded files the last or the best.
+
+    Of files beyond the tries that a student has none counts.
 
     Of files of the same time, as in one zip, none is the last: the best counts.  One's own file
     comes before one that came under another's name.
@@ -40,16 +45,27 @@ def choose(results: Sequence[Work], count: str = "last") -> dict[int, Work]:
         return (
             result.submitter is None,
             result.status == "graded",
-            points if count == "best" else 0.0,
+            points if attempts.count == "best" else 0.0,
             result.time,
             points,
             result.key,
         )
 
+    late = {work.key for tries in tries_of(results).values() for work in tries[attempts.tries :]}
     for result in sorted(results, key=order):
-        if result.number is not None:
+        beyond = bool(attempts.tries) and result.key in late
+        if result.number is not None and not beyond:
             chosen[result.number] = result
     return chosen
+
+
+def tries_of(results: Sequence[Work]) -> dict[int, list[Work]]:
+    """Tell what each student has handed in under the own name, in order."""
+    tries: dict[int, list[Work]] = {}
+    for work in results:
+        if work.number is not None and work.submitter is None:
+            tries.setdefault(work.number, []).append(work)
+    return {number: in_order(works) for number, works in tries.items()}
 
 
 def _is_beside(result: Work, chosen: dict[int, Work]) -> bool:
@@ -94,9 +110,10 @@ def _unread(result: Work, results: Sequence[Work], chosen: dict[int, Work]) -> l
 def table_rows(
     register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
 ) -> list[dict[str, Any]]:
-    """A row for each student of the register, then one for each file without an owner."""
-    count = register.rubric.attempts.count
-    chosen, held = choose(results, count), suspicions(results, rings)
+    """Return a row for each student of the register, then one for each file without an owner."""
+    attempts = register.rubric.attempts
+    count, tries = attempts.count, tries_of(results) if attempts.tries else {}
+    chosen, held = choose(results, attempts), suspicions(results, rings)
     times: dict[int | None, list[str]] = {}
     for r in results:
         if r.submitter is None and not _is_beside(r, chosen):
@@ -143,7 +160,15 @@ def table_rows(
                 "manual": bool(doubts or unread or (result and result.manual)),
                 "doubts": tuple(doubts),
                 "remark": "; ".join(remarks),
-                "similar": _told(rings, result),
+                "similar": "; ".join(
+                    filter(
+                        None,
+                        (
+                            _told(rings, result),
+                            words_of_all(tries.get(book.number, ()), attempts.tries),
+                        ),
+                    )
+                ),
                 "decision": word,
             }
         )
@@ -190,7 +215,7 @@ def waiting_groups(
     register: Register, results: Sequence[Work], rings: Sequence[Ring] = ()
 ) -> list[WaitingGroup]:
     """Works that count and wait, by what is the same about them."""
-    chosen = choose(results, register.rubric.attempts.count)
+    chosen = choose(results, register.rubric.attempts)
     return groups_of(chosen, suspicions(results, rings), rings, register.rubric.maximum)
 
 
@@ -199,7 +224,7 @@ def summarise(
 ) -> dict[str, Any]:
     """Everything that the page of the class shows."""
     rows = table_rows(register, results, rings)
-    chosen = choose(results, register.rubric.attempts.count)
+    chosen = choose(results, register.rubric.attempts)
     graded = [r for _, r in sorted(chosen.items()) if r.status == "graded"]
     marks = [float(row["points"]) for row in rows if row["points"] is not None]
     held = suspicions(results, rings)

@@ -32,7 +32,7 @@ def circles(student: StudentBook) -> frozenset[str]:
 def hidden_circles(
     student: StudentBook, nodes: Iterable[str], others: Iterable[Iterable[Cells]]
 ) -> frozenset[str]:
-    """Which of some nodes go round in a circle with other input data, which ``others`` hold."""
+    """Return the nodes that are circular for the inputs ``others``."""
     suspects = rings(student, nodes)
     if not suspects:
         return frozenset()
@@ -52,7 +52,7 @@ def hidden_circles(
 
 
 def rings(student: StudentBook, nodes: Iterable[str]) -> frozenset[str]:
-    """Which of some nodes refer to themselves by way of each other, whatever comes of it."""
+    """Return the nodes on a reference cycle."""
     refers = {node: through(student, node) for node in nodes}
     while free := {node for node, names in refers.items() if names.isdisjoint(refers)}:
         refers = {node: names for node, names in refers.items() if node not in free}
@@ -146,7 +146,7 @@ def _texts(student: StudentBook, sheet: str) -> set[tuple[int, int, str]]:
 
 
 def resting_on(student: StudentBook, nodes: frozenset[str]) -> frozenset[str]:
-    """Nodes whose values would be other ones if some nodes had the right values."""
+    """Return the nodes whose value depends on ``nodes``."""
     cells: list[Cells] = []
     for node in sorted(nodes):
         right = student.expected.value(node)

@@ -224,7 +224,7 @@ class _Search:
         return texts
 
     def beside(self, text: str, distance: int) -> tuple[str, int, int] | None:
-        """The cell so many columns beside the only cell with a text."""
+        """Return the cell so many columns beside the only cell with a text."""
         hits = self.texts.get(_plain(text), [])
         if len(hits) != 1 or hits[0][2] + distance < 1:
             return None

@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 def restore(student: StudentBook) -> None:
     """Input data and given numbers as issued; what was changed is remembered."""
     model = student.assignment.kept_model
-    for each in student.placement.places.values():  # a column emptied whole is one still
-        student.grid.sheets[each.sheet].setdefault(each.column, CellColumn())
+    for at in student.placement.places.values():  # a column emptied whole is one still
+        student.grid.sheets[at.sheet].setdefault(at.column, CellColumn())
     for name, item in model.fields.items():
         location = student.placement.places.get(name)
         if location is not None:
@@ -185,7 +185,7 @@ def own_formulas(
 
 
 def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
-    """The formulas of a column's cells, read from the first two rows and the last.
+    """Return the formulas of a column's cells, read from the first two rows and the last.
 
     Distances between cells are the same in two rows and so in all between; else each is read.
     """

@@ -21,7 +21,7 @@ from reports.grading.reading.restoring import restore
 from reports.grading.reading.student import LOST, StudentBook
 from reports.grading.reading.submissions import collect, own_properties
 from reports.model.blocks import Model
-from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, TEXT
+from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, NUMBER, TEXT
 from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.grid import BadBook
 from reports.recalculation.read import read_grid, worksheets
@@ -55,7 +55,7 @@ def is_work_book(path: Path) -> bool:
 
 
 def findings_in_archive(path: Path) -> list[BookFinding]:
-    """The same of the work-books of a zip, as they would be handed in.
+    """Return the same of the work-books of a zip, as they would be handed in.
 
     Raises:
         InputError: it cannot be read, or there is no work-book in it.
@@ -78,7 +78,7 @@ def findings_in_archive(path: Path) -> list[BookFinding]:
 
 
 def findings(path: Path) -> list[BookFinding]:
-    """What is empty, typed in, an error, not understood, or locked and changed.
+    """Tell what is empty, typed in, an error, not understood, or locked and changed.
 
     Raises:
         InputError: the file cannot be read as a workbook.
@@ -117,7 +117,7 @@ def findings(path: Path) -> list[BookFinding]:
 
 
 def remarks(path: str, issued: str) -> dict[str, list[str]]:
-    """What is told of a book that is handed in; it may be handed in whatever is told.
+    """Tell what is told of a book that is handed in; it may be handed in whatever is told.
 
     ``issued`` is the student's own empty book.
 
@@ -257,7 +257,7 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
                 text = student.engine.shown(location.sheet, location.column, row)
             except UnknownFormula:
                 continue
-            wrong.setdefault(str(text), []).append(row)
+            wrong.setdefault(ERROR_WORDS.get(str(text), str(text)), []).append(row)
     for text, rows in wrong.items():
         where = _ranges(location.sheet, location.column, rows)
         results.append(BookFinding(what, f"ошибка {text}: {where}"))
@@ -270,7 +270,7 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
 
 
 def _of(assignment: Assignment, node: str) -> str:
-    """A node as the book calls it."""
+    """Return a node as the book calls it."""
     model = assignment.model
     about = model.nodes[node].quantity
     table = model.tables.get(node.partition(".")[0]) if "." in node else None

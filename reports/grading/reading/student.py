@@ -88,7 +88,7 @@ class StudentBook:
         return self.grid
 
     def settle(self, nodes: frozenset[str]) -> None:
-        """Leave out of the calculation what is known to hold the right numbers."""
+        """Replace proven formulas by their values."""
         self._settled = nodes
         to_fill = self.assignment.fill_nodes
         if to_fill <= nodes:
@@ -150,7 +150,7 @@ class StudentBook:
         return dates(self.package, self.grid, places) if self.package else frozenset()
 
     def runs(self, node: str) -> list[Run]:
-        """Runs of formulas in a node's cells."""
+        """Return runs of formulas in a node's cells."""
         location = self.placement.places.get(node)
         if location is None or location.span is None:
             return []
@@ -261,7 +261,7 @@ class StudentBook:
     # --- what rests on what -----------------------------------------------------------
 
     def cells_of(self, node: str, values: object) -> list[Cells]:
-        """The cells of a node with values."""
+        """Return the cells of a node with values."""
         location = self.placement.places.get(node)
         if location is None:
             return []
@@ -356,7 +356,7 @@ def shown_in(engine: Evaluator, location: Location) -> tuple[Array, str]:
 
 
 def known_values(answers: Mapping[str, Answer], nodes: frozenset[str]) -> dict[str, object]:
-    """The student's own values of some nodes, as ``Evaluation`` takes them."""
+    """Return the student's own values of some nodes, as ``Evaluation`` takes them."""
     return {
         node: answers[node].known if "." in node else float(answers[node].known[0])
         for node in nodes

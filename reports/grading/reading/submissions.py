@@ -6,7 +6,7 @@ import io
 import re
 import zipfile
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -20,7 +20,7 @@ from reports.recalculation.grid import BadBook, CellGrid
 from reports.recalculation.sheets import parse_xml
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import reason
-from reports.workbook.intake import MAX_FILE, Package
+from reports.workbook.intake import LOCK, MAX_FILE, Package
 
 MAX_SUBMISSIONS = 5000
 _MANY = 200  # files of a student's zip: it must not use up the batch
@@ -61,7 +61,7 @@ class Submission:
         return one_line(self.key, 160)
 
     def read(self) -> bytes:
-        """The bytes, never more than one over the limit.
+        """Return the bytes, never more than one over the limit.
 
         Raises:
             InputError: the file cannot be read.
@@ -94,6 +94,7 @@ def collect(path: Path) -> list[Submission]:
         files = _opened(_single(path, path.name), prefix="")
     else:
         raise InputError(Problem(str(path), "нет такого файла или папки", "проверьте путь"))
+    files = _without_locks(files)
     if not files:
         hint = "положите в папку файлы студентов"
         raise InputError(Problem(str(path), "нет ни одной сданной работы", hint))
@@ -123,15 +124,23 @@ def _single(file: Path, key: str) -> Submission:
 
 
 def _is_hidden(key: str) -> bool:
-    """Names of the system's own files, of Excel's locks, and texts typed into Moodle."""
+    """Names of the system's own files, and texts typed into Moodle."""
     return "_assignsubmission_onlinetext_" in key or any(
-        part.startswith((".", "~$")) or part.casefold() in ("__macosx", "thumbs.db", "desktop.ini")
+        part.startswith(".") or part.casefold() in ("__macosx", "thumbs.db", "desktop.ini")
         for part in key.split("/")
     )
 
 
+def _without_locks(files: Sequence[Submission]) -> list[Submission]:
+    """Leave out Excel's lock files beside books; one alone was handed in for its book."""
+    folder = {file.key: file.key.rpartition("/")[0] for file in files}
+    locks = {key for key in folder if key.rpartition("/")[2].startswith(LOCK)}
+    books = {at for key, at in folder.items() if key not in locks}
+    return [file for file in files if file.key not in locks or folder[file.key] not in books]
+
+
 def _opened(file: Submission, prefix: str) -> list[Submission]:
-    """The files of a zip, and of the zips in it; anything else as it is."""
+    """Return the files of a zip, and of the zips in it; anything else as it is."""
     try:
         with file.path.open("rb") as stream:
             files = _zip(file, stream, prefix)
@@ -186,7 +195,7 @@ def _member(stream: BinaryIO, index: int) -> bytes:
 
 
 def _name(info: zipfile.ZipInfo) -> str:
-    """The name of a member; without a flag it is of a Russian Windows, or of a Mac."""
+    """Return the name of a member; without a flag it is of a Russian Windows, or of a Mac."""
     if info.flag_bits & _UTF8:
         return info.filename
     for encoding in ("utf-8", "cp866"):
@@ -282,7 +291,7 @@ def find_by_name(register: Register, submission: Submission) -> Match:
 
 
 def _tickets(grid: CellGrid, package: Package) -> dict[str, str]:
-    """Identifiers in a workbook → where they stand."""
+    """Return identifiers in a workbook → where they stand."""
     tickets: dict[str, str] = {}
     at = grid.names.get(TICKET_NAME.casefold())
     if at is not None:
@@ -305,7 +314,7 @@ def _take(tickets: dict[str, str], text: object, where: str) -> None:
 
 
 def own_properties(package: Package) -> dict[str, str]:
-    """Custom properties of a workbook, written at issue, by name."""
+    """Return custom properties of a workbook, written at issue, by name."""
     try:
         root = parse_xml(package.read("docProps/custom.xml"))
     except (KeyError, BadBook):
@@ -317,7 +326,7 @@ def own_properties(package: Package) -> dict[str, str]:
 
 
 def file_properties(package: Package) -> dict[str, str]:
-    """Authors and times of a workbook, as the file claims."""
+    """Return authors and times of a workbook, as the file claims."""
     wanted = {"creator", "lastModifiedBy", "created", "modified"}
     try:
         root = parse_xml(package.read("docProps/core.xml"))

@@ -2,16 +2,17 @@
 import {alerts, ask, html, insist, list, moment, picker, printed, send, set, state} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
-const taken = async told => told && set({remarks: [], ...told, ...await ask(door)});
+const taken = async told => told && set({remarks: [], try: "", ...told, ...await ask(door)});
 const hand = async file => taken(await send(`${door}/work`, file));
 
-function own({student, title, handed, when, late, deadline, closed, earlier, status, points, file, open}) {
+function own({tries, student, title, handed, when, late, deadline, closed, earlier, status, points, file, open}) {
   const words = [handed ? `работа сдана ${moment(when)}`.trim() : "работа ещё не сдана", late && "после срока",
     deadline && `срок ${new Date(deadline).toLocaleString("ru", {dateStyle: "long", timeStyle: "short"})}`,
-    status, points !== null && `баллы: ${printed(points)}`];
+    tries[1] > 0 && `попыток ${tries[0]} из ${tries[1]}`, status, points !== null && `баллы: ${printed(points)}`];
   return html`
     <h1>${student} — ${title}</h1>
     <p id="state" aria-live="polite">${words.filter(Boolean).join("; ")}</p>
+    ${state.try && html`<p id="try" role="status">${state.try}</p>`}
     ${earlier.length > 0 && html`<p id="earlier">Считается последняя; раньше сданы и хранятся: ${earlier.map(each => moment(each.when)).join("; ")}</p>`}
     ${list(state.remarks || [], "warn", {id: "remarks", "aria-label": "Что стоит поправить перед сроком"})}
     ${closed && html`<p id="closed" class="warn">${closed}</p>`}

@@ -19,9 +19,9 @@ from reports.grading.issuing import issue as issuing
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
+from reports.grading.judging.collusion import Past, PastWork, Ring, rings_of
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.rings import Past, PastWork, Ring, rings_of
-from reports.grading.judging.works import Work, work_of
+from reports.grading.judging.work_digest import Work, work_of
 from reports.grading.reading.submissions import Submission
 from reports.model.blocks import TableSpec
 from reports.workbook.layout import Layout

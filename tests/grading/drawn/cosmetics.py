@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from openpyxl import load_workbook
 from openpyxl.workbook.defined_name import DefinedName
 
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from tests.grading.drawn import manners
 from tests.grading.drawn.classroom import DrawnClass
 

@@ -16,7 +16,7 @@ from reports.grading.issuing.reissue import matched
 from reports.grading.issuing.roster import Student
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.marking import Marker
-from reports.grading.judging.works import Work
+from reports.grading.judging.work_digest import Work
 from reports.grading.pages.pages import questions_page
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import make_dir, write_bytes, write_text
@@ -24,7 +24,7 @@ from reports.shared.files import make_dir, write_bytes, write_text
 RESULTS, QUESTIONS = "results", "questions"
 
 
-class Veil:
+class Pseudonyms:
     """Numbers for the names of a class."""
 
     def __init__(self, register: Register) -> None:
@@ -37,14 +37,14 @@ class Veil:
                 self._names.setdefault(str(escape(name)), f"Студент {book.number}")
 
     def over(self, page: str, files: Iterable[str]) -> str:
-        """A page with numbers for names and for the names of files."""
+        """Return a page with numbers for names and for the names of files."""
         names = {str(escape(file)): f"файл {i}" for i, file in enumerate(files, 1)} | self._names
         ordered = sorted(filter(None, names), key=len, reverse=True)
         return re.sub("|".join(map(re.escape, ordered)), lambda match: names[match[0]], page)
 
 
 def fill_form(folder: Path, rows: Sequence[Mapping[str, Any]], rubric: Rubric, path: Path) -> None:
-    """The institute's form with points and marks, and whose are not in it.
+    """Fill in the form; list the students whom it lacks.
 
     Raises:
         InputError: it cannot be read.
@@ -60,7 +60,7 @@ def fill_form(folder: Path, rows: Sequence[Mapping[str, Any]], rubric: Rubric, p
 def write_copies(
     folder: Path, jobs: Sequence[Job], rubric: Rubric, workers: int, timeout_s: float
 ) -> None:
-    """The books of the students back with coloured cells and comments, beside the pages."""
+    """Write the books of the students with coloured cells and comments, beside the pages."""
     for work, data in copies(jobs, rubric, workers, timeout_s):
         write_bytes((folder / work.page).with_suffix(".xlsx"), data)
 
@@ -89,7 +89,7 @@ def write_questions(
 
 
 def put_off(register: Register, students: Sequence[Student]) -> Register:
-    """The register with the deadlines of a newer roster; nothing else is taken from it."""
+    """Return the register with the deadlines of a newer roster; nothing else is taken from it."""
     pairs = matched(register.books, students)
     given = {book.number: student.extension for student, book in pairs}
     found = [student for student, _ in pairs]
@@ -118,7 +118,7 @@ def refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
 
 
 def refuse_another_class(folder: Path, register: Register) -> None:
-    """Decisions on one class are not those on the students with the same numbers of another."""
+    """Raise InputError if the results belong to another class."""
     try:
         earlier = load_register(folder / RESULTS / FILE)
     except InputError:

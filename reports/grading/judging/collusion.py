@@ -26,7 +26,7 @@ from reports.grading.judging.traits import (
     SLIP,
     TEXT,
 )
-from reports.grading.judging.works import Trait, Work
+from reports.grading.judging.work_digest import Trait, Work
 from reports.shared.russian import short
 
 # Kind → the share of people who would have it by chance, before the class tells, and its most bits.
@@ -46,6 +46,11 @@ _PAIR = 2
 _CLASS = 12  # students in whose class a form may be rare at all
 _FORMS_BESIDE = 8.0  # bits that forms add to other evidence at most
 _UNLIKE = 1.0  # bits that a form which differs takes away
+KINDS = {
+    FORM: "редкая формула", SLIP: "та же ошибка", ERROR: "та же редкая ошибка",
+    IDLE: "лишнее действие", HELPER: "вспомогательный столбец", TEXT: "заголовок",
+    LAYOUT: "раскладка", NAME: "своё имя ячейки",
+}  # fmt: skip
 _WORDS = {
     FORM: "редких формул", SLIP: "одинаковых ошибок", ERROR: "одинаковых редких ошибок",
     IDLE: "формул с лишним действием", HELPER: "редких вспомогательных столбцов",
@@ -74,9 +79,10 @@ class Ring:
     shared: tuple[Trait, ...]
     bits: float
     held: bool
+    weights: tuple[float, ...] = ()  # bits of each of ``shared``
 
     def text(self, of: Work | None = None) -> str:
-        """What is shared and with whom, for one of them or for the class."""
+        """Tell what is shared and with whom, for one of them or for the class."""
         others = [who(work) for work in self.works if work is not of]
         counts = Counter(past.batch for past in self.past)
         others += [f"работы прошлых лет ({batch}): {n}" for batch, n in sorted(counts.items())]
@@ -91,7 +97,7 @@ class Ring:
 
 
 def who(work: Work) -> str:
-    """A work in a message."""
+    """Return a work in a message."""
     return f"{work.student} ({work.file})" if work.student else work.file
 
 
@@ -102,6 +108,7 @@ class _Evidence:
     bits: float
     held: bool
     shared: tuple[Trait, ...]
+    weights: tuple[float, ...]  # bits of each
 
 
 def rings_of(graded: Sequence[Work], past: Past = (), *, past_holds: bool = True) -> list[Ring]:
@@ -223,9 +230,11 @@ def _evidence(
     shared = [trait for trait in mine if _key(trait) in others]
     sums = dict.fromkeys(_KINDS, 0.0)
     times: Counter[tuple[str, str]] = Counter()
+    weights: dict[Trait, float] = {}
     for trait in sorted(shared, key=lambda trait: -_bits(trait, owners, count)):
         group = trait[0], trait[4] or trait[0]
-        sums[trait[0]] += _bits(trait, owners, count) * 0.5 ** times[group]
+        weights[trait] = _bits(trait, owners, count) * 0.5 ** times[group]
+        sums[trait[0]] += weights[trait]
         times[group] += 1
     forms, strong = sums[FORM], sum(sums.values()) - sums[FORM]
     unlike = _differing(mine, theirs)
@@ -241,7 +250,7 @@ def _evidence(
         forms = max(forms, _FORMS_ALONE)
     held = alone or strong + min(forms, _FORMS_BESIDE) >= HELD
     telling = tuple(trait for trait in shared if _bits(trait, owners, count) >= 1)
-    return _Evidence(forms + strong, held, telling)
+    return _Evidence(forms + strong, held, telling, tuple(weights[t] for t in telling))
 
 
 def _differing(mine: Sequence[Trait], theirs: Sequence[Trait]) -> int:
@@ -274,6 +283,7 @@ def _ring(
     inside = [evidence for pair, evidence in links.items() if pair[0] in group]
     counts = Counter(trait for evidence in inside for trait in evidence.shared)
     shared = [trait for trait, n in counts.items() if 2 * n >= len(inside)]
+    weights = {t: w for each in inside for t, w in zip(each.shared, each.weights, strict=True)}
     works = [everyone[index] for index in group]
     return Ring(
         tuple(work for work in works if isinstance(work, Work)),
@@ -281,4 +291,5 @@ def _ring(
         tuple(sorted(shared)),
         max(evidence.bits for evidence in inside),
         held,
+        tuple(weights[trait] for trait in sorted(shared)),
     )

@@ -13,12 +13,12 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.grading.batch.memory import remember, remembered
-from reports.grading.judging import rings, similarity, traits
+from reports.grading.judging import collusion, similarity, traits
 from reports.grading.judging import works as judging_works
 from reports.grading.judging.canonical import Reader
-from reports.grading.judging.rings import PastWork, rings_of
+from reports.grading.judging.collusion import PastWork, rings_of
 from reports.grading.judging.traits import ERROR, FORM, HELPER, IDLE, NAME, SLIP, TEXT
-from reports.grading.judging.works import Trait, Work, work_of
+from reports.grading.judging.work_digest import Trait, Work, work_of
 from reports.recalculation.formulas import pattern
 from reports.shared.errors import InputError
 from reports.workbook.layout import Layout
@@ -170,16 +170,16 @@ def test_a_ring_is_told_in_words():
 
 def test_the_manual_tells_what_is_held_and_what_is_told():
     text = " ".join(Path("docs/grading.md").read_text(encoding="utf-8").split())
-    assert f"от {rings.HELD:g} бит." in text
-    assert f"от {rings.TOLD:g} до {rings.HELD:g} бит" in text
-    assert f"не больше {rings._FORMS_BESIDE:g} бит" in text
-    assert f"от {rings._FORMS_ALONE:g} бит" in text
-    assert f"меньше {rings._CLASS} человек" in text
+    assert f"от {collusion.HELD:g} бит." in text
+    assert f"от {collusion.TOLD:g} до {collusion.HELD:g} бит" in text
+    assert f"не больше {collusion._FORMS_BESIDE:g} бит" in text
+    assert f"от {collusion._FORMS_ALONE:g} бит" in text
+    assert f"меньше {collusion._CLASS} человек" in text
     words = {FORM: "своя формула — до", SLIP: "ошибка с известной причиной — до",
              ERROR: "редкая ошибка — до", IDLE: "действие без смысла (`+0`, `*1`) — до",
              HELPER: "вспомогательный столбец — до", TEXT: "раскладка — до",
              NAME: "своё имя ячейки — до"}  # fmt: skip
-    assert f"от {rings._WHOLE_FORMS} редких" in text
+    assert f"от {collusion._WHOLE_FORMS} редких" in text
     share = f"не меньше {judging_works.VERBATIM} формул и не меньше {judging_works.NEARLY_ALL:.0%}"
     held, told = text.split("**Только сообщает:**")
     assert share.replace("%", " %") in held
@@ -187,7 +187,7 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
     assert f"от {traits._PASTED} зелёных столбцов" in held
     assert f"от {similarity._SHARED} столбцов" in held
     for kind, said in words.items():
-        assert f"{said} {rings._KINDS[kind][1]:g}".replace(".", ",") in text, said
+        assert f"{said} {collusion._KINDS[kind][1]:g}".replace(".", ",") in text, said
 
 
 # --- a small class of real books; the whole is ``./run bench copying`` ---------------------------

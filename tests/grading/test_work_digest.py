@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reports.grading.judging.works import is_odd
+from reports.grading.judging.work_digest import is_odd
 from reports.recalculation.formulas import pattern
 
 

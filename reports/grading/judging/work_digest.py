@@ -22,6 +22,7 @@ from reports.grading.judging.causes import Causes
 from reports.grading.judging.judgement import (
     BROKEN,
     CARRIED,
+    PART,
     RIGHT,
     STILL,
     TYPED,
@@ -32,6 +33,7 @@ from reports.grading.judging.judgement import (
 from reports.grading.reading.placement import Location, address, range_text, stretches
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
+from reports.shared.russian import capital
 from reports.workbook.layout import Layout
 
 _TELLING = 6  # tokens of a formula that may tell who wrote it
@@ -137,6 +139,8 @@ class Entry:
     formula: tuple[str, bool, bool] | None  # its mark, a step that does nothing, the program's
     reason: str = ""  # why a person has to look, and the formula that he looks at
     sample: str = ""
+    block: str = ""
+    spelling: tuple[str, str] = ("", "")  # of its formulas and of their numbers, for tries
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,9 +179,10 @@ class Work:
 
 
 def work_of(result: dict[str, Any], shared: Shared) -> Work:
-    """The small form of a result; ``shared`` holds the items of all works of a class."""
-    formulas = result.get("formulas", {})
-    entries = (_entry(line, formulas.get(line["id"])) for line in result["items"])
+    """Return the small form of a result; ``shared`` holds the items of all works of a class."""
+    formulas, spellings = result.get("formulas", {}), result.get("spellings", {})
+    entries = (_entry(line, formulas.get(line["id"]), spellings.get(line["id"]))
+               for line in result["items"])  # fmt: skip
     return Work(
         key=result["key"],
         file=result["file"],
@@ -210,7 +215,9 @@ def _trait(fields: Sequence[str]) -> Trait:
     return kind, item, mark, spelt, group
 
 
-def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
+def _entry(
+    line: dict[str, Any], formula: list[Any] | None, spelling: Sequence[str] | None
+) -> Entry:
     verdict = line["verdict"]
     return Entry(
         id=line["id"],
@@ -225,6 +232,8 @@ def _entry(line: dict[str, Any], formula: list[Any] | None) -> Entry:
         formula=(formula[0], bool(formula[1]), bool(formula[2])) if formula else None,
         reason=line.get("reason", "") if verdict == UNKNOWN else "",
         sample=line.get("sample", "") if verdict == UNKNOWN else "",
+        block=line.get("block", ""),
+        spelling=(spelling[0], spelling[1]) if spelling else ("", ""),
     )
 
 
@@ -290,8 +299,19 @@ def feedback_line(
     return line
 
 
+def part_line(name: str, points: float) -> dict[str, Any]:
+    """Return the line of what a person marks; it waits for his points."""
+    return {
+        "id": name, "block": PART, "table": "", "heading": capital(name), "label": capital(name),
+        "title": "", "symbol": "", "indexed": "", "unit": "", "source": "",
+        "digits": {}, "verdict": UNKNOWN, "points": 0.0, "of": points,
+        "reason": "ставит преподаватель", "cause": "", "message": "", "origins": [],
+        "right_mark": "", "rows": [], "where": [], "at": [], "typed": [],
+    }  # fmt: skip
+
+
 def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assignment) -> str:
-    """The instructor's own words for a mistake, the first that fit."""
+    """Return the instructor's own words for a mistake, the first that fit."""
     item = judgement.item
     for message in assignment.rubric.messages if judgement.verdict == WRONG else ():
         about = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
@@ -303,7 +323,7 @@ def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assig
 
 
 def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
-    """The table or list of an item as a person calls it, in full and in short."""
+    """Return the table or list of an item as a person calls it, in full and in short."""
     table = assignment.model.tables.get(item.block)
     if table is not None:
         return f"Таблица {table.number}", table.number
@@ -332,7 +352,7 @@ def _cells(student: StudentBook, judgement: Judgement) -> list[dict[str, Any]]:
 
 
 def _where(student: StudentBook, judgement: Judgement) -> list[str]:
-    """The cells that a verdict is about, those below each other as ranges."""
+    """Return the cells that a verdict is about, those below each other as ranges."""
     item = judgement.item
     rows = set(judgement.rows)
     located: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
@@ -348,7 +368,7 @@ def _where(student: StudentBook, judgement: Judgement) -> list[str]:
 
 
 def _at(student: StudentBook, item: Item) -> list[str]:
-    """The cells of an item as ranges."""
+    """Return the cells of an item as ranges."""
     places = filter(None, map(student.placement.places.get, item.nodes))
     return [
         f"{location.sheet}!{range_text(location.span.first, location.span.last, location.column)}"
@@ -358,7 +378,7 @@ def _at(student: StudentBook, item: Item) -> list[str]:
 
 
 def _cells_of(student: StudentBook, item: Item) -> list[tuple[Location | None, int]]:
-    """The place of each value of an item and the value's index there."""
+    """Return the place of each value of an item and the value's index there."""
     return [
         (student.placement.places.get(node), i)
         for node in item.nodes

@@ -6,9 +6,10 @@ import gc
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import pytest
 from hypothesis import settings
@@ -16,6 +17,7 @@ from hypothesis import settings
 from reports.inputs.load import load_toml
 from reports.inputs.sections.input_file import InputFile
 from reports.shared.resources import samples_dir
+from tests.browser import chromium
 from tests.kept import FOLDER
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 
@@ -308,6 +310,19 @@ def libreoffice() -> LibreOffice:
     if find_soffice() is None:
         missing("LibreOffice", "libreoffice-calc-nogui")
     return LibreOffice()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """One Chromium for all."""
+    driver = pytest.importorskip("playwright.sync_api").sync_playwright
+    path = chromium()
+    with driver() as started:
+        found = started.chromium.launch(
+            executable_path=path, args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+        )
+        yield found
+        found.close()
 
 
 @pytest.fixture

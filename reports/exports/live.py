@@ -27,6 +27,7 @@ from reports.tables.verdicts import check_value, outcomes, reasons_of
 Data = dict[str, Any]
 _DIGITS = 8  # of the greatest number of a curve: what no screen shows
 _LEAST = 12  # places: what is less is noise of a sum that is zero
+_BY_FORMULA = ("N_e_calc",)  # a step beyond the chain
 _CHART = ("id", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed", "y_reversed")
 
 
@@ -36,8 +37,9 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
     evaluation = Evaluation(model)
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
-            values = ((each, solution.scalar(each.key)) for each in block.scalars
-                     if each.key in quick)  # fmt: skip
+            values = ((each, own.value(each.key) if each.key in _BY_FORMULA
+                       else solution.scalar(each.key)) for each in block.scalars
+                      if each.key in quick or each.key in _BY_FORMULA)  # fmt: skip
             rows = [_row(each, value) for each, value in values]
             if rows:
                 yield {"id": block.id, "title": block.title, "rows": rows}

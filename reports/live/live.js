@@ -14,6 +14,8 @@ const main = calculator({functions, ...data.program}); // the book's own step
 const fine = calculator({functions: fineFunctions, ...data.fine}); // the step of curves
 const fields = data.fields.flatMap(({entries}) => entries.flat());
 const byKey = Object.fromEntries(fields.flatMap(f => [[f.key, f], [f.cell, f]]));
+const others = data.fields.map(({entries, ...group}) => ({...group, entries: entries.map(entry => entry.filter(f => !data.main.includes(f.key)))}))
+  .filter(({entries}) => entries.some(entry => entry.length));
 const start = structuredClone(data.raw), BASE = 180; // degrees a second
 const STROKES = {4: ["впуск", "сжатие", "рабочий ход", "выпуск"], 2: ["рабочий ход", "сжатие"]}[data.strokes];
 const FIRST = "", MOST_CHECKS = 12; // of a page of print
@@ -213,7 +215,7 @@ const dataPart = () => html`<section id="data" aria-label="Исходные да
   <h2>Все исходные</h2>
   <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find} onInput=${e => set({find: e.target.value})} /></label></p>
   <p><small>Затенённое поле — строение двигателя или то, что связано с другими: нужен build.</small></p>
-  <div id="fields">${data.fields.map(group => section(group, change))}</div></section>`;
+  <div id="fields">${others.map(group => section(group, change))}</div></section>`;
 
 const numbers = () => html`<dl id="numbers">${data.numbers.map(each => html`
   <div key=${each.key} data-key=${each.key} title=${each.title}><dt>${symbol(each.symbol)}</dt>

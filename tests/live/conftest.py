@@ -11,7 +11,6 @@ from reports.model.evaluation import evaluate_model
 from reports.workbook.course import short_model
 from reports.workbook.write import workbook_bytes
 from tests.cover import model_of
-from tests.web.conftest import browser  # noqa: F401 - a fixture of these tests as well
 
 Opened = Callable[..., Any]
 
@@ -33,7 +32,7 @@ def live_file(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]
 
 
 @pytest.fixture
-def live(browser: Any, live_file: Callable[[str], Path]) -> Opened:  # noqa: F811
+def live(browser: Any, live_file: Callable[[str], Path]) -> Opened:
     """Open a live page from its file with the network off; any request is a fault."""
     contexts = []
 

@@ -18,7 +18,6 @@ import pytest
 from starlette.testclient import TestClient
 
 from reports.web.app import Settings, create_app
-from tests.browser import chromium
 
 MARK = {"X-Kshm": "1"}
 ROOT = Path(__file__).parents[2]
@@ -114,19 +113,6 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """One server for all that a real browser does."""
     with serving(tmp_path_factory.mktemp("served")) as found:
         yield found
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Any]:
-    """One Chromium for all."""
-    driver = pytest.importorskip("playwright.sync_api").sync_playwright
-    path = chromium()
-    with driver() as started:
-        found = started.chromium.launch(
-            executable_path=path, args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
-        )
-        yield found
-        found.close()
 
 
 def opened(browser: Any, address: str, width: int = 1280, scheme: str = "light") -> Any:

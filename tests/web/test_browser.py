@@ -225,11 +225,13 @@ def test_what_is_wrong_with_a_new_engine_is_seen_on_a_phone(page: Any) -> None:
 def test_the_names_of_the_forces_stand_within_the_picture(page: Any) -> None:
     """At any angle, and upwards too, as inertia pulls the piston of a fast engine."""
     cut = page.evaluate("""async () => {
-        const forces = kshm.last.moves.forces, held = forces.Ps_MPa.values;
+        const {last} = kshm, {forces} = last.moves, {Ps_MPa: {values: held}} = forces;
         const most = Math.max(...Object.values(forces).flatMap(f => f.values.map(Math.abs)));
         const cut = [];
         for (const sign of [1, -1]) {
-            forces.Ps_MPa.values = held.map(() => sign * most);
+            const pull = {...forces.Ps_MPa, values: held.map(() => sign * most)};
+            kshm.last = {...last, moves: {...last.moves, forces: {...forces, Ps_MPa: pull}}};
+            kshm.redraw();
             for (let phi = 0; phi < 360; phi += 30) {
                 turn(phi);
                 await new Promise(requestAnimationFrame);
@@ -241,7 +243,8 @@ def test_the_names_of_the_forces_stand_within_the_picture(page: Any) -> None:
                 }
             }
         }
-        forces.Ps_MPa.values = held;
+        kshm.last = last;
+        kshm.redraw();
         turn(0);
         return cut;
     }""")
@@ -292,6 +295,8 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page = opened(browser, served.page, 800)  # narrow: all groups are closed at first
     page.wait_for_selector("#chart-fig46 output")
     tab_to(page, ".skip")
+    tab_to(page, "#new summary")
+    page.keyboard.press("Enter")
     tab_to(page, "#cylinders")
     typed(page, "5")
     page.evaluate("turn(10)")  # what is typed stays, whatever is drawn anew

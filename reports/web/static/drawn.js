@@ -19,13 +19,11 @@ export function between(xs, ys, x) { // nothing where there is no curve
 }
 
 // Curves of a chart, then those of the other engine.
-const byStroke = (own, colours) => own.strokes && {borderColor: ({p0DataIndex: i}) =>
-  colours[Math.min(Math.floor(own.path.phi[i] / 180), own.strokes.length - 1)]};
 const curvesOf = (own, other, colours) => [own, other].filter(Boolean).flatMap((chart, second) =>
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
     label: second ? `${curve.name} (второй)` : curve.name, borderColor: colours[i % colours.length],
-    borderDash: second ? [2, 4] : DASHES[i % 6], segment: !second && !i && byStroke(chart, colours) || undefined, line: second ? "dotted" : i ? "dashed" : "solid",
+    borderDash: second ? [2, 4] : DASHES[i % 6], showLine: second || i || !chart.strokes, line: second ? "dotted" : i ? "dashed" : "solid",
   })));
 
 const hidden = new Set(); // curves that a person has switched off, by chart and name
@@ -90,9 +88,19 @@ function words(chart) {
   ink.beginPath();
   ink.rect(area.left, area.top, area.width, area.height);
   ink.clip();
+  if (own.strokes) own.strokes.forEach((_, i) => stroke(ink, own, chart, i));
   if (own.marks) vector(ink, own, chart);
   if (own.strokes) own.strokes.forEach((name, i) => write(ink, name, area.left + 8, area.bottom - 12 - 16 * (own.strokes.length - 1 - i), inks()[i]));
   ink.restore();
+}
+
+function stroke(ink, {path}, {scales: {x, y}}, number) { // a part of a path in the colour of its stroke
+  Object.assign(ink, {strokeStyle: inks()[number], lineWidth: 2, lineJoin: "round"});
+  ink.beginPath();
+  path.phi.forEach((phi, i) => {
+    if (phi >= 180 * number && phi <= 180 * (number + 1)) ink.lineTo(x.getPixelForValue(path.x[i]), y.getPixelForValue(path.y[i]));
+  });
+  ink.stroke();
 }
 
 function vector(ink, {marks}, {scales: {x, y}}) {
@@ -152,9 +160,16 @@ function draw(canvas, own, datasets, color) {
     scales: {x: own.x_is_angle ? {...axis("x", "data", 60), afterBuildTicks: roundAngles} : axis("x"), y: axis("y")},
   };
   Chart.defaults.font.family = "Inter Variable, sans-serif";
+  const isAlike = chart?.data.datasets.length === datasets.length && chart.canvas.kind === own.id
+    && datasets.every((set, i) => ["label", "borderColor"].every(each => set[each] === chart.data.datasets[i][each]));
+  canvas.kind = own.id;
   if (!chart) new Chart(canvas, {type: "scatter", data: {datasets}, options});
-  else Object.assign(chart, {data: {datasets}, options}).update("none");
-  show(canvas, own);
+  else if (isAlike) { // new numbers alone: the rest of a chart takes longer than they
+    chart.data.datasets.forEach((set, i) => Object.assign(set, datasets[i]));
+    if (!isLine) for (const key of ["x", "y"]) for (const end of ["min", "max"]) chart.options.scales[key][end] = options.scales[key][end];
+    chart.update("none");
+  } else Object.assign(chart, {data: {datasets}, options});
+  if (!isAlike) show(canvas, own);
   for (const old of Object.values(Chart.instances)) if (!old.canvas.isConnected) old.destroy();
 }
 

@@ -6,6 +6,7 @@ import {engines, keep, last, remove, seen, storedJobs, storeJobs, text} from "./
 import {clip, parts, picture, pose} from "./scene.js";
 
 const NUMBERS = ["power", "speed", "bore", "stroke", "rod", "lambda", "compression", "efficiency"];
+const KEY_NUMBERS = [/^N_e_calc$/, /^M_mean$/, /^M_max$/, /^Rpin\d*_max$/];
 const printing = matchMedia("print");
 
 // --- what is asked of the server ---
@@ -241,7 +242,7 @@ const data = ({fields} = state.choices) => html`
       [...state.own.id ? [] : [["", "—"]], ...listed()], state.own.id ?? "", id => id && open(engines().find(each => each.id === id)))}
       <button id="away" hidden=${!state.own.id} onClick=${away}>Убрать из списка</button></p>
     <p id="news" role="status">${state.news}</p>
-    <details id="new" open=${state.isNew} onToggle=${e => { state.isNew = e.target.open; }}>
+    <details id="new" open=${state.isNew} onToggle=${e => set({isNew: e.target.open})}>
       <summary>Новый двигатель</summary>
       ${memo("samples", [], () => html`<h3>Образцы</h3><div id="samples">${state.choices.samples.map(sample)}</div>`)}
       <h3>По заданию</h3>
@@ -310,6 +311,8 @@ const sheets = () => { // by chapters, in words
 const results = ({last, second}) => html`
   <section id="results" aria-label="Результаты" tabindex="-1">
     <h2>${engineName()}</h2>
+    <dl id="numbers">${KEY_NUMBERS.map(key => last.results.flatMap(({rows}) => rows).find(each => key.test(each.key))).filter(Boolean).map(each => html`
+      <div key=${each.key} title=${each.title}><dt>${symbol(each.symbol)}</dt><dd><b>${each.text}</b> ${each.unit}</dd></div>`)}</dl>
     <p id="stale" class="warn" hidden=${!state.wrong.length}>Показан последний верный двигатель: исправьте отмеченное в данных.</p>
     <p>${sheets()}</p>
     <div id="charts" class="cards">${last.charts.map(own =>
@@ -339,7 +342,7 @@ const page = () => html`
 after.push(() => follow());
 set({
   past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, pace: 1, isPlaying: false, typed: {}, wrong: [],
-  checks: [], remarks: [], jobs: storedJobs(), find: "", isNew: true, own: {}, kept: null, news: "", engines: engines(), choices: await insist("api/choices"),
+  checks: [], remarks: [], jobs: storedJobs(), find: "", isNew: false, own: {}, kept: null, news: "", engines: engines(), choices: await insist("api/choices"),
   open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), turn, follow, redraw: () => set({switched: (state.switched ?? 0) + 1}),
   again: () => { state.raw ? solve() : begin(); state.jobs.forEach(watch); },
 }, page);

@@ -28,9 +28,9 @@ const FORCES = [["Ps_MPa", "PΣ", 0], ["N_MPa", "N", 1], ["T_MPa", "T", 2], ["K_
 function front(moves) { // from the nose, as the engine stands
   const {radius, bore, each, cylinder: chosen} = moves, most = greatest(moves), upright = tilt(moves);
   const pull = reach(moves, ["K_MPa", "T_MPa"]) / most, lift = LONG * reach(moves, ["Ps_MPa"], force => -force) / most;
-  const round = Math.max(1.3 * radius, radius + bore * (LONG * pull * .6 + .2));
+  const round = Math.max(1.3 * radius, radius + bore * (LONG * pull + .35));
   const corners = each.flatMap((one, i) => [-1, 1].map(side => {
-    const up = head(moves, one) + (i === chosen ? Math.max(lift - .5, .1) : .1) * bore, turn = (one.axis + upright) * Math.PI / 180, out = .6 * bore * side;
+    const up = head(moves, one) + (i === chosen ? Math.max(lift - .15, .1) : .1) * bore, turn = (one.axis + upright) * Math.PI / 180, out = .6 * bore * side;
     return [up * Math.sin(turn) + out * Math.cos(turn), -up * Math.cos(turn) + out * Math.sin(turn)];
   }));
   const [[left, right], [top, down]] = [0, 1].map(k => range([-round, round, ...corners.map(c => c[k])]));

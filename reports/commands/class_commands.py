@@ -180,6 +180,8 @@ def _tell_effects(effects: Sequence[tuple[str, float | None, float | None]]) -> 
     help="Решение преподавателя: кто или группа Г-…, столбец или «всё», баллы (75, ×0,75, +5, -5, "
     "50% столбца; + принять, - отменить), примечание.",
 )
+@click.option("--request", "requests", nargs=3, multiple=True, metavar="КТО СТОЛБЕЦ СЛОВА",
+              help="Студент просит посмотреть столбец ещё раз; ответ — решение о нём.")  # fmt: skip
 @click.option("--preview", is_flag=True,
               help="С --decide или --rubric: показать, кому сколько баллов, ничего не "
                    "записывая.")  # fmt: skip
@@ -206,6 +208,7 @@ def grade(
     dask: str | None,
     worksheet: Path | None,
     decisions: tuple[tuple[str, str, str, str], ...],
+    requests: tuple[tuple[str, str, str], ...],
     preview: bool,
     author: str,
     explain: tuple[str, str] | None,
@@ -240,8 +243,10 @@ def grade(
     if preview and (not decisions or issued is not None):
         raise KshmError("--preview показывает решение: grade -o ПАПКА --decide … --preview, или "
                         "рубрику: grade ВЫДАЧА СДАНО -o ПАПКА --rubric ФАЙЛ --preview")  # fmt: skip
-    if decisions and issued is None and folder is not None:
-        setup = GradeSetup(decisions=decisions, author=author, form=form)
+    if requests and (decisions or issued is not None or folder is None):
+        raise KshmError("--request — отдельно: grade -o ПАПКА --request КТО СТОЛБЕЦ СЛОВА")
+    if (decisions or requests) and issued is None and folder is not None:
+        setup = GradeSetup(decisions=decisions, requests=requests, author=author, form=form)
         if preview or _is_for_many(decisions):
             seen = decide_all(folder, replace(setup, preview=True))
             _tell_effects(seen.effects)
@@ -251,7 +256,8 @@ def grade(
             if sys.stdin.isatty() and not click.confirm("Применить?", default=True):
                 return DONE
         done = decide_all(folder, setup)
-        click.echo(f"{folder}: решения записаны, ведомость и страницы обновлены")
+        kept = "решения записаны" if decisions else "просьба записана"
+        click.echo(f"{folder}: {kept}, ведомость и страницы обновлены")
         return LOOK if done.needs_a_person else DONE
     if issued is None or submitted is None or folder is None:
         raise KshmError("нужны папка выдачи, сданные работы и папка для результатов (ключ -o)")

@@ -27,6 +27,7 @@ from starlette.routing import Route
 from reports.exports.numbers import neutralised
 from reports.grading.batch.grade import PAGES
 from reports.grading.issuing.register import FILE, SECRET, kept_secret, load_register
+from reports.grading.pages.side_by_side import COMPARED
 from reports.inputs.form_fields import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
@@ -74,6 +75,7 @@ class Classes(Queue):
             get("/api/teacher/{name}/links.csv", self._links),
             get("/api/teacher/{name}/qr/{number:int}.svg", self._code),
             *shown("/api/teacher/{name}", self._whole, "/file/{file:path}"),
+            post("/api/student/{link}/ask", self._ask),
             *shown("/api/student/{link}", self._own),
         ]
 
@@ -230,7 +232,9 @@ class Classes(Queue):
         folder = self._inside(request)
         results = folder / "results"
         files = {path.name: path for path in results.glob("[!.]*.*") if path.suffix != ".json"}
-        pages = {f"{PAGES}/{path.name}": path for path in results.glob(f"{PAGES}/*.html")}
+        pages = {f"{path.parent.name}/{path.name}": path
+                 for folder_name in (PAGES, COMPARED)
+                 for path in results.glob(f"{folder_name}/*.html")}  # fmt: skip
         students = self._books(folder)
         works = {f"works/{path.relative_to(folder / 'works').as_posix()}": path
                  for path in (folder / "works").rglob("*.xlsx")}  # fmt: skip
@@ -239,10 +243,22 @@ class Classes(Queue):
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
              "rows": summary.get("rows", []), "groups": summary.get("groups", []),
              "decided": summary.get("decided", []),
-             "files": [*files], "graded": len(pages), "address": self._address(request)},
+             "files": [*files], "graded": sum(name.startswith(PAGES) for name in pages),
+             "address": self._address(request)},
             {**files, **pages, **works, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip
+
+    async def _ask(self, request: Request) -> None:
+        """Take a student's request for another look at one column of an open page."""
+        own, data = self._own(request).told, await body(request)
+        name, number = self.signer.loads(request.path_params["link"])
+        if not own["open"]:
+            raise HTTPException(409, "страница проверки ещё не открыта")
+        if self.about(name).get("state") in ("waiting", "running"):
+            raise InputError(Problem("", "группа занята", "повторите через минуту"))
+        words = [str(data.get(key, ""))[:500] for key in ("column", "text")]
+        self.put(name, {}, ["grade", "-o", "results", "--request", str(number), *words])
 
     def _own(self, request: Request) -> Shown:
         try:

@@ -13,8 +13,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reports.grading.batch.memory import remember, remembered
-from reports.grading.judging import collusion, similarity, traits
-from reports.grading.judging import works as judging_works
+from reports.grading.judging import collusion, similarity, traits, work_digest
 from reports.grading.judging.canonical import Reader
 from reports.grading.judging.collusion import PastWork, rings_of
 from reports.grading.judging.traits import ERROR, FORM, HELPER, IDLE, NAME, SLIP, TEXT
@@ -180,10 +179,10 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
              HELPER: "вспомогательный столбец — до", TEXT: "раскладка — до",
              NAME: "своё имя ячейки — до"}  # fmt: skip
     assert f"от {collusion._WHOLE_FORMS} редких" in text
-    share = f"не меньше {judging_works.VERBATIM} формул и не меньше {judging_works.NEARLY_ALL:.0%}"
+    share = f"не меньше {work_digest.VERBATIM} формул и не меньше {work_digest.NEARLY_ALL:.0%}"
     held, told = text.split("**Только сообщает:**")
     assert share.replace("%", " %") in held
-    assert f"те же {judging_works.VERBATIM} формул" in told
+    assert f"те же {work_digest.VERBATIM} формул" in told
     assert f"от {traits._PASTED} зелёных столбцов" in held
     assert f"от {similarity._SHARED} столбцов" in held
     for kind, said in words.items():
@@ -230,7 +229,7 @@ def test_looks_let_no_ring_pass(looks):
      ("=N6*1", "=N6/1", True), ("=N6+0", "=N6*1", False), ("=N6-N6+B6", "=B6+N6 - N6", True)],
 )  # fmt: skip
 def test_idle_steps_are_told_by_what_they_are(one, other, alike):
-    first, second = (judging_works.idle_steps(pattern(text[1:], 6, 5)) for text in (one, other))
+    first, second = (work_digest.idle_steps(pattern(text[1:], 6, 5)) for text in (one, other))
     assert first and second and (first == second) == alike
 
 

@@ -443,3 +443,28 @@ def test_another_rubric_is_shown_before_it_is_applied(tmp_path):
     assert classroom.book(1).student.full in first and "(−" in first
     assert others == ["Без изменений: 1", "Ничего не записано: это показ."]
     assert before == {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
+
+
+def test_another_look_is_asked_for_and_answered_on_the_student_s_page(tmp_path):
+    where, out = submitted(tmp_path / "in"), tmp_path / "out"
+    run(where, out, ("1", "geometry.V_c", "+", ""))
+
+    def state() -> tuple[str, str, str]:
+        rows = json.loads((out / "summary.json").read_text(encoding="utf-8"))["rows"]
+        page = next((out / "pages").glob("01-*.html")).read_text(encoding="utf-8")
+        return rows[0]["status"], rows[0]["remark"], page
+
+    decide(out, GradeSetup(requests=[("1", "Массы Vc", "ДВССЫЛ даёт то же <b>число</b>")]))
+    for _ in range(2):  # and the next run still knows
+        status, remark, page = state()
+        assert status == State.BY_HAND
+        assert remark.count("просит посмотреть ещё раз Массы Vc: ДВССЫЛ") == 1
+        assert "Вы просили посмотреть ещё раз" in page and "&lt;b&gt;" in page
+        run(where, out)
+    decide(out, GradeSetup(decisions=[("1", "geometry.V_c", "2", "верно, засчитано")]))
+    status, remark, page = state()
+    assert status == State.CHECKED and "просит посмотреть" not in remark
+    assert "верно, засчитано" in page and "Ответа пока нет" not in page
+    for column, words in (("П9.9 q", "слова"), ("Массы Vc", " ")):
+        with pytest.raises(InputError):
+            decide(out, GradeSetup(requests=[("1", column, words)]))

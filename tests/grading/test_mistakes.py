@@ -7,6 +7,8 @@ import ast
 import pytest
 
 from reports.grading.judging.rewriting import (
+    Divided,
+    DoubleAngle,
     Flipped,
     OtherExponent,
     OtherRatio,
@@ -60,3 +62,11 @@ def test_a_summand_is_left_out_where_there_is_one() -> None:
 def test_sine_and_cosine_are_taken_for_each_other(number: int | None, wanted: str) -> None:
     found = OtherRatio(number).visit(ast.parse("cos(a) / sin(cos(b))", mode="eval"))
     assert ast.unparse(found) == wanted
+
+
+def test_an_angle_is_doubled_again_and_a_name_is_divided() -> None:
+    def rewritten(change: ast.NodeTransformer) -> str:
+        return ast.unparse(change.visit(ast.parse("cos(a) + lam * cos(2 * a)", mode="eval")))
+
+    assert rewritten(DoubleAngle()) == "cos(a) + lam * cos(2.0 * (2 * a))"
+    assert rewritten(Divided("lam", 4)) == "cos(a) + lam / 4 * cos(2 * a)"

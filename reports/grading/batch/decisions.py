@@ -6,13 +6,14 @@ import copy
 import json
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 from reports.grading.batch.awards import ACCEPT, WITHDRAW, Award, award_of
+from reports.grading.batch.requests import mark_of, request_remark
 from reports.grading.issuing.register import Issued, Register
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.judgement import PART, UNKNOWN, part_remark, unread_remark
@@ -116,7 +117,7 @@ def refuse_wrong_words(
         if NAME.fullmatch(who):
             continue
         if who not in files:
-            _student(register, (), who)
+            student_of(register, (), who)
         _item(what, items)
         if points.strip() != WITHDRAW:
             award_of(points, register.rubric, 1.0)
@@ -190,7 +191,7 @@ def decided(
     """
     entries = {entry.key: entry for entry in kept}
     for said in words:
-        book = _student(register, works, said.who)
+        book = student_of(register, works, said.who)
         known = {line.id for work in works if work.number == book.number for line in work.items}
         item = _item(said.what, known)
         if said.points.strip() == WITHDRAW:
@@ -229,7 +230,12 @@ def _refuse_idle(who: str, award: Award, item: str, file: str, work: Work | None
         raise InputError(Problem(who, what, "впишите баллы числом"))
 
 
-def _student(register: Register, works: Sequence[Work], who: str) -> Issued:
+def student_of(register: Register, works: Iterable[Work], who: str) -> Issued:
+    """Return the work-book of whom a person means: a number, a name, a folder or a file.
+
+    Raises:
+        InputError: of nobody, or of several.
+    """
     wanted = who.strip().casefold()
     hits = [
         book
@@ -391,6 +397,9 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
             line["points"] = _award(entry).of(base, line["of"] if line["block"] == PART else whole)
             line["decision"] = asdict(entry)
             settled.add(entry.item)
+            asked = line.get("request")
+            if asked and asked["seen"] != mark_of(line["decision"]):
+                asked["answered"] = True
     if decided_result["status"] == "graded":
         rescored(decided_result)
     whole = next((entry for entry in own if entry.item == WHOLE), None)
@@ -403,6 +412,9 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
             decided_result["points"] = award.of(points or 0.0, most)
         decided_result["manual"], decided_result["doubts"] = [], []
     else:
+        answered = {request_remark(line) for line in lines.values()
+                    if "request" in line and line["request"]["answered"]}  # fmt: skip
+        decided_result["manual"] = [t for t in decided_result["manual"] if t not in answered]
         for remark, of_part in ((unread_remark, False), (part_remark, True)):
             group = [line for line in unknown if (line["block"] == PART) == of_part]
             left = [line for line in group if line["id"] not in settled]

@@ -22,11 +22,13 @@ from reports.grading.batch.decisions import (
     refuse_too_many,
     refuse_wrong_words,
     save_decisions,
+    student_of,
     waiting,
     words_of_groups,
 )
 from reports.grading.batch.memory import keep_past, kept_past, remember, remembered
 from reports.grading.batch.pool import Job, Outcome, grade_all, grade_far
+from reports.grading.batch.requests import add_request, load_requests, with_requests
 from reports.grading.batch.run_setup import (
     RESULTS,
     Pseudonyms,
@@ -45,7 +47,7 @@ from reports.grading.batch.settled import (
     result_text,
     settled,
 )
-from reports.grading.batch.setup import Effect, Graded, GradeSetup
+from reports.grading.batch.setup import Effect, Graded, GradeSetup, progress_words
 from reports.grading.issuing.register import FILE, Register, checked_register, load_register
 from reports.grading.issuing.roster import read_roster
 from reports.grading.issuing.rubric import load_rubric
@@ -119,7 +121,7 @@ def grade(
     with Progress("Проверка работ") as progress:
         for outcome in outcomes:
             batch.take(outcome)
-            progress.step(_progress(len(batch.works), len(submissions), batch.reused, started))
+            progress.step(progress_words(len(batch.works), len(submissions), batch.reused, started))
         refused = batch.decide(options)
         summary = batch.finish()
     if options.memory is not None:
@@ -141,18 +143,6 @@ def grade(
     return Graded(folder, summary, batch.reused, time.monotonic() - started)
 
 
-def _progress(done: int, count: int, reused: int, started: float) -> str:
-    """Progress of the batch and the time left."""
-    text = f"Проверка работ: {done} из {count}"
-    fresh = done - reused
-    if fresh < 3 or done >= count:
-        return text
-    left = (time.monotonic() - started) / fresh * (count - done)
-    return (
-        f"{text}, осталось {left / 60:.0f} мин" if left > 90 else f"{text}, осталось {left:.0f} с"
-    )
-
-
 def decide(folder: Path, options: GradeSetup) -> Graded:
     """Take a person's decisions into the results of an earlier run.
 
@@ -163,6 +153,7 @@ def decide(folder: Path, options: GradeSetup) -> Graded:
     register, known = load_register(folder / RESULTS / FILE), read_json(folder / "summary.json")
     batch = _Batch(register, folder, anonymous=bool(known.get("anonymous")))
     batch.take_over()
+    batch.ask(options.requests)
     batch.check(options)
     if (refused := batch.decide(options)) is not None:
         raise refused
@@ -195,6 +186,7 @@ class _Batch:
         self._hashes: dict[str, str] = {}
         self._sha256: dict[str, str] = {}
         self._taken_over = 0
+        self._requests = load_requests(folder)
         self._kept: list[Decision] = []  # decisions of before, and of the gradebook
         self._by_group: list[tuple[str, str, str, str]] = []  # what the gradebook says of groups
         self._group_author = ""
@@ -251,6 +243,19 @@ class _Batch:
         if not self.works:
             hint = "укажите папку, в которую проверены работы"
             raise InputError(Problem(str(self.folder), "здесь нет проверенных работ", hint))
+
+    @property
+    def _asked(self) -> set[int]:
+        return {each.number for each in self._requests}
+
+    def ask(self, requests: Sequence[tuple[str, str, str]]) -> None:
+        """Keep students' requests for another look; InputError where one is none."""
+        for who, column, text in requests:
+            work = self.by_number().get(student_of(self.register, self.works.values(), who).number)
+            if work is not None:
+                decided_result = applied(self._result(work), load_decisions(self.folder))
+                seen = work_of(decided_result, self._shared)
+                self._requests = add_request(self.folder, seen, column, text)
 
     def check(self, options: GradeSetup, submissions: Sequence[Submission] = ()) -> None:
         """Read what people have decided, before anything is written.
@@ -313,7 +318,7 @@ class _Batch:
         self, decisions: Sequence[Decision], also: Sequence[Decision] = ()
     ) -> dict[int, Work]:
         """Take decisions into the works of their students; which works count then."""
-        touched = {entry.number for entry in (*decisions, *also)}
+        touched = {entry.number for entry in (*decisions, *also)} | self._asked
         results = {
             work.key: applied(self._result(work), decisions)
             for work in self.works.values()
@@ -330,7 +335,7 @@ class _Batch:
     def _settle(self, rows: Sequence[dict[str, Any]], rings: Sequence[Ring]) -> None:
         """Write the pages and results anew that say less than the gradebook."""
         decisions = load_decisions(self.folder)
-        touched = {entry.number for entry in decisions}
+        touched = {entry.number for entry in decisions} | self._asked
         doubts = suspicions(self.ordered, rings)
         of_rows = {row["result"].key: row for row in rows if row["result"] is not None}
         for work in self.ordered:
@@ -353,7 +358,7 @@ class _Batch:
     def _result(self, work: Work) -> dict[str, Any]:
         """Return the result of a work as the program has made it."""
         result: dict[str, Any] = json.loads(self._json_of(work).read_text(encoding="utf-8"))
-        return as_graded(result)
+        return with_requests(as_graded(result), self._requests)
 
     def _json_of(self, work: Work) -> Path:
         return self.folder / RESULTS / f"{Path(work.page).stem}.json"

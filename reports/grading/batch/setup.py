@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ class GradeSetup:
     timeout_s: float = TIMEOUT_S
     pdf: bool = False
     decisions: Sequence[tuple[str, str, str, str]] = ()  # who, what, points, remark
+    requests: Sequence[tuple[str, str, str]] = ()  # of students: who, column, words
     preview: bool = False  # what decisions would change; nothing is written
     author: str = ""
     worksheet: Path | None = None  # of Moodle, to be filled in
@@ -46,3 +48,15 @@ class Graded:
     def needs_a_person(self) -> bool:
         """Whether anything could not be decided."""
         return bool(self.summary["manual"])
+
+
+def progress_words(done: int, count: int, reused: int, started: float) -> str:
+    """Progress of the batch and the time left."""
+    text = f"Проверка работ: {done} из {count}"
+    fresh = done - reused
+    if fresh < 3 or done >= count:
+        return text
+    left = (time.monotonic() - started) / fresh * (count - done)
+    return (
+        f"{text}, осталось {left / 60:.0f} мин" if left > 90 else f"{text}, осталось {left:.0f} с"
+    )

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator
 from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, is_known_function, names, parse
 from reports.formula.plain import plain
 from reports.grading.judging.rewriting import (
+    Divided,
+    DoubleAngle,
     Flipped,
     LowerPower,
     OtherExponent,
@@ -70,6 +72,7 @@ _ROUGH = ((3.14, "3,14"), (3.0, "3"), (22 / 7, "22/7"))
 _ARCS = ("asin", "acos", "tan")
 # Conversions, not quantities.
 _UNSQUARED = ("rad(", "deg(", "to_", "of_", "sqrt(")
+_DIVISORS = (2, 4)
 _PRODUCTS = 4  # of a formula, in which it may divide instead
 ROOTLESS = "значение под корнем: корень не извлечён"
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
@@ -94,6 +97,7 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for taken, words in (("sin", "sin вместо tg"), ("cos", "cos вместо tg")):
         yield words, OtherRatio(None, {"tan": taken}).visit
     yield "угол φ вместо 2φ под знаком sin, cos", SingleAngle().visit
+    yield "угол 4φ вместо 2φ под знаком sin, cos", DoubleAngle().visit
     for right, taken in (("asin", "acos"), ("acos", "asin")):
         yield f"{taken.upper()} вместо {right.upper()}", OtherRatio(None, {right: taken}).visit
     yield "сложены модули вместо корня из суммы квадратов", SumOfSizes().visit
@@ -116,6 +120,8 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
             if {wrong_for, taken} == {"r_crank", "S_stroke"} and numbers(tree):
                 more = " или потерянный делитель 2 (вдвое больше или меньше)"
             yield words + more, Renamed(wrong_for, taken).visit
+    for by in _DIVISORS if "lam" in used else ():  # λ/2 of the speed and λ/4 of the path
+        yield f"λ/{by} вместо λ", Divided("lam", by).visit
     for number, words in SIGNS:
         yield words, Flipped(number, ast.Add, ast.Sub).visit
     table = model.tables.get(block)

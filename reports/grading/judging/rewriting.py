@@ -193,6 +193,33 @@ class SingleAngle(ast.NodeTransformer):
         return node
 
 
+class DoubleAngle(ast.NodeTransformer):
+    """Takes the double of an angle that is doubled already: 4φ for 2φ."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Return the ratio of the double angle."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in ("sin", "cos"):
+            node.args = [
+                ast.BinOp(ast.Constant(2.0), ast.Mult(), one) if 2.0 in numbers(one) else one
+                for one in node.args
+            ]
+        return node
+
+
+class Divided(ast.NodeTransformer):
+    """Divides a name by a number where it stands, whatever else the formula has."""
+
+    def __init__(self, name: str, by: float) -> None:
+        self.name, self.by = name, by
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """Return the name divided."""
+        if node.id != self.name:
+            return node
+        return ast.BinOp(node, ast.Div(), ast.Constant(self.by))
+
+
 class LowerPower(ast.NodeTransformer):
     """Takes the square for the cube, or another power one less."""
 

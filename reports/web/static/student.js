@@ -1,8 +1,9 @@
 // A student's page: the own book taken and handed in, and its page once it is open.
-import {alerts, ask, html, insist, list, moment, picker, printed, send, set, state} from "./common.js";
+import {alerts, ask, given, html, insist, list, moment, picker, printed, send, set, state} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
 const taken = async told => told && set({remarks: [], try: "", ...told, ...await ask(door)});
+const look = async event => await send(`${door}/ask`, given(event)) && set({asked: true});
 const hand = async file => taken(await send(`${door}/work`, file));
 
 function own({tries, student, title, handed, when, late, deadline, closed, earlier, status, points, file, open}) {
@@ -19,7 +20,12 @@ function own({tries, student, title, handed, when, late, deadline, closed, earli
     <p class="bar">
       <a id="book" class="button" href=${`${door}/book`} download=${file}>Скачать рабочую книгу</a>
       ${!closed && picker("Сдать книгу .xlsx", ".xlsx", hand, "work")}
-      <a id="page" class="button" href=${`${door}/page`} hidden=${!open}>Страница проверки</a></p>`;
+      <a id="page" class="button" href=${`${door}/page`} hidden=${!open}>Страница проверки</a></p>
+    ${open && html`<form id="look" onSubmit=${look}>
+      <label>Столбец, как на странице проверки <input name="column" required maxlength="40" placeholder="П3.1 v"/></label>
+      <label>В чём вы не согласны <input name="text" required maxlength="300"/></label>
+      <button>Попросить посмотреть ещё раз</button>
+      ${state.asked && html`<p role="status">Просьба передана; ответ будет на странице проверки.</p>`}</form>`}`;
 }
 
 set({...await insist(door), again: async () => set(await ask(door))}, () => html`

@@ -233,8 +233,8 @@ def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
         TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"\chi_{\max}", "")),
         TableColumn(symbol_head(r"h_{\min}", "мкм")), TableColumn(symbol_head(r"\varphi", "°")),
         TableColumn(symbol_head(r"\delta_{\mathrm{в}}", "°")),
-        TableColumn(symbol_head(r"\delta_{\mathrm{цап}}", "°")), TableColumn(symbol_head(r"\zeta_{\mathrm{кр}}",
-                                                                                       "%")),
+        TableColumn(symbol_head(r"\delta_{\mathrm{цап}}", "°")),
+        TableColumn(symbol_head(r"\zeta_{\mathrm{кр}}", "%")),
         TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
         TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip

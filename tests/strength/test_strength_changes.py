@@ -28,6 +28,10 @@ def test_with_the_changes_made_all_is_within_its_limits(name: str):
     stresses = usual_stresses(model.strength)
     made = changed(to_engine(model), stresses, model.strength.safety_allowed)
     assert len(made.changes) > 3 and not made.left
+    first = to_engine(model)
+    sizes = first.strength.sizes(first.geometry.bore, first.crankshaft.pin_diameters[0])
+    raw["strength"] |= {f"{key}_mm": round(1e3 * size, 6) for key, size in sizes.items()
+                        if key not in ("bore", "crankpin")}  # fmt: skip
     keys = {"bush_fit": ("bush_fit_um", 1e6)}
     for each in made.changes:
         key, scale = keys.get(each.key, (f"{each.key}_mm", 1e3))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
+from kshm.cycle.governor import GOVERNOR_IRREGULARITY, IDLE_FUEL_SHARE
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
 from kshm.defaults import FINE_STEP, OUTER_SHARE, SKIRT_SHARE
@@ -112,6 +113,7 @@ def _cycle(scope: Scope) -> dict[str, Any]:
         "words": {"subtract": PUMPING["yes"], "up": ROUNDINGS["up"]},
         "law": LEIDERMAN[section.speed_law or section.kind],
         "idle_share": IDLE_SHARE[section.kind],
+        "governor": (GOVERNOR_IRREGULARITY, IDLE_FUEL_SHARE),
         "ranges": tuple(ranges_of(section)),
     }
 

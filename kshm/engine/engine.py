@@ -20,6 +20,7 @@ from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft
+from kshm.engine.flywheel import Flywheel
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
 from kshm.engine.strength import PartStrength
@@ -172,6 +173,7 @@ class Engine:
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
     strength: PartStrength | None = None  # strength of the parts, if it is asked for
+    flywheel: Flywheel | None = None  # as a part, if asked for
     counterweight: Counterweight | None = None  # those proposed for the webs, if asked for
 
     def __post_init__(self) -> None:

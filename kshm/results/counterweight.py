@@ -53,7 +53,7 @@ def with_counterweights(engine: Engine, share: float) -> Engine:
     nothing = EndMass()
     other = replace(shaft, throws=throws, nose=nothing, rear=nothing)
     return replace(engine, crankshaft=other, regimes=(), torsion=None, bearings=None,
-                   strength=None, counterweight=None)  # fmt: skip
+                   strength=None, counterweight=None, flywheel=None)  # fmt: skip
 
 
 def _weighed(throw: Throw, mass: float) -> Throw:

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from kshm.nomenclature.quantity import quantity
 from kshm.ranges import PART_SHARES
 from reports.document.chapters.chapter import Chapter
-from reports.document.chapters.strength_changes import Changed, changed
+from reports.document.chapters.strength_changes import ChangedSizes, changed
 from reports.document.figures.parts import parts_sketch
 from reports.document.page.blocks import (
     TableBlock,
@@ -116,7 +116,7 @@ def concluded(chapter: Chapter) -> Markup:
     return line
 
 
-def _changed(chapter: Chapter) -> Changed | None:
+def _changed(chapter: Chapter) -> ChangedSizes | None:
     """Sizes with which all is within its limits, where something is not."""
     above = any(side > 0 for _, _, side in _ranged(chapter))
     if not (above or _weak(chapter)):
@@ -149,13 +149,13 @@ def _title_of(chapter: Chapter, key: str) -> str:
     return titles.get(key) or chapter.terms.title(key)
 
 
-def _changes(terms: Terms, made: Changed) -> TableBlock:
+def _changes(terms: Terms, made: ChangedSizes) -> TableBlock:
     """Sizes before and after [mm]."""
     rows = []
     for each in made.changes:
         name = _SIZE_NAMES.get(each.key, f"st_{each.key}_mm")
         unit = terms.unit(name)
-        scale = 1e6 if unit == "мкм" else 1e3
+        scale = 1e6 if each.key in _SIZE_NAMES else 1e3
         rows.append([titled_html(capital(terms.title(name))), terms.sym(name),
                      *(plain_number(round(scale * size, 3)) for size in (each.before, each.after)),
                      unit])  # fmt: skip
@@ -165,7 +165,7 @@ def _changes(terms: Terms, made: Changed) -> TableBlock:
     )  # fmt: skip
 
 
-def _again(chapter: Chapter, made: Changed) -> TableBlock:
+def _again(chapter: Chapter, made: ChangedSizes) -> TableBlock:
     """Values that the changes move, before and after, beside their limits."""
     terms, rows = chapter.terms, []
     for each, value, _ in _ranged(chapter):

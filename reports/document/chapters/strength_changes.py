@@ -32,7 +32,7 @@ class Change:
 
 
 @dataclass(frozen=True, slots=True)
-class Changed:
+class ChangedSizes:
     """All changes, values by key before and after, in SI; what no change mends."""
 
     changes: tuple[Change, ...]
@@ -76,7 +76,7 @@ _SIZES = {
 _SHANK = ("shank_height", "shank_width", "shank_web", "shank_flange")
 
 
-def changed(engine: Engine, stresses: tuple[UsualStress, ...], allowed: float) -> Changed:
+def changed(engine: Engine, stresses: tuple[UsualStress, ...], allowed: float) -> ChangedSizes:
     """Sizes that bring every stress below its usual limit and every safety to the allowed one.
 
     The loads stay those of the engine: the masses are as they were.
@@ -96,7 +96,7 @@ def changed(engine: Engine, stresses: tuple[UsualStress, ...], allowed: float) -
     left = tuple(limit.key for limit in limits if not limit.holds(after))
     sizes = ((key, _size(whole, key), _size(found.engine, key)) for key in _names())
     changes = tuple(Change(*each) for each in sizes if abs(each[2] / each[1] - 1) > _SPARE)
-    return Changed(changes, before, after, left)
+    return ChangedSizes(changes, before, after, left)
 
 
 def _names() -> Iterator[str]:

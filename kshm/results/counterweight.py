@@ -163,7 +163,7 @@ class _Proposal:
             "cw_moment": moment, "cw_reduced": moment / radius,
             "cw_skirt_mm": skirt, "cw_free_mm": free, "cw_inner_mm": ring.inner,
             "cw_outer_mm": ring.outer, "cw_width_mm": ring.width,
-            "cw_sine": sector.fullness, "cw_angle_deg": sector.angle,
+            "cw_sine": min(1.0, sector.fullness), "cw_angle_deg": sector.angle,
             "cw_mass": sector.mass, "cw_centre_mm": sector.centre,
             "cw_best_width_mm": ring.width_for(self.best * unit),
         }  # fmt: skip

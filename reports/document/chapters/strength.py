@@ -137,10 +137,10 @@ def _crown(chapter: Chapter) -> str:
     symbols = [
         terms.tex(key) for key in ("st_crown_mm", "st_inner_mm", "st_pz_MPa", "st_crown_MPa")
     ]
-    root = r"\dfrac{{{}}}{{2}}\sqrt{{\dfrac{{{}}}{{{}}}}}".format
+    root = r"\dfrac{{{}}}{{2}} \cdot \sqrt{{\dfrac{{{}}}{{{}}}}}".format
     limited = rf"\left[{symbols[3]}\right]"
     said = [number.replace(",", "{,}") for number in (*numbers, fixed(least, 2))]
-    formula = rf"{symbols[0]} \geq {root(*symbols[1:3], limited)}"
+    formula = rf"{symbols[0]} \geq {root(*symbols[1:3], limited)}".replace(r" \cdot ", "")
     return rf"{formula} = {root(*said[:3])} = {said[3]}\ \mathrm{{мм}}"
 
 

@@ -54,3 +54,8 @@ STEEL_DENSITY = 7850.0  # kg/m³
 SKIRT_SHARE = 0.25  # of the bore: the piston below its pin, cut out for counterweights
 SKIRT_PLAY = 2e-3  # between piston and counterweight [m]
 OUTER_SHARE = 1.9  # of the crank radius: outer radius of the sector
+
+# Flywheel, without a source.
+IRON_DENSITY = 7200.0  # kg/m³
+FLYWHEEL_STROKES = 2.8  # outer diameter over the stroke
+FLYWHEEL_DISC_SHARE = 0.05  # thickness of the disc over the outer diameter

@@ -14,6 +14,7 @@ from typing import Literal
 
 from kshm.cycle.dizdn_listing import POWER_FACTOR, Listing, listing_cycle
 from kshm.cycle.fuel import ZERO_C, CycleError, Mixture, Remark, burn, mixture_heat
+from kshm.cycle.governor import Governor
 from kshm.cycle.inputs import CycleInputs, check_inputs, check_range
 from kshm.cycle.performance import (
     Cycle,
@@ -265,6 +266,7 @@ class CycleRun:
     balance: HeatBalance
     law: Leiderman
     points: tuple[SpeedPoint, SpeedPoint, SpeedPoint]
+    governor: Governor | None = None  # of a diesel
 
     @property
     def gas_power(self) -> float:
@@ -286,6 +288,7 @@ def run_cycle(
     *,
     omega_torque: float | None = None,
     omega_idle: float | None = None,
+    governor: Governor | None = None,
 ) -> CycleRun:
     """Calculate a cycle, in design mode with the sizes for the wanted power.
 
@@ -295,6 +298,7 @@ def run_cycle(
         law: coefficients of the external speed characteristic.
         omega_torque: speed of maximum torque [rad/s], when given.
         omega_idle: idle speed [rad/s], when given.
+        governor: that of a diesel; the usual one where none is given.
 
     Raises:
         CycleError: no cycle follows from the inputs.
@@ -320,4 +324,8 @@ def run_cycle(
         omega_torque=omega_torque,
         omega_idle=omega_idle,
     )
-    return CycleRun(result, sizes, heat_balance(result), law, points)
+    if inputs.kind != "diesel":
+        governor = None
+    elif governor is None:
+        governor = Governor()
+    return CycleRun(result, sizes, heat_balance(result), law, points, governor)

@@ -29,6 +29,7 @@ from kshm.engine.bearings import Bearings
 from kshm.engine.checks import POSITIVE, check_numbers, refuse
 from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft
+from kshm.engine.flywheel import Flywheel
 from kshm.engine.gas import Gas, PolytropicGas, TabulatedGas
 from kshm.engine.masses import DirectMasses, Masses
 from kshm.engine.revised import engine_maker
@@ -183,6 +184,7 @@ class Engine:
     torsion: Torsion | None = None  # torsional vibration, if it is asked for
     bearings: Bearings | None = None  # oil film and strength, if they are asked for
     strength: PartStrength | None = None  # strength of the parts, if it is asked for
+    flywheel: Flywheel | None = None  # as a part, if asked for
     counterweight: Counterweight | None = None  # those proposed for the webs, if asked for
     source: Source | None = field(default=None, compare=False)  # the file that it was read from
 

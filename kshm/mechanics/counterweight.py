@@ -20,7 +20,7 @@ class Sector(NamedTuple):
     centre: float
 
 
-class Ring(NamedTuple):
+class SectorRing(NamedTuple):
     """Section of a sector: inner and outer radius and width [m], density [kg/m³]."""
 
     inner: float

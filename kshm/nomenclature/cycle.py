@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kshm.nomenclature.digits import Row, scientific
+from kshm.nomenclature.digits import Digits, Row, scientific
 
 UNITS = (
     ("K", "К", 1.0),
@@ -159,6 +159,16 @@ ROWS: tuple[Row, ...] = (
     ("speed_Me", r"M_e", "Nm", "эффективный крутящий момент", 1),
     ("speed_ge", r"g_e", "g_kWh", "эффективный удельный расход топлива", 1),
     ("speed_Gf", r"G_{\mathrm{т}}", "kg_h", "часовой расход топлива", 2),
+    ("gov_delta", r"\delta_{\mathrm{р}}", "", "степень неравномерности регулятора", 3),
+    ("gov_idle", r"k_{\mathrm{х}}", "", "отношение часового расхода на холостом ходу к номинальному", 3),
+    ("gov_n_max", r"n_{\mathrm{х}\,\max}", "rpm", "наибольшая частота холостого хода", 0),
+    ("gov_G_idle", r"G_{\mathrm{т.х}}", "kg_h", "часовой расход топлива на холостом ходу", 2),
+    ("gov_share", r"\xi_{\mathrm{р}}", "percent", "доля регуляторной ветви", 0),
+    ("gov_n", r"n_{\mathrm{р}}", "rpm", "частота вращения на регуляторной ветви", 0),
+    ("gov_Me", r"M_{\mathrm{р}}", "Nm", "крутящий момент на регуляторной ветви", 1),
+    ("gov_Ne", r"N_{\mathrm{р}}", "kW", "мощность на регуляторной ветви", 2),
+    ("gov_Gf", r"G_{\mathrm{р}}", "kg_h", "часовой расход топлива на регуляторной ветви", 2),
+    ("gov_ge", r"g_{\mathrm{р}}", "g_kWh", "удельный расход топлива на регуляторной ветви", Digits(1, hides="zeros")),
     ("cd_s_mm", r"s", "mm", "перемещение поршня", 2),
     ("cd_ratio", r"V/V_c", "", "объём, отнесённый к объёму камеры", 4),
     ("cd_V_dm3", r"V", "dm3", "объём цилиндра", 4),

@@ -20,6 +20,7 @@ from kshm.nomenclature import (
     chapters,
     counterweight,
     cycle,
+    flywheel,
     inertia,
     layouts,
     series,
@@ -31,7 +32,7 @@ from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.symbols import WORDS, plain_symbol
 
 _SUBJECTS = (textbook, series, balance, inertia, cycle, chapters, layouts, torsion,
-            bearings, strength, counterweight)  # fmt: skip
+            bearings, strength, counterweight, flywheel)  # fmt: skip
 _ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
           "XIII", "XIV", "XV", "XVI", "XVII", "XVIII")  # fmt: skip
 # How what is printed grows with the length of alike engines: of equal stresses and piston speeds.

@@ -15,7 +15,7 @@ from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import EndMass, Throw
 from kshm.engine.engine import Engine
 from kshm.mechanics import balance
-from kshm.mechanics.counterweight import Ring
+from kshm.mechanics.counterweight import SectorRing
 from kshm.mechanics.masses import rotating_mass
 from kshm.mechanics.webs import web_thickness
 from kshm.results.case import Case
@@ -36,7 +36,7 @@ def counterweight_results(case: Case) -> Results:
     inputs = case.engine.counterweight
     if inputs is None:
         return {}, {}
-    study = _Study(case, inputs)
+    study = _Proposal(case, inputs)
     scan, turn = study.scan, study.turn()
     sector = study.sector()
     return {"counterweight_scan": scan, "counterweight_turn": turn}, sector | study.loads()
@@ -53,7 +53,7 @@ def with_counterweights(engine: Engine, share: float) -> Engine:
     nothing = EndMass()
     other = replace(shaft, throws=throws, nose=nothing, rear=nothing)
     return replace(engine, crankshaft=other, regimes=(), torsion=None, bearings=None,
-                   strength=None, counterweight=None)  # fmt: skip
+                   strength=None, counterweight=None, flywheel=None)  # fmt: skip
 
 
 def _weighed(throw: Throw, mass: float) -> Throw:
@@ -65,7 +65,7 @@ def _weighed(throw: Throw, mass: float) -> Throw:
 
 
 @dataclass(frozen=True)
-class _Study:
+class _Proposal:
     """Proposed counterweights of one engine."""
 
     case: Case
@@ -140,7 +140,7 @@ class _Study:
         return skirt, geometry.rod_length - geometry.crank_radius - skirt - given.play
 
     @cached_property
-    def ring(self) -> Ring:
+    def ring(self) -> SectorRing:
         """Section of the counterweight, usual where the input leaves it open."""
         engine, given = self.case.engine, self.inputs
         free, radius = self.space[1], engine.geometry.crank_radius
@@ -148,7 +148,7 @@ class _Study:
         inner = usual[0] if given.inner is None else given.inner
         outer = usual[1] if given.outer is None else given.outer
         width = float(web_thickness(engine)[0, 0]) if given.width is None else given.width
-        return Ring(inner, outer, width, given.density)
+        return SectorRing(inner, outer, width, given.density)
 
     def sector(self) -> Scalars:
         """Needed moment of a web and its sector, within what the piston leaves."""
@@ -163,7 +163,7 @@ class _Study:
             "cw_moment": moment, "cw_reduced": moment / radius,
             "cw_skirt_mm": skirt, "cw_free_mm": free, "cw_inner_mm": ring.inner,
             "cw_outer_mm": ring.outer, "cw_width_mm": ring.width,
-            "cw_sine": sector.fullness, "cw_angle_deg": sector.angle,
+            "cw_sine": min(1.0, sector.fullness), "cw_angle_deg": sector.angle,
             "cw_mass": sector.mass, "cw_centre_mm": sector.centre,
             "cw_best_width_mm": ring.width_for(self.best * unit),
         }  # fmt: skip

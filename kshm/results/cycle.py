@@ -9,6 +9,7 @@ import numpy as np
 from kshm.arrays import Array, Scalars, Tables
 from kshm.cycle.cycle import CycleRun
 from kshm.cycle.diagram import diagram_at, isobar_angle
+from kshm.cycle.governor import branch
 from kshm.cycle.speed_characteristic import curve
 from kshm.results.case import grid
 
@@ -101,7 +102,14 @@ def cycle_scalars(run: CycleRun) -> Scalars:
     if run.cycle.turbo is not None:
         paths |= _TURBO
     _, torque, idle = run.points
-    return {
+    governed = Scalars()
+    if run.governor is not None:
+        governed = {
+            "gov_delta": run.governor.irregularity, "gov_idle": run.governor.idle_fuel,
+            "gov_n_max": run.governor.idling(run.cycle.inputs.omega),
+            "gov_G_idle": run.governor.idle_fuel * run.cycle.effective.fuel_flow,
+        }  # fmt: skip
+    return governed | {
         **{key: attrgetter(path)(run) for key, path in paths.items()},
         **{f"bal_{name}_share": share for name, share in run.balance.shares.items()},
         "cyc_phi_z": isobar_angle(run.cycle),
@@ -122,6 +130,21 @@ def diagram_rows() -> Array:
     return np.arange(180.0, 540.0 + DIAGRAM_STEP, DIAGRAM_STEP)
 
 
+def _governed(run: CycleRun) -> Tables:
+    """The governor's branch of a diesel, eleven rows from the rated speed to idling."""
+    if run.governor is None:
+        return {}
+    shares, figures = np.linspace(0.0, 1.0, 11), run.cycle.effective
+    curves = branch(figures.power_e, run.cycle.inputs.omega, figures.fuel_flow, run.governor,
+                    shares)  # fmt: skip
+    return {
+        "governor": {
+            "gov_share": shares, "gov_n": curves.omega, "gov_Me": curves.torque,
+            "gov_Ne": curves.power, "gov_Gf": curves.fuel_flow, "gov_ge": curves.consumption,
+        }
+    }  # fmt: skip
+
+
 def cycle_tables(run: CycleRun) -> Tables:
     """Tables of the cycle by id: the speed characteristic and the indicator diagram."""
     inputs, figures = run.cycle.inputs, run.cycle.effective
@@ -130,7 +153,7 @@ def cycle_tables(run: CycleRun) -> Tables:
     phi = grid(180, 540, DIAGRAM_STEP)
     diagram = diagram_at(run.cycle, phi)
     clearance = figures.displacement / (inputs.compression_ratio - 1)
-    return {
+    return _governed(run) | {
         "speed": {
             "speed_percent": shares,
             "speed_n": speeds.omega,

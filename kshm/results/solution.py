@@ -25,6 +25,7 @@ from kshm.results.bearings import bearing_results
 from kshm.results.case import Case
 from kshm.results.counterweight import counterweight_results
 from kshm.results.cycle import cycle_scalars, cycle_tables
+from kshm.results.flywheel import flywheel_results
 from kshm.results.forces import continuous_results, pin_bending, rod_bearing
 from kshm.results.inertia import inertia_results, rod_mass_scalars
 from kshm.results.loads import Engines, geometry_scalars, load_scalars, mass_scalars
@@ -59,7 +60,7 @@ ALWAYS: tuple[Subject, ...] = (
     torsion_results, bearing_results, strength_results, counterweight_results,
 )  # fmt: skip
 BY_ORDERS: tuple[Subject, ...] = (segal_results, neiman_results, balance_results)
-SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results)
+SAME_RODS: tuple[Subject, ...] = (inertia_results, torque_order_results, flywheel_results)
 _GRIDS = ("phi_deg", "alpha_deg", "ray_deg")
 
 

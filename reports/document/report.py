@@ -203,7 +203,7 @@ class Report:
         )
         if media == "print":
             sheets = style.framed if front.has_frame(chapter.input, style.frame) else style
-            placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(chapter, style))
+            placed = arranged(body, sheets, chapter.writer.figures, run_on=_run_on(style))
             body = Markup(redrawn(placed, chapter.writer.figures, env.filters["pictured"]))
         numbering.check()
         head, start, page = _whole(env, chapter, body, with_sheet=self.with_sheet).partition(
@@ -263,10 +263,9 @@ def prototype_of(model: InputFile, beside: Path) -> Prototype | None:
     return None if section is None else rationale.stated(section)
 
 
-def _run_on(chapter: Chapter, style: Style) -> float:
+def _run_on(style: Style) -> float:
     """Share of a page from which a chapter follows on it; 1 for one that never does."""
-    new_page = style.chapters_on_new_page
-    return 1.0 if new_page or (new_page is None and chapter.whole) else _RUN_ON
+    return 1.0 if style.chapters_on_new_page else _RUN_ON
 
 
 def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:

@@ -1,4 +1,4 @@
-"""Dimensioned drawings of a web with its counterweight, from numbers in mm."""
+"""Dimensioned drawings of a web with its counterweight and of a flywheel, from numbers in mm."""
 
 from __future__ import annotations
 
@@ -74,3 +74,61 @@ def _web(r: float, main: float, pin: float) -> list[Point]:
     upper = [(x, y + r) for x, y in _arc(pin, -90 + tilt, 90 - tilt)]
     lower = _arc(main, 90 - tilt, 270 + tilt)
     return [*upper, *lower, upper[0]]
+
+
+@dataclass(frozen=True, slots=True)
+class FlywheelSizes:
+    """Diameters of the flywheel and of its rim's bore, thickness of the disc, width of the rim."""
+
+    outer: float
+    bore: float
+    disc: float
+    rim: float
+
+
+def flywheel_drawing(
+    wheel: FlywheelSizes, *, letters: float = 3.5, scale: float = 1.0
+) -> list[Item]:
+    """A section of the flywheel along its axis.
+
+    Args:
+        wheel: sizes [mm].
+        letters: height of the letters on the drawing [mm].
+        scale: size of the drawing to that of the flywheel.
+    """
+    canvas = Canvas()
+    outer, bore = scale * wheel.outer / 2, scale * wheel.bore / 2
+    disc, rim = scale * wheel.disc, scale * wheel.rim
+    for side in (1, -1):
+        corners = ((0.0, 0.0), (0.0, outer), (rim, outer), (rim, bore), (disc, bore), (disc, 0.0))
+        canvas.line(*((x, side * y) for x, y in corners), layer=CONTOUR)
+        _hatched(canvas, [(0.0, 0.0, disc, bore), (0.0, bore, rim, outer)], side, letters)
+    over = 2.5 * letters
+    canvas.line((-over, 0.0), (max(rim, disc) + over, 0.0), layer=AXES)
+    for x, y, value in ((-3 * letters, outer, wheel.outer), (rim + 3 * letters, bore, wheel.bore)):
+        end = 0.0 if x < 0 else rim
+        for level in (y, -y):
+            canvas.line((end, level), (x + math.copysign(letters, x), level), layer=THIN)
+        along(canvas, (x, -y), (x, y), "", value, letters)
+    for width, level, name, value in ((disc, -outer - 3 * letters, "h", wheel.disc),
+                                      (rim, outer + 3 * letters, "b", wheel.rim)):  # fmt: skip
+        start = -outer if level < 0 else outer
+        for x in (0.0, width):
+            canvas.line((x, start), (x, level + math.copysign(letters, level)), layer=THIN)
+        along(canvas, (0.0, level), (width, level), name, value, letters)
+    return interrupted(canvas.items)
+
+
+def _hatched(
+    canvas: Canvas, boxes: list[tuple[float, float, float, float]], side: int, letters: float
+) -> None:
+    """Lines at 45° through boxes above the axis, mirrored for the lower half."""
+    step = 1.2 * letters
+    for left, low, right, high in boxes:
+        shift = math.ceil((low - right) / step) * step
+        while shift < high - left:
+            first, last = max(left, low - shift), min(right, high - shift)
+            if last > first:
+                canvas.line((first, side * (first + shift)), (last, side * (last + shift)),
+                            layer=THIN)  # fmt: skip
+            shift += step

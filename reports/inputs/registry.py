@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from reports.inputs.meta import Strictly, hints
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
+from reports.inputs.sections.flywheel import FlywheelSection
 from reports.inputs.sections.gas import (
     CycleGasSection,
     CycleSection,
@@ -160,6 +161,17 @@ _ALL = (
         },
     ),
     InputSection("balance", "Уравновешивание и маховик", BalanceSection, optional=True),
+    InputSection(
+        "flywheel",
+        "Маховик как деталь",
+        FlywheelSection,
+        optional=True,
+        absent=True,
+        words=(
+            "Раздел [flywheel] находит размеры маховика по требуемому моменту инерции: диск,",
+            "обод, массу, скорость обода рядом с допускаемой. Все ключи необязательны.",
+        ),
+    ),
     InputSection(
         "counterweight",
         "Подбор противовесов",

@@ -219,7 +219,7 @@ def refined(model: InputFile) -> InputFile:
     calculation = model.calculation.model_copy(update={"step_deg": FINE_STEP})
     hole = {"oil_hole_deg": solved(model).scalars.get("alpha_oil_deg")}
     crankshaft = model.crankshaft.model_copy(update=hole)
-    other = dict.fromkeys(("torsion", "bearings", "strength", "counterweight"))
+    other = dict.fromkeys(("torsion", "bearings", "strength", "counterweight", "flywheel"))
     return model.model_copy(update={"calculation": calculation, "crankshaft": crankshaft, **other})
 
 

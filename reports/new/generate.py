@@ -39,6 +39,7 @@ from reports.new.sizing import (
     size_notes,
     usual_for,
 )
+from reports.shared.russian import cylindered
 
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
@@ -173,7 +174,8 @@ def _named(kind: str, layout: str, cylinders: int, strokes: int) -> str:
     words = "двухтактный" if strokes == 2 else "четырёхтактный"
     # The kind that burns petrol burns gas and ethanol as well: the spark is what they share.
     noun = "Дизель" if kind == "diesel" else "Двигатель с искровым зажиганием"
-    return f"{noun}: {LAYOUTS[layout]}, {words}, {cylinders}-цилиндровый"
+    row = "" if cylinders == 1 else f"{LAYOUTS[layout]}, "
+    return f"{noun}: {row}{words}, {cylindered(cylinders)}"
 
 
 def rods_of(layout: str) -> int:

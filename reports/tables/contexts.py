@@ -8,9 +8,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from kshm.cycle.fuel import FUELS, SPECIES, TEMPERATURE_PASSES
+from kshm.cycle.governor import GOVERNOR_IRREGULARITY, IDLE_FUEL_SHARE
 from kshm.cycle.processes import N1_PASSES, N1_START, N2_PASSES, N2_START
 from kshm.cycle.speed_characteristic import IDLE_SHARE, LEIDERMAN
-from kshm.defaults import FINE_STEP, OUTER_SHARE, SKIRT_SHARE
+from kshm.defaults import (
+    FINE_STEP,
+    FLYWHEEL_DISC_SHARE,
+    FLYWHEEL_STROKES,
+    OUTER_SHARE,
+    SKIRT_SHARE,
+)
+from kshm.engine.flywheel import DENSITIES, RIM_SPEEDS
 from kshm.mechanics.journals import PLANES
 from kshm.ranges import (
     MASSES_BORES,
@@ -112,6 +120,7 @@ def _cycle(scope: Scope) -> dict[str, Any]:
         "words": {"subtract": PUMPING["yes"], "up": ROUNDINGS["up"]},
         "law": LEIDERMAN[section.speed_law or section.kind],
         "idle_share": IDLE_SHARE[section.kind],
+        "governor": (GOVERNOR_IRREGULARITY, IDLE_FUEL_SHARE),
         "ranges": tuple(ranges_of(section)),
     }
 
@@ -190,6 +199,12 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "bearings": lambda _: {"planes": PLANES},
     "counterweight": lambda _: {"skirt_share": SKIRT_SHARE, "outer_share": OUTER_SHARE},
     "cylinders": _cylinders,
+    "flywheel": lambda _: {
+        "densities": DENSITIES,
+        "speeds": RIM_SPEEDS,
+        "strokes": FLYWHEEL_STROKES,
+        "disc_share": FLYWHEEL_DISC_SHARE,
+    },
     "gas": _rounded,
     "cycle": _cycle,
     "cycle_results": _cycle,

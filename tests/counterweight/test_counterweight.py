@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kshm.engine.engine import Engine
-from kshm.mechanics.counterweight import Crank, Ring
+from kshm.mechanics.counterweight import Crank, SectorRing
 from kshm.mechanics.masses import point_masses
 from kshm.results.case import Case
 from kshm.results.counterweight import with_counterweights
@@ -29,7 +29,7 @@ from tools.referees.by_formualizer import Formualizer
 SAMPLES = ("yamz-236", "yamz-238", "gots-diesel", "two-stroke", "vw-1600")
 NEW = {"V8": (8, "v", 4), "three": (3, "inline", 4), "five": (5, "inline", 4),
        "one": (1, "inline", 4), "opposed": (4, "opposed", 4)}  # fmt: skip
-RING = Ring(0.03585, 0.087, 0.01909, 7860.0)  # of a car's V engine, bore 82, stroke 93 mm
+RING = SectorRing(0.03585, 0.087, 0.01909, 7860.0)  # of a car's V engine, bore 82, stroke 93 mm
 RELATIVE = 1e-8
 
 

@@ -8,12 +8,13 @@ from collections.abc import Iterator
 
 _NAMES = {r"\arcsin": "ASIN", r"\arccos": "ACOS", r"\arctg": "ATAN", r"\sin": "SIN",
           r"\cos": "COS", r"\tg": "TAN", r"\max": "max", r"\min": "min"}  # fmt: skip
-_SIGNS = {"{,}": ".", r"\left": "", r"\right": "", r"\;": "", r"\,": "", r"\cdot": "*",
+_SIGNS = {r"\left|": "abs(", r"\right|": ")", "{,}": ".", r"\left": "", r"\right": "",
+          r"\;": "", r"\,": "", r"\cdot": "*",
           "[": "(", "]": ")", r"\pi": "PI", ";": ","}  # fmt: skip
 # Angles are in degrees at both ends.
 _FUNCTIONS = {
     "PI": math.pi, "DEG": math.pi / 180, "SQRT": math.sqrt, "SIN": math.sin, "COS": math.cos,
-    "TAN": math.tan, "max": max, "min": min,
+    "TAN": math.tan, "max": max, "min": min, "abs": abs,
     **{name: lambda x, of=of: math.degrees(of(x))
        for name, of in (("ASIN", math.asin), ("ACOS", math.acos), ("ATAN", math.atan))},
 }  # fmt: skip

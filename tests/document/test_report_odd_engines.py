@@ -60,7 +60,7 @@ def test_the_flywheel_is_needed_or_not_in_every_chapter(allowed, needed):
     text = text_of(model)
     assert (solved(model).scalars["I_flywheel"] > 0) == needed
     assert ("принят по требуемой неравномерности хода" in text) == needed
-    assert ("маховик не нужен" in text) != needed
+    assert ("дополнительный маховик не требуется" in text) != needed
     assert ("даёт и без него; принят в 8 раз больше" in text) != needed
     assert "но при шаге 1° Iм = 0" not in text.replace("\xa0", " ")
 

@@ -51,7 +51,7 @@ def test_one_flywheel_in_the_whole_note(kind: str) -> None:
         for told in (balance, train):
             assert number(told[1]) == pytest.approx(wanted, rel=0.01)
     else:
-        assert "маховик не нужен" in text and "даёт и без него" in text
+        assert "дополнительный маховик не требуется" in text and "даёт и без него" in text
 
 
 @pytest.mark.parametrize("kind", ["V6", "two-stroke"])

@@ -20,7 +20,8 @@ from reports.document.page.blocks import (
     symbol_head,
     table_block,
 )
-from reports.document.page.numbering import TablePlan
+from reports.document.page.charts import flywheel_figure
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms
 from reports.document.text.texts import of_digits, rich
 from reports.inputs.sections.input_file import InputFile
@@ -28,6 +29,8 @@ from reports.inputs.to_si.engine import to_engine
 from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
 _MOST_ORDERS = 8
+_FLYWHEEL = ("fw_outer_mm", "fw_bore_mm", "fw_disc_mm", "fw_rim_mm", "fw_density", "fw_I",
+             "fw_mass_disc", "fw_mass_rim", "fw_mass", "fw_outer_most_mm")  # fmt: skip
 
 # A definition that no single formula of the sheets states.
 _FORMULAS = {
@@ -106,6 +109,7 @@ def balance(chapter: Chapter) -> Markup:
         tables[name] = chapter.scalars(_LISTS[name][0], keys, size="dense", keep=True)
     tables |= _vectors(chapter, after=after) | {
         "devices": _devices(chapter, busy),
+        "flywheel": chapter.scalars("Размеры маховика", _FLYWHEEL, size="dense", keep=True),
         "orders": TablePlan(
             partial(_orders, terms, banks=banks, left=bool(_SHAFTS.keys() & devices)),
             "Свободные силы и моменты инерции по порядкам", keep=True,
@@ -138,8 +142,22 @@ def balance(chapter: Chapter) -> Markup:
         own_flywheel=_own_flywheel(chapter),
         flywheel_needed=is_flywheel_needed(chapter),
         coarse=chapter.terms.has("W_fresh"),
+        **_flywheel_part(chapter),
         rod_given=chapter.input.masses.rod_kg is not None,
     )
+
+
+def _flywheel_part(chapter: Chapter) -> dict[str, object]:
+    """What the text on the flywheel's sizes needs."""
+    section, terms = chapter.input.flywheel, chapter.terms
+    if section is None or not terms.has("fw_mass"):
+        return {"flywheel_part": False}
+    return {
+        "flywheel_part": True,
+        "flywheel_given": section.outer_mm is not None,
+        "fast": terms.value("fw_speed") > terms.value("fw_limit"),
+        "flywheel_sketch": Figure(partial(flywheel_figure, terms), "Маховик, размеры в мм"),
+    }
 
 
 def concluded(chapter: Chapter) -> Markup:

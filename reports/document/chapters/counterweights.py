@@ -45,7 +45,7 @@ def counterweights(chapter: Chapter) -> Markup:
         by_residue=section.goal == "residue" and bool(residue),
         limited=section.share is None and taken < best - 1e-9,
         edge=best in (0.0, 2.0),
-        holds=terms.value("cw_sine") <= 1,
+        holds=terms.value("cw_moment") <= terms.value("cw_half"),
         better=1 - terms.value("cw_new_sum_kN") / terms.value("cw_now_sum_kN"),
         middle=(Shape.of(chapter.input).throws + 2) // 2,
         percent=_percent,

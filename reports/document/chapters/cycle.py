@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 from markupsafe import Markup
 
 from reports.document.chapters.chapter import Chapter
@@ -57,6 +58,7 @@ _SPEED = {
     "speed_Me": ((6, 5), False, False),
 }
 _SPEED_MM = 118.0
+_READABLE = 1.6  # of the greatest consumption of the external characteristic
 # Columns of the passes for n₂ whose symbols stand nowhere else.
 _OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
 
@@ -79,6 +81,8 @@ def cycle(chapter: Chapter) -> Markup:
         given_outlet=section.turbine_outlet_ratio is not None,
         friction=friction_by_speed(section),
         design=terms.has("cyc_D"),
+        governed=terms.has("gov_n_max"),
+        given_governor=section.governor_irregularity is not None,
         given_law=section.adaptability is not None,
         derived_torque=section.torque_speed_rpm is None,
         derived_idle=section.idle_speed_rpm is None,
@@ -110,9 +114,12 @@ def _characteristic_plan(terms: Terms) -> Figure:
             ("M_{eN}", speed, rated),
         )
     ]
+    speeds, governed = terms.column("speed.speed_n"), terms.has("governor.gov_n")
+    if governed:
+        speeds = np.concatenate([speeds, terms.column("governor.gov_n")[1:]])
     bands = [
         ScaledCurve(
-            PlotCurve(f"${terms.tex(f'speed.{name}')}$", terms.column(f"speed.{name}")),
+            PlotCurve(f"${terms.tex(f'speed.{name}')}$", _with_governor(terms, name)),
             axis_name(terms, f"speed.{name}"), rows, right=right, zero=zero,
             marks=marks if name == "speed_Me" else (),
             rise=f"$K$ = {terms.num('spd_K')}" if name == "speed_Me" else "",
@@ -120,10 +127,21 @@ def _characteristic_plan(terms: Terms) -> Figure:
         for name, (rows, right, zero) in _SPEED.items()
     ]  # fmt: skip
     draw = partial(
-        bands_figure, terms.column("speed.speed_n"), bands, axis_name(terms, "speed.speed_n"),
-        height=_SPEED_MM, x_step=500.0 if terms.column("speed.speed_n")[-1] <= 5000 else 1000.0,
+        bands_figure, speeds, bands, axis_name(terms, "speed.speed_n"),
+        height=_SPEED_MM, x_step=500.0 if speeds[-1] <= 5000 else 1000.0,
     )  # fmt: skip
-    return Figure(draw, "Внешняя скоростная характеристика")
+    return Figure(draw, "Внешняя скоростная характеристика" + " с регуляторной ветвью" * governed)
+
+
+def _with_governor(terms: Terms, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    """A curve of the characteristic, of a diesel with the governor's branch after it."""
+    curve, beyond = terms.column(f"speed.{name}"), name.replace("speed", "governor.gov")
+    if not terms.has(beyond):
+        return curve
+    branch = terms.column(beyond)[1:]
+    if name == "speed_ge":  # it grows without bounds: as far as the curve is readable
+        branch = branch[:-1][branch[:-1] < _READABLE * curve.max()]
+    return np.concatenate([curve, branch])
 
 
 def _tables(chapter: Chapter) -> dict[str, TablePlan]:
@@ -147,6 +165,11 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
             step=chapter.table_step,
         ),
         "speed": chapter.columns("speed", caption="Внешняя скоростная характеристика", keep=True),
+        **(
+            {"governor": chapter.columns("governor", caption="Регуляторная ветвь", keep=True)}
+            if terms.has("governor.gov_n")
+            else {}
+        ),
         "ranges": TablePlan(
             partial(_ranges, terms), "Результаты и обычные пределы", size="dense", lined=True
         ),

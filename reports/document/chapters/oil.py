@@ -24,16 +24,17 @@ from reports.shared.russian import NBSP, capital, fixed
 from reports.tables.oil_members import FilmCase, film_cases
 
 _REYNOLDS = (
-    r"\dfrac{\partial}{\partial\theta}\left(H^3\dfrac{\partial P}{\partial\theta}\right) + "
-    r"\dfrac{1}{\beta_{\mathrm{п}}^2}H^3\dfrac{\partial^2 P}{\partial\zeta^2} = "
-    r"-12\cos(\theta - \gamma_v), \quad H = 1 - \chi\cos\theta, \quad P \ge 0"
+    r"\dfrac{\partial}{\partial\theta}\left(H_{\Delta}^3\dfrac{\partial\bar p}"
+    r"{\partial\theta}\right) + "
+    r"\dfrac{1}{\beta_{\mathrm{п}}^2}H_{\Delta}^3\dfrac{\partial^2\bar p}{\partial\zeta^2} = "
+    r"-12\cos(\theta - \gamma_v), \quad H_{\Delta} = 1 - \chi\cos\theta, \quad \bar p \ge 0"
 )
 _MOTION = (
-    r"\chi' = M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu}, \quad "
-    r"\chi\,\delta_F' = M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{п}}\,d_{\mathrm{п}}\,\mu} + "
-    r"\chi\dfrac{\omega_{\mathrm{ш}} + \omega_{\mathrm{в}}}{2}"
+    r"\chi' = \bar M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu}, \quad "
+    r"\chi\,\delta_F' = \bar M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
+    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu} + "
+    r"\chi\dfrac{\omega_{\mathrm{цап}} + \omega_{\mathrm{вкл}}}{2}"
 )
 _SAFETY = (
     r"n_{\sigma} = "
@@ -232,8 +233,8 @@ def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
         TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"\chi_{\max}", "")),
         TableColumn(symbol_head(r"h_{\min}", "мкм")), TableColumn(symbol_head(r"\varphi", "°")),
         TableColumn(symbol_head(r"\delta_{\mathrm{в}}", "°")),
-        TableColumn(symbol_head(r"\delta_{\mathrm{ш}}", "°")), TableColumn(symbol_head(r"\nu",
-                                                                                       "%")),
+        TableColumn(symbol_head(r"\delta_{\mathrm{цап}}", "°")),
+        TableColumn(symbol_head(r"\zeta_{\mathrm{кр}}", "%")),
         TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
         TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip

@@ -21,7 +21,7 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
-from reports.document.text.symbols import inline_html
+from reports.document.text.symbols import SymbolError, inline_html
 from reports.document.text.terms import (
     field_title,
     input_text,
@@ -43,6 +43,10 @@ _ARMS = ("l1", "l2", "l3", "l4", "l5", "l6", "left_web", "right_web")
 # Sections that are told elsewhere.
 _OTHERS = {"report", "workbook", "prototype", "regimes", "checks"}
 _LEFT_OUT = {"engine_name", "engine_layout", "engine_strokes"}
+# Ways of calculating, which the chapters' formulas show.
+_LEFT_OUT |= {f"strength_{form}_form" for form in ("crown", "pin", "oval", "bolt")}
+# Subjects whose symbols are listed where a formula or a sentence has them.
+_SUBJECTS = ("tor_", "oil_", "safe_", "mat_", "st_", "cw_")
 
 
 # Abbreviations of the report and the nodes whose symbols run through it.
@@ -73,6 +77,7 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
     """
     terms = chapter.terms
     present = [name for name in _SYMBOLS if name == "phi_deg" or terms.has(name)]
+    present += _of_subjects(chapter)
     abbreviations, again = list(_ABBREVIATIONS), {}
     if text is not None:
         formulas = "\n".join(chapter.writer.formulas)
@@ -83,9 +88,34 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
     return chapter.page("notation", abbreviations=abbreviations, symbols=symbols, **again)
 
 
+def _of_subjects(chapter: Chapter) -> list[str]:
+    """One name for every symbol of the chapters that have quantities of their own."""
+    model = chapter.model
+    columns = (f"{table}.{column.key}" for table, block in model.tables.items()
+               for column in block.columns)  # fmt: skip
+    first: dict[str, str] = {}
+    for name in (*model.scalars, *columns):
+        key = name.rpartition(".")[2]
+        if key.startswith(_SUBJECTS) and (tex := chapter.terms.tex(name)):
+            first.setdefault(tex, name)
+    known = {chapter.terms.tex(name) for name in _SYMBOLS if chapter.terms.has(name)}
+    return [name for tex, name in first.items() if tex not in known and _is_simple(tex)]
+
+
+def _is_simple(tex: str) -> bool:
+    """Whether a symbol is a letter with indices, not a formula or a sign of a helper."""
+    try:
+        return bool(re.match(r"(<span class=\"bar\">)?<i>|[ΔΣ]", inline_html(tex)))
+    except SymbolError:
+        return False
+
+
 def _occurs(tex: str, text: str, formulas: str) -> bool:
     """Whether a symbol stands in the text or in the formulas, and no longer one of its letters."""
-    written = re.escape(str(inline_html(tex))) + "(?!<su[bp]>|′)"
+    shown = str(inline_html(tex))
+    if shown not in text and tex not in formulas:  # told at once of most
+        return False
+    written = re.escape(shown) + "(?!<su[bp]>|′)"
     return bool(re.search(written, text)) or bool(
         re.search(rf"(?<![A-Za-z\\]){re.escape(tex)}(?![A-Za-z_'])", formulas)
     )
@@ -158,7 +188,9 @@ def _general(model: InputFile, fields: Sequence[Field], unused: set[str]) -> Tab
         symbol = inline_html(tex) if field.symbol else "—"
         value, degrees, _ = input_text(field).partition("°" if field.choices is not None else "\0")
         unit = degrees or ("—" if field.choices is not None else unit_cell(field.unit))
-        rows.append([field_title(field, model), symbol, value, unit])
+        row = [field_title(field, model), symbol, value, unit]
+        if row not in rows:  # what several sections need is told once
+            rows.append(row)
     return list_block(rows)
 
 

@@ -7,8 +7,10 @@ from functools import partial
 
 from markupsafe import Markup
 
+from kshm.nomenclature.quantity import quantity
 from kshm.ranges import PART_SHARES
 from reports.document.chapters.chapter import Chapter
+from reports.document.chapters.strength_changes import ChangedSizes, changed
 from reports.document.figures.parts import parts_sketch
 from reports.document.page.blocks import (
     TableBlock,
@@ -19,12 +21,13 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
-from reports.document.text.terms import Terms, material_name
+from reports.document.text.terms import Terms, material_name, plain_number
 from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
+from reports.inputs.to_si.engine import to_engine
 from reports.model.blocks import Scalar, ScalarTable
 from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
-from reports.tables.strength_members import UsualStress, usual_stresses
+from reports.tables.strength_members import SAFETIES, UsualStress, usual_stresses
 
 _LISTS = {
     "loads": ("strength_loads", "Силы, по которым рассчитана прочность"),
@@ -46,6 +49,8 @@ _MENDS = {
 _SIDES = {-1: "меньше", 0: "в пределах", 1: "больше"}
 _LIMITS = ("tensile", "yield", "bend", "pull", "turn", "modulus")  # columns of the materials
 _RANGED = 2  # decimals of values beside their usual limits
+_MOVED = 1e-3  # of a value: what changes less is not told again
+_SIZE_NAMES = {"bush_fit": "strength_bush_fit_um"}
 _SPARE = "взято с запасом"  # of a value below the usual
 _USUAL_BORE_MM = 160  # of cars, lorries and tractors, which the usual limits are of
 
@@ -64,6 +69,13 @@ def strength(chapter: Chapter) -> Markup:
                                 "Размеры частей")  # fmt: skip
     tables["ranges"] = TablePlan(partial(_ranges, chapter), "Напряжения и обычные пределы")
     tables["materials"] = TablePlan(partial(_materials, chapter), "Материалы деталей")
+    made = _changed(chapter)
+    if made is not None:
+        tables["changes"] = TablePlan(partial(_changes, terms, made), "Изменение размеров",
+                                      keep=True)  # fmt: skip
+        tables["again"] = TablePlan(
+            partial(_again, chapter, made), "Напряжения и запасы с изменёнными размерами", keep=True
+        )
     if terms.has("st_web_n"):
         webs = chapter.grid("strength_webs")
         tables["webs"] = TablePlan(partial(grid_table, terms, webs), "Запасы прочности щёк")
@@ -77,6 +89,9 @@ def strength(chapter: Chapter) -> Markup:
         cold=min(terms.value("st_hot_head_mm"), terms.value("st_hot_skirt_mm")) < 0,
         outside=_outside(chapter),
         weak=_weak(chapter),
+        made=made,
+        left=[] if made is None else [_title_of(chapter, key) for key in made.left],
+        crown=_crown(chapter) if made and any(c.key == "crown" for c in made.changes) else "",
         exchange=terms.has("st_Pg_tdc_N"),
         web=_weakest_web(terms, chapter.shape.throws),
         large=_bore_mm(terms) > _USUAL_BORE_MM,
@@ -99,6 +114,75 @@ def concluded(chapter: Chapter) -> Markup:
     if above:
         line += Markup("; больше обычных пределов: {}").format(joined(above))
     return line
+
+
+def _changed(chapter: Chapter) -> ChangedSizes | None:
+    """Sizes with which all is within its limits, where something is not."""
+    above = any(side > 0 for _, _, side in _ranged(chapter))
+    if not (above or _weak(chapter)):
+        return None
+    section = chapter.input.strength
+    assert section is not None
+    made = changed(to_engine(chapter.input), usual_stresses(section), section.safety_allowed)
+    return made if made.changes else None
+
+
+def _crown(chapter: Chapter) -> str:
+    """Thickness of the crown from its formula backwards, as TeX with numbers."""
+    terms, limit = chapter.terms, next(each for each, _, _ in _ranged(chapter)
+                                       if each.key == "st_crown_MPa")  # fmt: skip
+    inner, peak = terms.value("st_inner_mm"), terms.value("st_pz_MPa")
+    least = inner / 2 * math.sqrt(peak / limit.high)
+    numbers = [fixed(inner, 2), fixed(peak, 3), fixed(limit.high, 0)]
+    symbols = [
+        terms.tex(key) for key in ("st_crown_mm", "st_inner_mm", "st_pz_MPa", "st_crown_MPa")
+    ]
+    root = r"\dfrac{{{}}}{{2}} \cdot \sqrt{{\dfrac{{{}}}{{{}}}}}".format
+    limited = rf"\left[{symbols[3]}\right]"
+    said = [number.replace(",", "{,}") for number in (*numbers, fixed(least, 2))]
+    formula = rf"{symbols[0]} \geq {root(*symbols[1:3], limited)}".replace(r" \cdot ", "")
+    return rf"{formula} = {root(*said[:3])} = {said[3]}\ \mathrm{{мм}}"
+
+
+def _title_of(chapter: Chapter, key: str) -> str:
+    titles = {each.key: uncapital(each.title) for each, _, _ in _ranged(chapter)}
+    return titles.get(key) or chapter.terms.title(key)
+
+
+def _changes(terms: Terms, made: ChangedSizes) -> TableBlock:
+    """Sizes before and after [mm]."""
+    rows = []
+    for each in made.changes:
+        name = _SIZE_NAMES.get(each.key, f"st_{each.key}_mm")
+        unit = terms.unit(name)
+        scale = 1e6 if each.key in _SIZE_NAMES else 1e3
+        rows.append([titled_html(capital(terms.title(name))), terms.sym(name),
+                     *(plain_number(round(scale * size, 3)) for size in (each.before, each.after)),
+                     unit])  # fmt: skip
+    return table_block(
+        [TableColumn("Размер", 4.2, text=True), TableColumn("Обозначение", 1.6),
+         TableColumn("Было", 1.4), TableColumn("Нужно", 1.4), TableColumn("Единица", 1.2)], rows,
+    )  # fmt: skip
+
+
+def _again(chapter: Chapter, made: ChangedSizes) -> TableBlock:
+    """Values that the changes move, before and after, beside their limits."""
+    terms, rows = chapter.terms, []
+    for each, value, _ in _ranged(chapter):
+        after = made.after[each.key] / quantity(each.key).si
+        if abs(after - value) > _MOVED * abs(value):
+            rows.append([titled_html(each.title), terms.sym(each.key), fixed(value, _RANGED),
+                         fixed(after, _RANGED), limits(each.usual)])  # fmt: skip
+    allowed = terms.num("strength_safety_allowed")
+    for key in SAFETIES:
+        if terms.has(key) and abs(made.after[key] - terms.value(key)) > _MOVED * terms.value(key):
+            rows.append([titled_html(capital(terms.title(key))), terms.sym(key),
+                         fixed(terms.value(key), _RANGED), fixed(made.after[key], _RANGED),
+                         f"не менее{NBSP}{allowed}"])  # fmt: skip
+    return table_block(
+        [TableColumn("Величина", 4.2, text=True), TableColumn("Обозначение", 1.6),
+         TableColumn("Было", 1.4), TableColumn("Стало", 1.4), TableColumn("Предел", 1.8)], rows,
+    )  # fmt: skip
 
 
 def _block(chapter: Chapter, name: str) -> ScalarTable:

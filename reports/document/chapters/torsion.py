@@ -30,13 +30,14 @@ from reports.tables.torsion_members import ray_of
 _HOLZER = (
     r"M_k = M_{k-1} + \omega^2 J_k\, a_k, \qquad a_{k+1} = a_k - \dfrac{M_k}{c_k}, \qquad a_1 = 1"
 )
-_SUM = r"S_{\nu} = \left|\sum a_k\, e^{-i\nu\theta_k}\right|"
+_SUM = r"S_{\nu} = \left|\sum a_k\, e^{-j\nu\theta_k}\right|"
 _ENERGY = (
     r"A = \dfrac{M_{\nu} S_{\nu}}{D_{\nu}}, \qquad D_{\nu} = \omega \sum b_k a_k^2 + "
     r"\eta \sum c_k \left(a_{k+1} - a_k\right)^2"
 )
 _MOTION = (
-    r"\left(-\omega^2 J + i\omega b + c\,(1 + i\eta)\right)\theta_{\nu} = M_{\nu}, \qquad "
+    r"\left(-\omega^2 \mathbf{J} + j\omega \mathbf{b} + \mathbf{c}\,(1 + j\eta)\right)"
+    r"\mathbf{\theta}_{\nu} = \mathbf{M}_{\nu}, \qquad "
     r"\omega = \nu\,\Omega"
 )
 _NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}

@@ -276,7 +276,7 @@ def bands_figure(
 
     Args:
         x: Abscissa, shape (n,).
-        bands: The curves, from below.
+        bands: The curves, from below; one may end before the abscissa.
         x_title: Name and unit of the abscissa.
         height: Height of the figure [mm].
         x_step: Step of the marks of the abscissa.
@@ -303,7 +303,8 @@ def bands_figure(
         own = (field[0], base, field[2], base + band.rows[1] * step)
         axes = Axes(page, own, x_ticks, ticks)
         axes.number_y(right=band.right, title=band.title)
-        line = axes.at(abscissa, np.asarray(band.curve.y, dtype=np.float64))
+        ordinate = np.asarray(band.curve.y, dtype=np.float64)
+        line = axes.at(abscissa[: len(ordinate)], ordinate)
         page.line(line, PATTERNS[number % len(PATTERNS)])
         lines.append(dense(line))
         room.curves.append(lines[-1])

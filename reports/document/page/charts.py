@@ -20,7 +20,12 @@ from reports.document.text.tex import GREEK
 from reports.document.text.texts import significant
 from reports.draw.canvas import Canvas, Item, bounds, moved
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
-from reports.draw.weights import CounterweightSizes, counterweight_drawing
+from reports.draw.weights import (
+    CounterweightSizes,
+    FlywheelSizes,
+    counterweight_drawing,
+    flywheel_drawing,
+)
 from reports.draw.writers import svg_of
 from reports.formula.numeric import evaluate
 from reports.model.blocks import TIE
@@ -108,7 +113,21 @@ def counterweight_of(terms: Terms) -> CounterweightSizes:
 
 def counterweight_figure(terms: Terms) -> str:
     """A web with its counterweight as SVG for the report."""
-    draw = partial(counterweight_drawing, counterweight_of(terms), letters=_LETTERS)
+    return _pictured(partial(counterweight_drawing, counterweight_of(terms), letters=_LETTERS))
+
+
+def flywheel_of(terms: Terms) -> FlywheelSizes:
+    """Sizes of the flywheel."""
+    names = ("outer", "bore", "disc", "rim")
+    return FlywheelSizes(*(terms.value(f"fw_{name}_mm") for name in names))
+
+
+def flywheel_figure(terms: Terms) -> str:
+    """The flywheel as SVG for the report."""
+    return _pictured(partial(flywheel_drawing, flywheel_of(terms), letters=_LETTERS))
+
+
+def _pictured(draw: Callable[..., list[Item]]) -> str:
     items = _fitted(draw, _WEB)
     left, low, right, high = bounds(items)
     return svg_of(items, (left - 2, low - 2, right + 2, high + 2))

@@ -63,7 +63,7 @@ class Style(_Strict):
     frame_from: Annotated[int, Field(ge=2, le=20)] | None = None
     side_columns: bool = True
     appendix: Literal["ПРИЛОЖЕНИЕ", "Приложение"] = "ПРИЛОЖЕНИЕ"
-    chapters_on_new_page: bool | None = None
+    chapters_on_new_page: bool = True  # ГОСТ 7.32-2017
     tagged_tables: bool | None = None
     table_continuation: bool = True
     table_step_deg: Annotated[int, Field(ge=1, le=90)] = 30

@@ -128,7 +128,7 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
         "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, USUAL
     )
     fillet_mm: float | None = number(title_of("safe_fillet1_mm"), "ρ_г", MM, 0.2, 200, None)
-    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "δ_ш", MM, 0, 2000, USUAL)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_о.ш", MM, 0, 2000, USUAL)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, USUAL)
     fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, USUAL)
     fillet_torsion: float = number(
@@ -143,6 +143,6 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
         "Масштабный коэффициент", "ε_м", NONE, 0.3, 1.2, USUAL, solver="size"
     )
     surface_factor: float = number(
-        "Коэффициент поверхности", "ε_п", NONE, 0.3, 2.5, USUAL, solver="surface"
+        "Коэффициент поверхности", "ε_пов", NONE, 0.3, 2.5, USUAL, solver="surface"
     )
     safety_allowed: float = number("Допускаемый запас прочности", "[n]", NONE, 1, 20, 2.0)

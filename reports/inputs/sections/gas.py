@@ -174,6 +174,12 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     idle_speed_rpm: float | None = number(
         title_of("reg_n_idle"), "n_х", RPM, 10, 60000, None, solver="omega_idle"
     )
+    governor_irregularity: float | None = number(
+        title_of("gov_delta"), "δ_р", NONE, 0.005, 0.5, None, solver="governor.irregularity"
+    )
+    idle_fuel_share: float | None = number(
+        title_of("gov_idle"), "k_х", NONE, 0.05, 0.9, None, solver="governor.idle_fuel"
+    )
 
 
 class _Ambient(Strictly):

@@ -14,6 +14,7 @@ from pydantic import Field, SerializeAsAny
 from reports.inputs.meta import Strictly, borrowed, choice, number, text, title_of
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
+from reports.inputs.sections.flywheel import FlywheelSection
 from reports.inputs.sections.gas import CycleSection, GasSection, PolytropicGasSection
 from reports.inputs.sections.mechanism import (
     ArticulatedSection,
@@ -187,6 +188,7 @@ class InputFile(Strictly):
     articulated: ArticulatedSection | None = None
     crankshaft: CrankshaftSection
     balance: BalanceSection = Field(default_factory=BalanceSection)
+    flywheel: FlywheelSection | None = None
     counterweight: CounterweightSection | None = None
     torsion: TorsionSection | None = None
     bearings: BearingsSection | None = None

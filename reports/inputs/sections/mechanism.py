@@ -226,7 +226,7 @@ class BalanceSection(Strictly, usual=(Balancing,)):
         "Доля силы 2-го порядка, снятая балансирными валами", "ψ_2", NONE, 0, 1, USUAL
     )
     suppression: float = number(
-        "Степень гашения опрокидывающего момента 2-го порядка", "ψ", NONE, 0, 2, USUAL
+        "Степень гашения опрокидывающего момента 2-го порядка", "ψ_г", NONE, 0, 2, USUAL
     )
     shaft_radius_mm: float = number(
         "Эксцентриситет грузов балансирных валов", "e_б", MM, 1, 1000, USUAL

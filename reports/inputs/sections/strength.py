@@ -137,7 +137,7 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
     bolt_mm: float | None = _size("bolt", "d_б")
     bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, USUAL)
     bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, USUAL)
-    bolt_share: float = number("Доля нагрузки на болт", "χ", NONE, 0.05, 0.6, USUAL)
+    bolt_share: float = number("Доля нагрузки на болт", "χ_б", NONE, 0.05, 0.6, USUAL)
     web_width_mm: float | None = number(title_of("web_width_mm"), "b_щ", MM, 2, 5000, None)
     web_thickness_mm: float | None = number(
         "Толщина щеки, где её не задают размеры колена", "h_щ", MM, 1, 2000, None

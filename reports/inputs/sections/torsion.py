@@ -74,10 +74,10 @@ class TorsionSection(Strictly, usual=(Torsion,)):
         "Формула приведённой длины", FORMULAS, "wilson"
     )
     shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, USUAL)
-    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_j", MM, 0, 2000, USUAL)
-    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_p", MM, 0, 2000, USUAL)
-    web_width_mm: float | None = number(title_of("tor_bw"), "b", MM, 2, 5000, None)
-    web_thickness_mm: float | None = number(title_of("tor_hw"), "h", MM, 1, 2000, None)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_о.к", MM, 0, 2000, USUAL)
+    pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_о.ш", MM, 0, 2000, USUAL)
+    web_width_mm: float | None = number(title_of("tor_bw"), "b_щ", MM, 2, 5000, None)
+    web_thickness_mm: float | None = number(title_of("tor_hw"), "h_щ", MM, 1, 2000, None)
     damping_nms_rad: float | None = number(
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )

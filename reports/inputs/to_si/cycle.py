@@ -8,6 +8,7 @@ from typing import Any
 
 from kshm.cycle.cycle import CycleRun, Wanted, run_cycle
 from kshm.cycle.fuel import FUELS, CycleError, Fuel, Remark
+from kshm.cycle.governor import Governor
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
 from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptability
 from kshm.nomenclature.quantity import quantity
@@ -169,6 +170,7 @@ def cycle_run(model: InputFile) -> CycleRun | None:
         speed_law(model, section),
         omega_torque=RPM.given(section.torque_speed_rpm),
         omega_idle=RPM.given(section.idle_speed_rpm),
+        governor=Governor(**solver_values(section, Governor, "governor")),
     )
 
 

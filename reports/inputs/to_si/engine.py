@@ -14,6 +14,7 @@ from kshm.engine.bearings import Bearings, Oil, Strength
 from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft, EndMass, Throw, Web
 from kshm.engine.engine import Balancing, Engine, Geometry, OperatingPoint
+from kshm.engine.flywheel import Flywheel
 from kshm.engine.gas import Gas, PolytropicGas, RoundedGas, TabulatedGas
 from kshm.engine.strength import PartStrength, Steel
 from kshm.engine.torsion import Torsion, TrainMass
@@ -22,6 +23,7 @@ from reports.inputs.firing import places_of
 from reports.inputs.meta import solver_values
 from reports.inputs.sections.bearings import MATERIALS, OILS, BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
+from reports.inputs.sections.flywheel import FlywheelSection
 from reports.inputs.sections.gas import (
     BDC_DEG,
     FIRING_TDC_DEG,
@@ -147,6 +149,11 @@ def to_counterweight(section: CounterweightSection | None) -> Counterweight | No
     return None if section is None else Counterweight(**solver_values(section, Counterweight))
 
 
+def to_flywheel(section: FlywheelSection | None) -> Flywheel | None:
+    """Flywheel of the solver, None without the section."""
+    return None if section is None else Flywheel(**solver_values(section, Flywheel))
+
+
 def to_engine(model: InputFile) -> Engine:
     """Return the engine in SI units; the input must have passed `reports.inputs.load`."""
     return engine_and_cycle(model)[0]
@@ -210,6 +217,7 @@ def _engine(model: InputFile, run: CycleRun | None, cache: Callable[..., Any] = 
         "bearings": cache(to_bearings, model.bearings),
         "strength": cache(to_parts, model.strength),
         "counterweight": cache(to_counterweight, model.counterweight),
+        "flywheel": cache(to_flywheel, model.flywheel),
         "balancing": cache(_balancing, model.balance, model.strength, geometry.bore),
         "regimes": tuple(_regime(regime, model.engine.strokes) for regime in model.regimes),
         "name": model.engine.name,

@@ -1,0 +1,74 @@
+"""Notes with every chapter on parts: what is put in gives the result, one symbol one quantity."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from unittest import mock
+
+import pytest
+
+from reports.document.chapters import opening
+from reports.document.text.symbols import SymbolError, inline_html
+from reports.document.text.terms import Terms
+from reports.inputs.fields import to_mapping
+from reports.inputs.load import load_mapping
+from reports.inputs.sections.input_file import InputFile
+from reports.new.generate import generate_engine
+from tests.conftest import sample
+from tests.document.bare_pages import bare_page, plain
+from tests.document.test_report_symbols import assert_substitutions_hold
+
+pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
+
+SAMPLES = ("gots-diesel", "vaz-2106", "yamz-236", "vw-1600", "two-stroke",
+           "cycle-tractor-diesel", "cycle-turbo-petrol")  # fmt: skip
+NEW = {
+    "V12": {"cylinders": 12, "layout": "v", "kind": "diesel", "bore_mm": 300.0},
+    "one": {"cylinders": 1, "kind": "petrol", "bore_mm": 90.0},
+    "opposed": {"cylinders": 4, "layout": "opposed", "kind": "petrol"},
+}
+SAME = {"m1/mш"}  # one share, which the masses and the estimate of a rod ask for
+
+
+def with_every_part(name: str) -> InputFile:
+    raw = generate_engine(**NEW[name]).data if name in NEW else to_mapping(sample(name))  # type: ignore[arg-type]
+    kind = "petrol" if name in ("vaz-2106", "vw-1600", "one", "opposed") else "diesel"
+    parts = {"torsion": {}, "bearings": {}, "flywheel": {}, "strength": {"kind": kind},
+             "counterweight": {"goal": "residue"}}  # fmt: skip
+    return load_mapping(parts | raw, source="").model
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_what_is_put_in_gives_what_is_printed(name: str):
+    assert_substitutions_hold(bare_page(with_every_part(name)))
+
+
+@pytest.mark.parametrize("name", ["yamz-236", "two-stroke", "one"])
+def test_a_symbol_stands_for_one_quantity(name: str):
+    """Of all that a note prints: scalars, columns, input data."""
+    asked: dict[str, Terms] = {}
+    tex = Terms.tex
+
+    def noted(self: Terms, key: str) -> str:
+        asked[key] = self
+        return tex(self, key)
+
+    with (
+        mock.patch.object(Terms, "tex", noted),
+        mock.patch.object(opening, "_of_subjects", lambda _: []),
+    ):
+        bare_page(with_every_part(name))
+    (terms,) = {id(each): each for each in asked.values()}.values()
+    meanings: dict[str, dict[str, str]] = defaultdict(dict)
+    for key in {*asked, *terms.model.fields}:
+        try:
+            symbol = str(inline_html(tex(terms, key)))
+        except SymbolError:
+            continue
+        if symbol:
+            title = re.sub(r"\d+", "#", plain(terms.title(key)))
+            meanings[symbol][title] = re.sub(r"\d+", "#", key.rpartition(".")[2])
+    several = {plain(symbol): sorted(titles) for symbol, titles in meanings.items()
+               if len(set(titles.values())) > 1 and plain(symbol) not in SAME}  # fmt: skip
+    assert several == {}

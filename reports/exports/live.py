@@ -37,7 +37,7 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
     evaluation = Evaluation(model)
     for block in model.blocks:
         if isinstance(block, ScalarTable) and block.id.startswith(("summary", "geometry")):
-            values = ((each, own.value(each.key) if each.key in _BY_FORMULA
+            values = ((each, evaluation.value(each.key) if each.key in _BY_FORMULA
                        else solution.scalar(each.key)) for each in block.scalars
                       if each.key in quick or each.key in _BY_FORMULA)  # fmt: skip
             rows = [_row(each, value) for each, value in values]

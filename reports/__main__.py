@@ -35,7 +35,7 @@ def start() -> None:
 
 
 def _end(code: object) -> None:
-    """The last act of the process; of one that was stopped, with its exit code."""
+    """End the process, one that was stopped with its exit code."""
     gc.freeze()  # a process that ends need not be searched
     if isinstance(code, int):
         # Libraries that were stopped while they were being loaded may die of being taken apart.

@@ -48,13 +48,13 @@ class FileSource(Source):
             return Further()
         from reports.exports.own_books import own_numbers
 
-        own = own_numbers(self.model)
+        numbers = own_numbers(self.model)
         scalars = {
-            key: (about, float(value))
-            for key, (about, value) in own.scalars.items()
+            key: (quantity, float(value))
+            for key, (quantity, value) in numbers.scalars.items()
             if not isinstance(value, str)
         }
-        return Further(scalars, own.tables)
+        return Further(scalars, numbers.tables)
 
     @cached_property
     def _fields(self) -> dict[str, Field]:
@@ -149,11 +149,11 @@ def loaded_of(source: Input) -> tuple[Path, Loaded]:
     """
     path = _path_of(source)
     if isinstance(source, Engine):
-        known = source.source
-        if not isinstance(known, FileSource) or not known.has_made(source):
-            what = "двигатель собран из чисел или изменён после чтения"
-            raise InputError(Problem("", what, "дайте файл или меняйте его через engine.with_"))
-        return path, Loaded(known.model, ())
+        file = source.source
+        if not isinstance(file, FileSource) or not file.has_made(source):
+            problem = "двигатель собран из чисел или изменён после чтения"
+            raise InputError(Problem("", problem, "дайте файл или меняйте его через engine.with_"))
+        return path, Loaded(file.model, ())
     if isinstance(source, Mapping):
         return path, load_mapping(source, source="")
     if isinstance(source, IOBase):
@@ -169,8 +169,8 @@ def _path_of(source: Input) -> Path:
         return Path(source.source.name or _UNNAMED)
     if not isinstance(source, str | Path):
         if not isinstance(source, Engine | Mapping | IOBase | bytes | bytearray | memoryview):
-            what = f"нужен путь, словарь, байты или поток, а задано: {type(source).__name__}"
-            raise InputError(Problem("", one_line(what), "пример: reports.load('engine.toml')"))
+            problem = f"нужен путь, словарь, байты или поток, а задано: {type(source).__name__}"
+            raise InputError(Problem("", one_line(problem), "пример: reports.load('engine.toml')"))
         return Path(_UNNAMED)
     path = Path(source)
     is_name = isinstance(source, str) and not path.suffix and not path.exists()
@@ -248,7 +248,7 @@ def _built(path: Path, loaded: Loaded, folder: Path, only: tuple[Kind, ...], nam
 
     wrong = [kind for kind in only if kind not in ENDINGS]
     if isinstance(only, str) or wrong:
-        what = f"нет вида документа «{one_line(str(wrong[0]), 40)}»"
-        raise InputError(Problem("only", what, f"есть: {', '.join(ENDINGS)}"))
+        problem = f"нет вида документа «{one_line(str(wrong[0]), 40)}»"
+        raise InputError(Problem("only", problem, f"есть: {', '.join(ENDINGS)}"))
     target = path.with_name(f"{name}.toml") if name else path
     return build_documents(target, loaded, folder, kinds_of(loaded, only))

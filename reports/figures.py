@@ -100,7 +100,7 @@ class SolutionPlots:
         return SvgPicture(wear_diagram(columns["ray_sum"], columns["ray_deg"] + _AGAINST, hole))
 
     def diagram(self) -> SvgPicture:
-        """Indicator diagram: pressure [MPa] over the volume of a cylinder [dm³]."""
+        """Return indicator diagram: pressure [MPa] over the volume of a cylinder [dm³]."""
         columns = self._columns("gas")
         volume, pressure = columns["volume_dm3"], columns["p_MPa"]
         top = int(np.argmax(pressure))
@@ -113,8 +113,8 @@ class SolutionPlots:
 
     def _chosen(self, tables: Any, table: str) -> dict[str, Array]:  # noqa: ANN401
         if table not in tables:
-            what = "у двигателя нет такой шейки"
+            problem = "у двигателя нет такой шейки"
             count = len(self._solution.engine.crankshaft.main_lengths)
-            raise InputError(Problem("journal", what, f"коренные шейки: от 1 до {count}"))
+            raise InputError(Problem("journal", problem, f"коренные шейки: от 1 до {count}"))
         columns: dict[str, Array] = tables[table]
         return columns

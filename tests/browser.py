@@ -63,12 +63,12 @@ addEventListener("load", () => {{
 
 def chromium() -> str:
     """The browser's path; without it a skip, in CI a failure."""
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found is None:
+    measured = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if measured is None:
         if os.environ.get("CI") == "true":
             pytest.fail("chromium is missing: ./run test installs it")
         pytest.skip("Chromium не установлен: sudo apt-get install chromium")
-    return found
+    return measured
 
 
 @contextmanager
@@ -107,8 +107,8 @@ def measure(page: str, width: int, folder: Path, *, boxes: str = ".tbox") -> dic
         dom = _run(folder, f"{base}/frame.html", "--virtual-time-budget=20000", "--dump-dom")
     match = re.search(r'<pre id="found">(.*?)</pre>', dom, re.DOTALL)
     assert match and match.group(1), "the page did not load"
-    found: dict[str, Any] = json.loads(unescape(match.group(1)))
-    return found
+    collected: dict[str, Any] = json.loads(unescape(match.group(1)))
+    return collected
 
 
 def print_out(page: str, target: Path, folder: Path) -> Path:

@@ -318,11 +318,11 @@ def browser() -> Iterator[Any]:
     driver = pytest.importorskip("playwright.sync_api").sync_playwright
     path = chromium()
     with driver() as started:
-        found = started.chromium.launch(
+        actual = started.chromium.launch(
             executable_path=path, args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
         )
-        yield found
-        found.close()
+        yield actual
+        actual.close()
 
 
 @pytest.fixture

@@ -44,11 +44,11 @@ def formulas(model: Model) -> set[tuple]:
 
 def quantities(model: Model) -> set[tuple]:
     """Every column and value of each block, every function, every input cell."""
-    found = {("quantity", alike(key)) for key in model.nodes}
-    found |= {("block", alike(block.id)) for block in model.blocks}
-    found |= {("input", alike(field.name)) for field in model.inputs}
+    collected = {("quantity", alike(key)) for key in model.nodes}
+    collected |= {("block", alike(block.id)) for block in model.blocks}
+    collected |= {("input", alike(field.name)) for field in model.inputs}
     texts = (node.expr for node in model.nodes.values() if node.expr)
-    return found | {("function", word) for text in texts for word in _FUNCTION.findall(text)}
+    return collected | {("function", word) for text in texts for word in _FUNCTION.findall(text)}
 
 
 def operations(model: Model) -> set[tuple]:
@@ -75,9 +75,9 @@ def charts(model: Model) -> set[tuple]:
 def chapters(model: Model) -> set[tuple]:
     """Every section of the input, every chapter of the report, every arrangement."""
     given = to_mapping(model.input)
-    found = {("section", name) for name, section in given.items() if section}
-    found |= {("chapter", name) for name in chosen(CHAPTERS, model.input)}
-    return found | {("engine", given["engine"].get("layout"), given["engine"].get("strokes"))}
+    collected = {("section", name) for name, section in given.items() if section}
+    collected |= {("chapter", name) for name in chosen(CHAPTERS, model.input)}
+    return collected | {("engine", given["engine"].get("layout"), given["engine"].get("strokes"))}
 
 
 def choices(model: Model) -> set[tuple]:
@@ -103,24 +103,24 @@ def held(name: str, kind: Kind) -> set[tuple]:
     return kind(model_of(name))
 
 
-def smallest(found: Mapping[str, set[tuple]], cost: Mapping[str, int]) -> list[str]:
+def smallest(actual: Mapping[str, set[tuple]], cost: Mapping[str, int]) -> list[str]:
     """Names that together hold what all hold: the cheapest way to most, again and again."""
-    left, taken = set().union(*found.values()), []
+    left, taken = set().union(*actual.values()), []
     while left:
-        taken.append(max(found, key=lambda name: len(found[name] & left) / cost[name]))
-        left -= found[taken[-1]]
+        taken.append(max(actual, key=lambda name: len(actual[name] & left) / cost[name]))
+        left -= actual[taken[-1]]
     for name in list(taken):
-        others = [found[other] for other in taken if other != name]
-        if found[name] <= set().union(*others):
+        others = [actual[other] for other in taken if other != name]
+        if actual[name] <= set().union(*others):
             taken.remove(name)
-    return [name for name in found if name in taken]
+    return [name for name in actual if name in taken]
 
 
 @cache
 def covering(names: tuple[str, ...], kinds: tuple[Kind, ...]) -> list[str]:
     """Those of some engines that hold what all of them hold."""
-    found = {name: set().union(*(held(name, kind) for kind in kinds)) for name in names}
-    return smallest(found, {name: len(model_of(name).nodes) for name in names})
+    collected = {name: set().union(*(held(name, kind) for kind in kinds)) for name in names}
+    return smallest(collected, {name: len(model_of(name).nodes) for name in names})
 
 
 def samples_with(*kinds: Kind) -> list[str]:

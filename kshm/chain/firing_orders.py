@@ -37,7 +37,7 @@ def dead_centres(engine: Engine) -> Array:
 
 
 def offsets_table(starts: Array) -> Array:
-    """Firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders), Gots 2.7.
+    """Return firing offsets [rad] of all orders, shape (2^(cylinders − 1), cylinders), Gots 2.7.
 
     Cylinder i fires with its pin at TDC, see ``dead_centres``, in the first or second
     turn of the cycle; cylinder 1 always in the first.

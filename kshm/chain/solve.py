@@ -173,7 +173,7 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
 
 
 def chunk_size(engine: Engine) -> int:
-    """Number of engines of this structure in a chunk that fits the processor's cache."""
+    """Return the number of engines of this structure in a chunk that fits the processor's cache."""
     angles = engine.strokes * 180 // engine.step_deg + 1
     return max(1, _CHUNK_VALUES // (engine.cylinders * angles))
 
@@ -246,7 +246,7 @@ def _acceleration(batch: Batch, at: kinematics.Position) -> Array:
 
 
 def solve_stacked(batch: Batch) -> ChainArrays:
-    """The whole chain for engines that are stacked already, Gots (1)-(60)."""
+    """Return the whole chain for engines that are stacked already, Gots (1)-(60)."""
     period = batch.engines[0].period
     local = np.mod(batch.phi - batch.theta, period)
     in_cylinders, hung = _in_cylinders(batch, local)

@@ -51,7 +51,7 @@ def isobar_angle(cycle: Cycle) -> float:
 
 
 def _points(cycle: Cycle, phi: Array, radians: Array, rising: int, z: float) -> IndicatorDiagram:
-    """The diagram at the angles: the first ``rising`` points belong to compression.
+    """Return the diagram at the angles: the first ``rising`` points belong to compression.
 
     ``radians`` are the angles as the formulas take them, ``z`` the angle [rad] at which
     expansion starts.
@@ -128,7 +128,7 @@ def polytropic_gas(
     exhaust_open: float,
     exhaust_close: float,
 ) -> PolytropicGas:
-    """The scheme of Dinn with p_a, p_r, p_z, n_1, n_2 and ρ of this cycle.
+    """Return the scheme of Dinn with p_a, p_r, p_z, n_1, n_2 and ρ of this cycle.
 
     The angles [rad] are those of `kshm.engine.engine.PolytropicGas`; they round the diagram,
     which the cycle itself does not.

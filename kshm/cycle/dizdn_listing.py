@@ -108,7 +108,7 @@ def listing_expansion(
 
 
 def listing_cycle(inputs: CycleInputs, listing: Listing) -> Cycle:
-    """The cycle as the program calculates it, Gots appendix 2.
+    """Return the cycle as the program calculates it, Gots appendix 2.
 
     Raises:
         CycleError: not a turbocharged diesel, or the inputs give no cycle.

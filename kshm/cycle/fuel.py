@@ -49,8 +49,8 @@ class CycleError(InputError):
 
     def __init__(self, key: str, field: str, **numbers: float) -> None:
         """Keep the remark; the text of the error is for developers."""
-        shown = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
-        super().__init__(Problem(field, key + (f" ({shown})" if shown else "")))
+        listed = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
+        super().__init__(Problem(field, key + (f" ({listed})" if listed else "")))
         self.remark = Remark(key, field, numbers)
 
 
@@ -212,11 +212,11 @@ class HeatCapacity:
         return (1 - weight) * low + weight * (self.upper[0] + self.upper[1] * t)
 
     def energy(self, t: float) -> float:
-        """Internal energy above 0 °C U = c_v t [kJ/kmol]."""
+        """Return internal energy above 0 °C U = c_v t [kJ/kmol]."""
         return self.mean(t) * t
 
     def true(self, t: float) -> float:
-        """True heat capacity dU/dt at ``t`` [kJ/(kmol·K)]."""
+        """Return true heat capacity dU/dt at ``t`` [kJ/(kmol·K)]."""
         a, b, c = self.lower
         a_up, b_up = self.upper
         weight = min(1.0, max(0.0, (t - UPPER_START + BLEND) / BLEND))

@@ -55,7 +55,7 @@ class Branch:
 def branch(
     power: float, omega: float, fuel_flow: float, governor: Governor, shares: Array
 ) -> Branch:
-    """The branch at shares of its span of speeds, shape (points,), by a straight line.
+    """Return the branch at shares of its span of speeds, shape (points,), by a straight line.
 
     Args:
         power: N_e at the rated speed [W].

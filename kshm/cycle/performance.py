@@ -105,7 +105,7 @@ def theoretical_pressure(
 def indicate(
     inputs: CycleInputs, mixture: Mixture, charge: Charge, p_theory: float, *, r_gas: float = R_GAS
 ) -> Indicated:
-    """Indicated pressure, consumption and efficiency.
+    """Return indicated pressure, consumption and efficiency.
 
     g_i = η_v p_k/(R T_k M_1 p_i) [kg/J], M_1 = α L_0 (petrol + 1/m_f);
     η_i = 1/(g_i H_u).  The pumping term p_r − p_a is subtracted only on request.

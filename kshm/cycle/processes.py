@@ -161,7 +161,7 @@ def compress(charge: Charge, eps: float) -> Compression:
 
 
 def charge_energy(compression: Compression, gamma: float, products: HeatCapacity) -> float:
-    """Internal energy of the charge at T_c: air and γ kmol of residual gas [kJ/kmol]."""
+    """Return internal energy of the charge at T_c: air and γ kmol of residual gas [kJ/kmol]."""
     t_c = compression.t_c - ZERO_C
     return (AIR.energy(t_c) + gamma * products.energy(t_c)) / (1 + gamma)
 

@@ -56,9 +56,9 @@ def check_numbers(part: object, want: str, *names: str) -> None:
         check_kind(where, value, kind_of)
         for number in value if isinstance(value, tuple) else (value,):
             if isinstance(number, Real) and not _is(float(number), kind):
-                what = f"must be {kind}, not {float(number):g}"
+                problem = f"must be {kind}, not {float(number):g}"
                 limits = _LIMITS.get(kind, NO_LIMITS)
-                raise InputError(Problem(where, what, limits=limits, value=number))
+                raise InputError(Problem(where, problem, limits=limits, value=number))
 
 
 @cache
@@ -90,9 +90,9 @@ def check_kind(name: str, value: object, kind: Any) -> None:  # noqa: ANN401
         InputError: with the name, the kind and the value, of which the text has the beginning.
     """
     if not _fits(value, kind):
-        shown = " ".join(repr(value).split())
-        shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 1] + "…"
-        raise InputError(Problem(name, f"must be {_words(kind)}, not {shown}", value=value))
+        printed = " ".join(repr(value).split())
+        printed = printed if len(printed) <= _SHOWN else printed[: _SHOWN - 1] + "…"
+        raise InputError(Problem(name, f"must be {_words(kind)}, not {printed}", value=value))
 
 
 def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401

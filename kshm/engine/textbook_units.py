@@ -46,7 +46,7 @@ def polytropic(
     scavenge_open_deg: float = 0.0,
     ambient_mpa: float = 0.1,
 ) -> PolytropicGas:
-    """Indicator diagram by polytropes; absolute pressures [MPa], angles in the cycle [°].
+    """Return indicator diagram by polytropes; absolute pressures [MPa], angles in the cycle [°].
 
     Angles count from TDC before the intake, in a two-stroke engine from TDC of combustion,
     see ``kshm.mechanics.gas.polytropic_pressure``.
@@ -82,7 +82,7 @@ def points(
     smooth: bool = False,
     ambient_mpa: float = 0.1,
 ) -> TabulatedGas:
-    """Indicator diagram by points from 0 to the cycle's end; absolute pressures [MPa].
+    """Return indicator diagram by points from 0 to the cycle's end; absolute pressures [MPa].
 
     Raises:
         InputError: the lists differ in length, do not rise, or their ends differ.
@@ -260,8 +260,8 @@ class EngineNumbers(TypedDict, total=False):
     name: str
 
 
-def in_line(*, firing_offsets_deg: Collection[float], **given: Unpack[EngineNumbers]) -> Engine:
-    """An in-line engine with a central mechanism, of what ``assemble`` takes.
+def in_line(*, firing_offsets_deg: Collection[float], **numbers: Unpack[EngineNumbers]) -> Engine:
+    """Return an in-line engine with a central mechanism, of what ``assemble`` takes.
 
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
 
@@ -281,7 +281,7 @@ def in_line(*, firing_offsets_deg: Collection[float], **given: Unpack[EngineNumb
     >>> engine.cylinders
     4
     """
-    return assemble(firing_offsets_deg=firing_offsets_deg, **given)
+    return assemble(firing_offsets_deg=firing_offsets_deg, **numbers)
 
 
 @takes_kinds
@@ -316,7 +316,7 @@ def assemble(
     fullness: float = 1.0,
     name: str = "engine",
 ) -> Engine:
-    """An engine of any layout; the throws stand where the firing offsets want them.
+    """Return an engine of any layout; the throws stand where the firing offsets want them.
 
     What looks like a unit mistaken is a ``UserWarning``, one line each.
 
@@ -429,19 +429,19 @@ def assemble(
 def _check_offsets(offsets: Sequence[float], period: float) -> None:
     """Refuse offsets that do not begin with cylinder 1 or lie outside of the cycle [°]."""
     if offsets[0] != 0:
-        what = f"must begin with 0, not {offsets[0]:g}"
+        problem = f"must begin with 0, not {offsets[0]:g}"
         hint = "angles count from cylinder 1"
-        raise InputError(Problem("firing_offsets_deg", what, hint, value=offsets[0]))
+        raise InputError(Problem("firing_offsets_deg", problem, hint, value=offsets[0]))
     for offset in offsets:
         if not 0 <= offset < period:
-            what, limits = f"{offset:g}° is outside of the cycle", (0.0, period)
+            problem, limits = f"{offset:g}° is outside of the cycle", (0.0, period)
             hint = f"from 0° to below {period:g}°"
-            raise InputError(Problem("firing_offsets_deg", what, hint, limits, offset))
+            raise InputError(Problem("firing_offsets_deg", problem, hint, limits, offset))
 
 
-def _sizes(given: Sizes, count: int) -> tuple[float, ...]:
+def _sizes(sizes: Sizes, count: int) -> tuple[float, ...]:
     """Sizes of ``count`` journals [m]."""
-    each = tuple(given) if isinstance(given, Collection) else (given,) * count
+    each = tuple(sizes) if isinstance(sizes, Collection) else (sizes,) * count
     return tuple(float(size) * _MM for size in each)
 
 

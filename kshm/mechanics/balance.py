@@ -112,7 +112,7 @@ def reciprocating(engine: Engine, cylinders: Cylinders, order: int) -> tuple[Pha
 
 
 def turning(vector: complex) -> Phasors:
-    """A vector [N or N·m] that turns with the shaft, shape (2,), Gots 2.2.
+    """Return a vector [N or N·m] that turns with the shaft, shape (2,), Gots 2.2.
 
     ``vector`` = up + i·right at φ = 0.
     """

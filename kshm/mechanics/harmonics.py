@@ -84,7 +84,7 @@ def acceleration_amplitude(lam: float, order: int) -> float:
 
 
 def motion(alpha: Array, lam: float, order: int) -> tuple[Array, Array, Array]:
-    """The harmonic of one order in s, v, j over R [-], elementwise, Neiman (23), (28), (36)."""
+    """Return harmonic of one order in s, v, j over R [-], elementwise, Neiman (23), (28), (36)."""
     amplitude = signed(lam, order)
     cosine, sine = np.cos(order * alpha), np.sin(order * alpha)
     return -amplitude * cosine, order * amplitude * sine, order**2 * amplitude * cosine
@@ -179,7 +179,7 @@ def residual(t_gas: Array, t_inertia: Array, psi: float) -> Array:
 
 
 def residual_vector(t_gas: Array, gamma: float, t_inertia: Array, psi: float) -> Array:
-    """The same [Pa] as vectors with the true phase γ of the gas, elementwise, Chudakov (6)."""
+    """Return same [Pa] as vectors with the true phase γ of the gas, elementwise, Chudakov (6)."""
     left: Array = np.abs(t_gas * np.exp(1j * gamma) - (1 - psi) * t_inertia)
     return left
 

@@ -122,7 +122,7 @@ def centre_speed(phi: Array, lam: float, share: float, k: float = 0.0) -> Array:
 
 
 def centre_speed_approx(phi: Array, share: float) -> Array:
-    """The paper's approximation of ``centre_speed`` [-], elementwise, Ilchenko (11)."""
+    """Return the paper's approximation of ``centre_speed`` [-], elementwise, Ilchenko (11)."""
     return np.abs(share * np.cos(phi) ** 2 - 1)
 
 

@@ -86,7 +86,7 @@ class Load(NamedTuple):
 
 
 def in_throw_frame(K: Array, T: Array, turn: Array) -> tuple[Array, Array]:
-    """Forces K and T [N or Pa] on a split pin's part in its throw's frame, Gots 2.7.2.
+    """Return forces K and T [N or Pa] on a split pin's part in its throw's frame, Gots 2.7.2.
 
     ``turn`` [rad] is how far the part stands ahead of the throw; its shape broadcasts.
     """

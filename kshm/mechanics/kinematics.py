@@ -33,7 +33,7 @@ class Position:
 
     @classmethod
     def at(cls, phi: Array, lam: Array, k: Array = CENTRAL) -> Position:
-        """The position at crank angle φ [rad], elementwise; β by Gots (2), (13), below 90°."""
+        """Return position at crank angle φ [rad], elementwise; β by Gots (2), (13), below 90°."""
         sin = np.sin(phi)
         sin_beta = lam * (sin - k)
         return cls(sin, np.cos(phi), sin_beta, np.sqrt(1 - sin_beta**2))

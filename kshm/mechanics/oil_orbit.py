@@ -140,7 +140,7 @@ class MobilityMap:
 
     @classmethod
     def of(cls, width: Array) -> MobilityMap:
-        """Maps of bearings of the widths b [-], shape (bearings,), Booker."""
+        """Return maps of bearings of the widths b [-], shape (bearings,), Booker."""
         widths, which = np.unique(width, return_inverse=True)
         tables = np.array([_table(float(b)) for b in widths])
         return cls(tables.ravel(), which * tables[0].size)
@@ -255,7 +255,7 @@ class Orbits:
 
 
 def velocity(centre: Complex, load: Complex, half_speed: Array, film: MobilityMap) -> Complex:
-    """Derivative of ε e^{iδ} by the shaft's angle [1/rad], shape (…, bearings), Booker.
+    """Return the derivative of ε e^{iδ} by the shaft's angle [1/rad], shape (…, bearings), Booker.
 
     Args:
         centre: ε e^{iδ} [-].
@@ -315,7 +315,7 @@ class _Run:
         )
 
     def slope(self, at: Array, centre: Complex) -> Complex:
-        """Derivatives, bearings on the last axis; NaN outside the clearance circle."""
+        """Return derivatives, bearings on the last axis; NaN outside the clearance circle."""
         position = (at - self.phi[0]) / self.pitch
         before = np.minimum(position.astype(int), len(self.phi) - 2)
         share, row = position - before, self.first + before

@@ -210,7 +210,7 @@ def fit_pressure(
 
 
 def _lame(at: float, other: float) -> tuple[float, float]:
-    """A and B of Lamé for a unit pressure at a surface, the other free."""
+    """Return a and B of Lamé for a unit pressure at a surface, the other free."""
     rows = np.array([[1.0, -1 / at**2], [1.0, -1 / other**2]])
     a, b = np.linalg.solve(rows, np.array([-1.0, 0.0]))
     return float(a), float(b)

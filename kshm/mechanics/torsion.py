@@ -65,7 +65,7 @@ class Train:
         return int(np.argmax(self.inertias))
 
     def with_inertia(self, mass: int, inertia: float) -> Train:
-        """The same train with another inertia [kg·m²] at a mass."""
+        """Return the same train with another inertia [kg·m²] at a mass."""
         inertias = np.array(self.inertias)
         inertias[mass] = inertia
         return replace(self, inertias=inertias)
@@ -193,7 +193,7 @@ def throw_inertias(engine: Engine) -> Array:
 def train_of(
     engine: Engine, torsion: Torsion, flywheel: float, formula: StiffnessFormula | None = None
 ) -> Train:
-    """The train given, or the equivalent one of the engine.
+    """Return the train given, or the equivalent one of the engine.
 
     Args:
         engine: the engine.

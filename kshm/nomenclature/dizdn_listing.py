@@ -30,7 +30,7 @@ class ListedNumber:
 def _own(
     key: str, title: str, symbol: str, unit: str, decimals: int, code: str = ""
 ) -> ListedNumber:
-    """A number that the tables have not; ``unit`` is a key of ``UNITS``."""
+    """Return a number that the tables have not; ``unit`` is a key of ``UNITS``."""
     unit_of = UNITS[unit]
     return ListedNumber(key, code, title, symbol, unit_of.label, unit_of.si, decimals)
 
@@ -41,7 +41,7 @@ def _title(name: str) -> str:
 
 
 def _known(key: str, name: str, symbol: str, decimals: int, code: str = "") -> ListedNumber:
-    """A number that the tables have too, by the title and in the unit that it has there."""
+    """Return a number that the tables have too, by the title and in the unit that it has there."""
     return _own(key, _title(name), symbol, quantity(name).unit, decimals, code)
 
 
@@ -126,7 +126,7 @@ _SCALES = {q.key: q.scale for q in (*INPUTS, *OUTPUTS, *EXTRA)}
 
 
 def value_of(source: object, key: str) -> float:
-    """The number at a path in the cycle or in its inputs, in the unit of the listing.
+    """Return the number at a path in the cycle or in its inputs, in the unit of the listing.
 
     Raises:
         AttributeError: no such number in this cycle (no turbocharger, no bore yet).

@@ -52,7 +52,7 @@ def _set(text: str, level: str) -> _Line:
 
 
 def plain_symbol(tex: str) -> str:
-    """A symbol as one line of text, for headings, files and comments.
+    """Return a symbol as one line of text, for headings, files and comments.
 
     Indices are written on, numbers raised, other upper indices follow the lower ones after a
     blank; a factor after an index has its point.
@@ -163,7 +163,7 @@ class _Reader:
 
 
 def _joint(text: str, token: str, piece: str, *, index: bool, indexed: bool) -> str:
-    """What stands between a text and its next piece."""
+    """Return what stands between a text and its next piece."""
     if not text or not piece or text[-1] in f" {NBSP}(":
         return ""
     if token in _RELATIONS or piece in _RELATIONS:

@@ -86,7 +86,7 @@ def _least(one: Array, other: Array) -> dict[str, Array]:
 
 
 def _mains(case: Case, inputs: Bearings, factors: Scalars) -> Scalars:
-    """Main journals turned by the running-on torques; the first has none."""
+    """Return main journals turned by the running-on torques; the first has none."""
     diameters = np.array(case.engine.crankshaft.main_diameters[1:])
     modulus = polar_modulus(diameters, np.array(inputs.main_bore))
     swing, fillet, hole = _turned(case.raw.running_main[case.index, 1:], modulus, inputs, factors)

@@ -45,7 +45,7 @@ def first_extremes(
 def first_extreme(
     values: Array, where: Array, *, largest: bool = True, floor: float = 1.0
 ) -> tuple[float, float]:
-    """The same of one curve, shape (places,)."""
+    """Return the same of one curve, shape (places,)."""
     extreme, at = first_extremes(values, where, largest=largest, floor=floor)
     return float(extreme), float(at)
 
@@ -75,7 +75,7 @@ def summary_of(name: str, curve: Array, phi: Array) -> dict[str, Array]:
 
 
 def least_loaded(sums: Array) -> tuple[Array, Array]:
-    """Number of the ray with the smallest sum and the place of the oil hole [rad].
+    """Return the number of the ray with the smallest sum and the place of the oil hole [rad].
 
     Where several rays are loaded least, often not at all, the middle of their widest arc is
     taken: its place hardly depends on the step.  Rays are directions of the force on the

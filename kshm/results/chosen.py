@@ -44,7 +44,7 @@ class ChosenQuantities:
         return [*self.scalars, *pairs, *self.own]
 
     def quantity(self, name: str) -> Quantity:
-        """The quantity of a number."""
+        """Return the quantity of a number."""
         return self.own.get(name) or quantity(name.split(".")[1] if "." in name else name)
 
 
@@ -52,7 +52,7 @@ def choose(
     base: ChainArrays,
     names: Collection[str],
     cycle: CycleRun | None = None,
-    own: Mapping[str, Quantity] | None = None,
+    department: Mapping[str, Quantity] | None = None,
 ) -> ChosenQuantities:
     """Choose quantities by name, by default the scalars of the chain.
 
@@ -61,7 +61,7 @@ def choose(
         names: keys of scalars, ``M_mean``, their English names, ``torque.mean``, and keys of
             columns, ``P4_1.N_MPa``, which give extremes, their angles and the mean.
         cycle: the calculation that the base's gas comes from.
-        own: quantities of the scalars of own books; without names all of them are taken.
+        department: quantities of the scalars of own books; without names all of them are taken.
 
     Raises:
         UnknownNameError: there is no such quantity; the hint tells similar ones.
@@ -75,7 +75,7 @@ def choose(
             for key in quick_tables.get(table, ())
             if _summed_up(key)
         )
-        return ChosenQuantities(scalars, columns, slow=False, own=own or {})
+        return ChosenQuantities(scalars, columns, slow=False, own=department or {})
     solution = Solution(base.batch.engines[0], base, cycle=cycle)
     pairs = {
         f"{table}.{key}": (table, key)
@@ -85,10 +85,10 @@ def choose(
     }
     keys: list[str] = []
     chosen: list[tuple[str, str]] = []
-    slow, theirs, own = False, dict[str, Quantity](), own or {}
+    slow, theirs, department = False, dict[str, Quantity](), department or {}
     for name in dict.fromkeys(_keys(names, solution.scalars)):
-        if name in own:
-            theirs[name] = own[name]
+        if name in department:
+            theirs[name] = department[name]
         elif name in pairs:
             table, key = pairs[name]
             chosen.append((table, key))
@@ -97,7 +97,7 @@ def choose(
             keys.append(name)
             slow |= name not in quick_scalars
         else:
-            raise _unknown(name, [*solution.scalars, *pairs, *own, *_ENGLISH])
+            raise _unknown(name, [*solution.scalars, *pairs, *department, *_ENGLISH])
     return ChosenQuantities(tuple(keys), tuple(chosen), slow, theirs)
 
 
@@ -116,30 +116,30 @@ def _keys(names: Collection[str], scalars: Mapping[str, float]) -> Iterator[str]
             yield key
 
 
-def _unknown(name: object, known: list[str]) -> UnknownNameError:
+def _unknown(name: object, names: list[str]) -> UnknownNameError:
     text = one_line(str(name), 80)
-    close = difflib.get_close_matches(text, known, n=3, cutoff=0.5)
+    close = difflib.get_close_matches(text, names, n=3, cutoff=0.5)
     hint = f"similar: {', '.join(close)}" if close else "keys as in Solution.scalars"
     return UnknownNameError(text, Problem(text, "no such quantity", hint, value=close))
 
 
 def of_batch(
-    raw: ChainArrays, wanted: ChosenQuantities, cycles: Sequence[CycleRun | None]
+    raw: ChainArrays, quantities: ChosenQuantities, cycles: Sequence[CycleRun | None]
 ) -> tuple[dict[str, Array], list[KshmError | None]]:
     """Values of all engines of a batch in the units of the tables, by name, and why one has none.
 
     Args:
         raw: the solved engines.
-        wanted: what they give.
+        quantities: what they give.
         cycles: the calculation that the gas of each comes from.
     """
     reasons: list[KshmError | None] = [None] * len(raw.batch.engines)
-    if wanted.slow:
-        solvers = [name for name in wanted.names if name not in wanted.own]
+    if quantities.slow:
+        solvers = [name for name in quantities.names if name not in quantities.own]
         values = {name: np.full(len(reasons), np.nan) for name in solvers}
         for i, (engine, cycle) in enumerate(zip(raw.batch.engines, cycles, strict=True)):
             try:
-                one = _of_one(Solution(engine, raw, i, cycle), wanted)
+                one = _of_one(Solution(engine, raw, i, cycle), quantities)
             except KshmError as error:
                 reasons[i] = error
             else:
@@ -147,17 +147,17 @@ def of_batch(
                     values[name][i] = number
         return values, reasons
     scalars = chain_scalars(raw)
-    values = {key: scalars[key] / quantity(key).si for key in wanted.scalars}
-    tables = force_tables(raw) if wanted.columns else {}
-    for table, key in wanted.columns:
+    values = {key: scalars[key] / quantity(key).si for key in quantities.scalars}
+    tables = force_tables(raw) if quantities.columns else {}
+    for table, key in quantities.columns:
         columns = in_units({name: tables[table][name] for name in ("phi_deg", key)})
         values |= _summary(table, key, columns[key], columns["phi_deg"])
     return values, reasons
 
 
-def _of_one(solution: Solution, wanted: ChosenQuantities) -> dict[str, float]:
-    values = {key: solution.scalars[key] for key in wanted.scalars}
-    for table, key in wanted.columns:
+def _of_one(solution: Solution, quantities: ChosenQuantities) -> dict[str, float]:
+    values = {key: solution.scalars[key] for key in quantities.scalars}
+    for table, key in quantities.columns:
         columns = solution.columns[table]
         summary = _summary(table, key, columns[key][None], columns["phi_deg"])
         values |= {name: float(numbers[0]) for name, numbers in summary.items()}
@@ -174,13 +174,13 @@ def _summary(table: str, key: str, values: Array, degrees: Array) -> dict[str, A
     return {f"{table}.{key}.{part}": each for part, each in zip(PARTS, numbers, strict=True)}
 
 
-def described(name: str, wanted: ChosenQuantities) -> tuple[str, str]:
+def described(name: str, quantities: ChosenQuantities) -> tuple[str, str]:
     """Russian title and unit of a name."""
-    table, dot, rest = name.partition(".")
+    table, dot, column = name.partition(".")
     if not dot:
-        about = wanted.quantity(name)
+        about = quantities.quantity(name)
         return about.title, about.unit_label
-    key, _, part = rest.rpartition(".")
+    key, _, part = column.rpartition(".")
     about = quantity(key)
     kinds = {
         "max": "наибольшее", "max_deg": "угол наибольшего", "min": "наименьшее",
@@ -191,5 +191,5 @@ def described(name: str, wanted: ChosenQuantities) -> tuple[str, str]:
 
 
 def _numbered(table: str) -> str:
-    """The number of a table of the textbook as it is printed: ``P4_3_1`` is П4.3.1."""
+    """Return the number of a table of the textbook as it is printed: ``P4_3_1`` is П4.3.1."""
     return f"П{table[1:].replace('_', '.')}" if re.fullmatch(r"P\d(_\d+)+", table) else table

@@ -43,7 +43,7 @@ def counterweight_results(case: Case) -> Results:
 
 
 def with_counterweights(engine: Engine, share: float) -> Engine:
-    """The engine with alike counterweights opposite the cranks, two on a throw, none elsewhere.
+    """Return engine with alike counterweights opposite the cranks, two on a throw, none elsewhere.
 
     Each takes half of the share of the throw's rotating mass.
     """

@@ -131,7 +131,7 @@ def diagram_rows() -> Array:
 
 
 def _governed(run: CycleRun) -> Tables:
-    """The governor's branch of a diesel, eleven rows from the rated speed to idling."""
+    """Return the governor's branch of a diesel, eleven rows from the rated speed to idling."""
     if run.governor is None:
         return {}
     shares, figures = np.linspace(0.0, 1.0, 11), run.cycle.effective

@@ -35,7 +35,7 @@ _MPA = UNITS["MPa"].si  # extremes are told apart as the tables show them
 
 
 def force_tables(raw: ChainArrays, at: Index = slice(None)) -> Tables:
-    """Forces, torques, crankpins, journals and running-on torques."""
+    """Return forces, torques, crankpins, journals and running-on torques."""
     engine = raw.batch.engines[0]
     tables = {
         "P4_1": cylinder_columns(raw, at, 0),
@@ -54,7 +54,7 @@ def force_tables(raw: ChainArrays, at: Index = slice(None)) -> Tables:
 
 
 def cylinder_columns(raw: ChainArrays, at: Index, cylinder: int) -> Columns:
-    """Forces of one cylinder, Gots table П4.1."""
+    """Return forces of one cylinder, Gots table П4.1."""
     return {
         "Pg_MPa": raw.p_gas[at, cylinder], "Pj_MPa": raw.p_inertia[at, cylinder],
         "Ps_MPa": raw.p_sum[at, cylinder],
@@ -150,7 +150,7 @@ def _running(raw: ChainArrays, at: Index, family: str, moments: Array, first: in
 
 
 def rod_tables(case: Case) -> Tables:
-    """Forces of all rods on each throw in its frame, their sum and the throw's torque."""
+    """Return forces of all rods on each throw in its frame, their sum and the throw's torque."""
     if has_single_rods(case.engine):
         return {}
     return {

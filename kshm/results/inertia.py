@@ -129,7 +129,7 @@ def _range(which: str, inertia: Array) -> Scalars:
 
 
 def _rod_model(engine: Engine) -> Scalars:
-    """The rod estimated from the main dimensions with the first pin, Ilchenko (20)-(31)."""
+    """Return the rod estimated from the main dimensions with the first pin, Ilchenko (20)-(31)."""
     shaft, geometry = engine.crankshaft, engine.geometry
     sizes = masses.rod_sizes(
         geometry.bore, shaft.pin_diameters[0],

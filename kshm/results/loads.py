@@ -32,7 +32,7 @@ class Engines:
         )
 
     def each(self, get: Callable[[Engine], object]) -> Array:
-        """A value, or several, of every engine."""
+        """Return a value, or several, of every engine."""
         return np.array([get(engine) for engine in self.engines], dtype=float)
 
     @property
@@ -73,7 +73,7 @@ def geometry_scalars(of: Engines) -> Numbers:
 
 
 def mass_scalars(of: Engines) -> Numbers:
-    """Moving masses and their inertia forces, Gots 2.2, 2.3."""
+    """Return moving masses and their inertia forces, Gots 2.2, 2.3."""
     batch, at = of.raw.batch, of.at
     m_j, m_2, m_k = (values[at, 0, 0] for values in (batch.m_j, batch.m_2, batch.m_k))
     m_r = of.each(masses.rotating_mass)

@@ -108,13 +108,13 @@ class ResultGroup:
             """
             if name.startswith("_"):
                 raise AttributeError(name)
-            known = names_of(type(self))
-            if name in known:
-                what, hint = "is not calculated for this engine", ""
+            names = names_of(type(self))
+            if name in names:
+                problem, hint = "is not calculated for this engine", ""
             else:
-                what, hint = "no such result", f"names: {', '.join(known)}"
+                problem, hint = "no such result", f"names: {', '.join(names)}"
             where = f"{group_name(type(self))}.{name}"
-            raise UnknownNameError(name, Problem(where, what, hint))
+            raise UnknownNameError(name, Problem(where, problem, hint))
 
     def __dir__(self) -> list[str]:
         """Return the names of the results of this engine."""

@@ -36,7 +36,7 @@ class Plots(Protocol):
         """Wear of the crankpin, or of a main journal by its number."""
 
     def diagram(self) -> Picture:
-        """Indicator diagram over the volume of the cylinder."""
+        """Return indicator diagram over the volume of the cylinder."""
 
 
 def plots_of(solution: object) -> Plots:

@@ -31,7 +31,7 @@ def main_only(table: str) -> bool:
 
 
 def at_point(engine: Engine, point: OperatingPoint) -> Engine:
-    """The same engine at another speed with other gas."""
+    """Return the same engine at another speed with other gas."""
     return replace(
         engine,
         omega=point.omega,

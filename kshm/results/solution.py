@@ -306,15 +306,15 @@ class Solution:
         tables: dict[str, Mapping[str, Any]] = {
             **self.columns, **self.wear_sums, **reference_tables(),
         }  # fmt: skip
-        given = self._further.tables
-        tables |= {name: {k: v for k, (_, v) in each.items()} for name, each in given.items()}
+        further = self._further.tables
+        tables |= {name: {k: v for k, (_, v) in each.items()} for name, each in further.items()}
         for name, columns in tables.items():
             frame = pd.DataFrame(columns)
-            known = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
-            declared = {key: about for key, (about, _) in given.get(name, {}).items()}
-            about = {key: declared.get(key) or quantity(key) for key in known}
-            frame.attrs["units"] = {key: each.unit_label for key, each in about.items()}
-            frame.attrs["symbols"] = {key: each.symbol for key, each in about.items()}
-            frame.attrs["titles"] = {key: each.title for key, each in about.items()}
+            keys = [key for key in columns if not key.startswith(("lambda", "sign", "phi_m"))]
+            declared = {key: quantities for key, (quantities, _) in further.get(name, {}).items()}
+            quantities = {key: declared.get(key) or quantity(key) for key in keys}
+            frame.attrs["units"] = {key: each.unit_label for key, each in quantities.items()}
+            frame.attrs["symbols"] = {key: each.symbol for key, each in quantities.items()}
+            frame.attrs["titles"] = {key: each.title for key, each in quantities.items()}
             frames[name] = frame
         return frames

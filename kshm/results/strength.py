@@ -115,7 +115,7 @@ class _Study:
         return self.swing(mass["moving"], self.fastest) + turned
 
     def loads(self) -> Scalars:
-        """Forces and masses that the parts are calculated for."""
+        """Return forces and masses that the parts are calculated for."""
         mass = self.masses
         return {
             "st_omega_max": self.fastest,
@@ -301,7 +301,7 @@ class _Study:
         return {"rod_load": {"phi_deg": self.case.raw.phi, "st_rod_N": self.rod_force}}
 
     def shank(self) -> Scalars:
-        """Forces on the shank, its section, buckling, safety in both planes."""
+        """Return forces on the shank, its section, buckling, safety in both planes."""
         engine, size, steel = self.case.engine, self.sizes, self.inputs.rod_material
         moving, rod = self.masses["moving"], engine.geometry.rod_length
         pressed = self.gas - self.swing(moving, self.omega)
@@ -342,7 +342,7 @@ class _Study:
         }  # fmt: skip
 
     def bolts(self) -> Scalars:
-        """A bolt of the big end: tightened, and loaded by a share of its force."""
+        """Return a bolt of the big end: tightened, and loaded by a share of its force."""
         inputs, core = self.inputs, self.sizes["bolt"] - 1.4 * self.inputs.bolt_pitch
         each = self.tearing / inputs.bolts
         preload = inputs.bolt_preload * each

@@ -99,14 +99,14 @@ def sweep(
     """
     rows = _rows(vary, pairwise=pairwise)
     study = Study.of(engine, tuple(vary), quantities)
-    told = _Told(len(rows), progress)
+    counter = _Told(len(rows), progress)
     parts: list[Solved] = []
     try:
         for part in _in_order(study, _chunks(rows, study.size), jobs):
             parts.append(part)
-            told.step(len(part.rows))
+            counter.step(len(part.rows))
     except KeyboardInterrupt:
-        interrupted = StudyInterrupted(f"{told.done} of {told.total} rows are done")
+        interrupted = StudyInterrupted(f"{counter.done} of {counter.total} rows are done")
         interrupted.partial = study.frame(parts)
         raise interrupted from None
     return study.frame(parts)
@@ -190,10 +190,10 @@ class Study:
         }
         errors = [error for part in parts for error in part.errors]
         frame = pd.DataFrame(rows, columns=[*self.names]).assign(**values, **{ERROR: errors})
-        about = {name: described(name, self.chosen) for name in self.chosen.names}
+        descriptions = {name: described(name, self.chosen) for name in self.chosen.names}
         frame.attrs["units"] = {name: self._unit(name) for name in self.names}
-        frame.attrs["units"] |= {name: unit for name, (_, unit) in about.items()}
-        frame.attrs["titles"] = {name: title for name, (title, _) in about.items()}
+        frame.attrs["units"] |= {name: unit for name, (_, unit) in descriptions.items()}
+        frame.attrs["titles"] = {name: title for name, (title, _) in descriptions.items()}
         return frame
 
     def _unit(self, name: str) -> str:
@@ -225,12 +225,12 @@ def _checked(vary: Mapping[str, Collection[float]]) -> dict[str, tuple[float, ..
         one = isinstance(values, Real | str) or not isinstance(values, Collection)
         each = () if one else tuple(values)
         if not each:
-            what = "the list of values is empty" if not one else "must be a list of numbers"
-            raise InputError(Problem(one_line(str(name), 80), what, "e.g. [84, 88, 92]"))
+            problem = "the list of values is empty" if not one else "must be a list of numbers"
+            raise InputError(Problem(one_line(str(name), 80), problem, "e.g. [84, 88, 92]"))
         for value in each:
             if not isinstance(value, Real) or isinstance(value, bool):
-                what = f"must be a number, not {one_line(repr(value), 40)}"
-                raise InputError(Problem(one_line(str(name), 80), what, value=value))
+                problem = f"must be a number, not {one_line(repr(value), 40)}"
+                raise InputError(Problem(one_line(str(name), 80), problem, value=value))
         lists[name] = tuple(map(_plain, each))
     return lists
 

@@ -242,7 +242,7 @@ def forced_columns(study: TorsionStudy) -> Columns:
 
 
 def _tops(forced: Columns) -> Scalars:
-    """The greatest stresses of the forced vibration [Pa] and where the first stands [rad/s]."""
+    """Return greatest stresses of the forced vibration [Pa] and where the first stands [rad/s]."""
     bare = forced["tor_tau_MPa"]
     return {
         "tor_top_MPa": float(bare.max()),
@@ -303,7 +303,7 @@ def _joined(gas: Harmonics, inertial: Harmonics, gas_factor: Array, own_factor: 
 
 
 def _worst(study: TorsionStudy, inside: Array, speeds: Array) -> Scalars:
-    """The greatest resonance within the working speeds; zeros where there is none."""
+    """Return the greatest resonance within the working speeds; zeros where there is none."""
     worst = float(inside.max())
     if worst == 0:
         return dict.fromkeys(
@@ -320,7 +320,7 @@ def _worst(study: TorsionStudy, inside: Array, speeds: Array) -> Scalars:
 
 
 def _star(study: TorsionStudy) -> Columns:
-    """Running sums of the cylinders' vectors a e^{−iνθ} in the first form, by orders."""
+    """Return running sums of the cylinders' vectors a e^{−iνθ} in the first form, by orders."""
     engine, form = study.case.engine, study.modes.forms[0]
     of_throw = {throw: form[mass] for mass, throw in enumerate(study.train.throws) if throw >= 0}
     sizes = np.array([of_throw.get(cylinder.throw, 0.0) for cylinder in engine.arrangement])

@@ -55,17 +55,17 @@ _ERRORS = (
 
 
 def file_argument(text: str = "ФАЙЛ") -> Callable[[Command], Command]:
-    """The file that a command reads."""
+    """Return the file that a command reads."""
     return click.argument("source", metavar=text, type=click.Path(path_type=Path))
 
 
 def path_option(*names: str, **more: Any) -> Callable[[Command], Command]:  # noqa: ANN401
-    """An option whose value is a path."""
+    """Return an option whose value is a path."""
     return click.option(*names, type=click.Path(path_type=Path), **{"metavar": "ПУТЬ", **more})
 
 
 def csv_options(command: Command) -> Command:
-    """The options of a command that writes CSV."""
+    """Return the options of a command that writes CSV."""
     for name, text in (
         ("--excel", "CSV для русского Excel: точка с запятой и десятичная запятая."),
         ("--units", "Вторая строка CSV — единицы."),
@@ -90,7 +90,7 @@ class DecimalNumber(click.ParamType):  # type: ignore[type-arg]
 
 
 def number_option(name: str, key: str, unit: str, text: str) -> Callable[[Command], Command]:
-    """An option whose value is a number; ``unit`` is shown in its place."""
+    """Return an option whose value is a number; ``unit`` is shown in its place."""
     return click.option(name, key, type=DecimalNumber(), metavar=unit, help=text)
 
 
@@ -141,7 +141,7 @@ def tell_solved(loaded: Loaded, *, aside: bool = False) -> bool:
 
 
 def notes_of(loaded: Loaded) -> tuple[str, ...]:
-    """Notes on what is not calculated for an input."""
+    """Return notes on what is not calculated for an input."""
     geometry = loaded.model.geometry
     if not getattr(geometry, "is_offset", False) and loaded.model.articulated is None:
         return ()  # without loading the tables

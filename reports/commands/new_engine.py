@@ -21,7 +21,7 @@ Base = tuple[str, Callable[[], "InputFile"]]
 
 
 def new_book(target: Path, others: Iterable[object]) -> str:
-    """The text of a commented book of a department.
+    """Return the text of a commented book of a department.
 
     Raises:
         KshmError: its name has another ending, or further options are given.
@@ -44,7 +44,7 @@ def new_text(
     strength: bool = False,
     **options: Any,  # noqa: ANN401
 ) -> str:
-    """The file of a sample, of an own engine, or of an alternative to ``base``.
+    """Return the file of a sample, of an own engine, or of an alternative to ``base``.
 
     Args:
         base: Name of the engine of --from, and what reads it.

@@ -85,7 +85,7 @@ class Report:
         *,
         with_sheet: bool = False,
     ) -> Report:
-        """The report of an input file: own templates and a style file are looked for beside it.
+        """Return report of an input file: own templates and a style file are looked for beside it.
 
         Args:
             model: specifications of the engine.
@@ -106,7 +106,7 @@ class Report:
         return cls(model, values, folder, style_of, further, with_sheet, other)
 
     def pdf(self, source: Path, workbook: bytes | Callable[[], bytes]) -> bytes:
-        """The report as PDF with the input file, the workbook and the diagram's points attached.
+        """Return report as PDF with the input file, the workbook and the diagram's points attached.
 
         Args:
             source: the input file.
@@ -132,7 +132,7 @@ class Report:
             raise overrides.style_error(self.templates, words) from error
 
     def page(self, media: Literal["print", "screen"], *, tagged: bool | None = None) -> str:
-        """The whole page as HTML with style sheet, formulas and figures inside.
+        """Return the whole page as HTML with style sheet, formulas and figures inside.
 
         Args:
             media: "print" for WeasyPrint, "screen" for a browser.
@@ -215,9 +215,9 @@ class Report:
 def _files(
     model: Model, source: Path, workbook: bytes | Callable[[], bytes], style: Style
 ) -> Iterator[AttachedFile]:
-    """The files to attach; a workbook in the making is waited for here."""
-    given = f"исходные-данные{source.suffix}"
-    yield AttachedFile(given, source.read_bytes(), "Исходные данные")
+    """Yield the files to attach; a workbook in the making is waited for here."""
+    name = f"исходные-данные{source.suffix}"
+    yield AttachedFile(name, source.read_bytes(), "Исходные данные")
     book = workbook if isinstance(workbook, bytes) else workbook()
     yield AttachedFile(f"{source.stem}.xlsx", book, "Книга Excel с формулами", "Supplement")
     step: int = model.input.calculation.step_deg
@@ -234,19 +234,19 @@ def remarks_on(model: InputFile, beside: Path, style: Path | None = None) -> tup
     return tuple(front.crowded(model, find_style(model.report, beside, style).frame))
 
 
-def find_style(report: ReportSection, beside: Path, given: Path | None = None) -> Style:
-    """The style file given, or the one named in the input, or the usual look.
+def find_style(report: ReportSection, beside: Path, path: Path | None = None) -> Style:
+    """Return the style file given, or the one named in the input, or the usual look.
 
     Raises:
         InputError: it cannot be read or something in it is wrong.
     """
-    if given is None and report.style.strip():
-        given = beside / report.style
-    return USUAL if given is None else read_style(given)
+    if path is None and report.style.strip():
+        path = beside / report.style
+    return USUAL if path is None else read_style(path)
 
 
 def prototype_of(model: InputFile, beside: Path) -> Prototype | None:
-    """The prototype of an input: its section, or the first file that it is compared with.
+    """Return the prototype of an input: its section, or the first file that it is compared with.
 
     Raises:
         InputError: the prototype's file is missing or wrong.
@@ -279,7 +279,7 @@ def _elsewhere(terms: Terms, absent: Draft) -> dict[Name, str]:
 
 
 def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool) -> str:
-    """The whole page around the chapters."""
+    """Return the whole page around the chapters."""
     terms, style = chapter.terms, cast(Style, env.globals["style"])
     return env.get_template("report/report.html.j2").render(
         doc=_info(chapter.input),
@@ -301,7 +301,7 @@ def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool
 
 
 def _write(chapter: Chapter, names: set[str], further: Further = ()) -> Markup:
-    """The chapters of those names; further ones stand before the checks and conclusions."""
+    """Return the chapters of those names; further ones stand before the checks and conclusions."""
     parts: dict[str, Markup] = {}
     for record in CHAPTERS:
         if record.name == "checks":

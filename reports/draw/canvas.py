@@ -165,22 +165,22 @@ class Canvas:
     items: list[Item] = field(default_factory=list)
 
     def line(self, *points: Point, layer: Layer = THIN, **more: object) -> None:
-        """A polyline through points."""
+        """Draw a polyline through points."""
         self.items.append(Line(points, layer, **more))  # type: ignore[arg-type]
 
     def circle(self, centre: Point, radius: float, layer: Layer = THIN, **more: object) -> None:
-        """A circle."""
+        """Draw a circle."""
         self.items.append(Circle(centre, radius, layer, **more))  # type: ignore[arg-type]
 
     def words(self, point: Point, text: str, height: float = 3.5, **more: object) -> Words:
-        """A line of text."""
+        """Return a line of text."""
         line = Words(point, text, height, **more)  # type: ignore[arg-type]
         if text:
             self.items.append(line)
         return line
 
     def box(self, left: float, low: float, right: float, high: float, layer: Layer) -> None:
-        """A rectangle."""
+        """Draw a rectangle."""
         corners = ((left, low), (right, low), (right, high), (left, high))
         self.items.append(Line(corners, layer, closed=True))
 
@@ -223,7 +223,7 @@ class Canvas:
     def arrow(
         self, tip: Point, along: Point, length: float = 3.5, layer: Layer = SIZES, name: str = ""
     ) -> None:
-        """A filled arrow head whose tip points along a unit vector."""
+        """Draw a filled arrow head whose tip points along a unit vector."""
         (x, y), (ux, uy) = tip, along
         back = (x - ux * length, y - uy * length)
         side = 0.16 * length

@@ -113,7 +113,7 @@ def fonts_css(*, embedded: bool = False) -> str:
 
 @functools.cache
 def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
-    """The font of a family, style and weight; the regular one where the family lacks it."""
+    """Return the font of a family, style and weight; the regular one where the family lacks it."""
     from matplotlib.ft2font import FT2Font
 
     files = {(name, *looks): file for name, *looks, file in _FACES}
@@ -124,7 +124,7 @@ def face(family: str, style: str = "normal", weight: str = "normal") -> FT2Font:
 def face_with(
     char: str, style: str = "normal", weight: str = "normal", family: str = FAMILY
 ) -> FT2Font | None:
-    """The font of a family, or the second one, that has a character."""
+    """Return the font of a family, or the second one, that has a character."""
     fonts = (face(name, style, weight) for name in (family, SECOND))
     return next((font for font in fonts if ord(char) in font.get_charmap()), None)
 
@@ -253,18 +253,18 @@ def index_height(height: float) -> float:
 
 
 def standard(height: float) -> float:
-    """The largest height of ГОСТ 2.304 that is no larger; the least one at last [mm]."""
+    """Return the largest height of ГОСТ 2.304 that is no larger; the least one at last [mm]."""
     return max((one for one in HEIGHTS if one <= height + 1e-9), default=HEIGHTS[0])
 
 
 def parts_of(text: str) -> list[tuple[str, bool]]:
-    """The text in parts and whether each is an index."""
+    """Return the text in parts and whether each is an index."""
     parts = enumerate(_INDEX.split(text))
     return [(part, number % 2 == 1) for number, part in parts if part]
 
 
 def plain(text: str) -> str:
-    """The text in one line, where an index cannot stand lower."""
+    """Return the text in one line, where an index cannot stand lower."""
     return _INDEX.sub(r"\1", text)
 
 
@@ -275,7 +275,7 @@ def fitted(text: str, room: float, height: float, least: float = 1.8) -> float:
 
 
 def wrapped(text: str, room: float, height: float, *, hyphens: bool = False) -> list[str]:
-    """A text in lines that fit a room; a word that is too long stays whole.
+    """Return a text in lines that fit a room; a word that is too long stays whole.
 
     With ``hyphens`` a line may end after the hyphen of a double name.
     """

@@ -27,7 +27,7 @@ _ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
 
 
 def number(value: float) -> str:
-    """A size with the digits it was given with, to a hundredth."""
+    """Return a size with the digits it was given with, to a hundredth."""
     digits = next(d for d in range(3) if d == 2 or abs(round(value, d) - value) < 1e-9)
     return fixed(value, digits)
 
@@ -36,7 +36,7 @@ def along(
     canvas: Canvas, start: Point, end: Point, name: str, value: float, letters: float,
     *, heads: bool = True,
 ) -> None:  # fmt: skip
-    """A dimension from one point to another with its value beside it."""
+    """Draw a dimension from one point to another with its value beside it."""
     length = math.dist(start, end)
     unit = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
     size = SIZE if heads else ""
@@ -68,7 +68,7 @@ def along(
 def across(
     canvas: Canvas, x: float, ends: tuple[float, float], value: float, letters: float
 ) -> None:
-    """A diameter upright within its journal, the value beside the line."""
+    """Draw a diameter upright within its journal, the value beside the line."""
     low, high = ends
     canvas.line((x, low), (x, high), layer=SIZES, name=SIZE)
     canvas.arrow((x, high), (0.0, 1.0), min(letters, (high - low) / 3), name=SIZE)
@@ -155,7 +155,7 @@ class MechanismSizes:
 
 
 def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0) -> list[Item]:
-    """A throw from the side with its chain of lengths, diameters and radius.
+    """Return a throw from the side with its chain of lengths, diameters and radius.
 
     Args:
         throw: sizes.

@@ -27,7 +27,7 @@ class CounterweightSizes:
 def counterweight_drawing(
     web: CounterweightSizes, *, letters: float = 3.5, scale: float = 1.0
 ) -> list[Item]:
-    """A web from the end of the shaft, its counterweight opposite the crankpin.
+    """Return a web from the end of the shaft, its counterweight opposite the crankpin.
 
     Args:
         web: sizes.
@@ -89,7 +89,7 @@ class FlywheelSizes:
 def flywheel_drawing(
     wheel: FlywheelSizes, *, letters: float = 3.5, scale: float = 1.0
 ) -> list[Item]:
-    """A section of the flywheel along its axis.
+    """Return a section of the flywheel along its axis.
 
     Args:
         wheel: sizes [mm].

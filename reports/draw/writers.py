@@ -50,7 +50,7 @@ _DIVIDE = 8.0  # mm: the first dash of the fifth pattern
 
 
 def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) -> str:
-    """The items within a box of the sheet.
+    """Return the items within a box of the sheet.
 
     Args:
         items: what is drawn.
@@ -65,7 +65,7 @@ def svg_of(items: Sequence[Item], box: Box, *, shown_mm: float | None = None) ->
 
 
 def svg_element(body: str, extent: str, size: tuple[float, float], width_mm: float) -> str:
-    """A figure of a page as one element.
+    """Return a figure of a page as one element.
 
     Args:
         body: its elements.
@@ -120,7 +120,7 @@ def _words(item: Words, left: float, high: float) -> str:
 
 
 def parts_placed(item: Words) -> Iterable[Words]:
-    """A line of text in parts that stand one after another, indices lower and smaller."""
+    """Yield a line of text in parts that stand one after another, indices lower and smaller."""
     parts = parts_of(item.text)
     if len(parts) == 1:
         yield replace(item, text=parts[0][0])
@@ -154,7 +154,7 @@ def _svg_letters(item: Words, left: float, high: float, look: str = "") -> str:
 
 
 def _svg_strokes(item: Words, left: float, high: float) -> str:
-    """A line of text in strokes of one width, turned about its place."""
+    """Return a line of text in strokes of one width, turned about its place."""
     turn, start = math.radians(item.angle), -item.align * item.width / WIDER
     cos, sin = math.cos(turn), math.sin(turn)
     parts = []
@@ -174,7 +174,7 @@ def _svg_strokes(item: Words, left: float, high: float) -> str:
 
 
 def dxf_bytes(items: Iterable[Item], dashes: float = 1.0) -> bytes:
-    """The drawing as a DXF file; the same items give the same bytes.
+    """Return the drawing as a DXF file; the same items give the same bytes.
 
     Args:
         items: The drawing, in millimetres of the thing where it is drawn true to size.
@@ -245,7 +245,7 @@ def _dashes(document: object, item: Line) -> dict[str, object]:
 
 
 def _dxf_fill(space: object, item: Line | Circle) -> None:
-    """The black inside of a closed line or of a circle."""
+    """Draw the black inside of a closed line or of a circle."""
     looks = {"layer": item.layer.name}
     hatch = space.add_hatch(color=_BLACK, dxfattribs=looks)  # type: ignore[attr-defined]
     if isinstance(item, Circle):
@@ -255,7 +255,7 @@ def _dxf_fill(space: object, item: Line | Circle) -> None:
 
 
 def _dxf_dimension(space: object, item: Dimension, looks: dict[str, object]) -> None:
-    """A dimension by ГОСТ 2.307 with its words where the drawing has them."""
+    """Draw a dimension by ГОСТ 2.307 with its words where the drawing has them."""
     turn = math.degrees(math.atan2(item.end[1] - item.start[1], item.end[0] - item.start[0]))
     head = min(item.height, math.dist(item.start, item.end) / 3)
     manner = {

@@ -29,7 +29,7 @@ def kinds_of(reading: Own, key: str) -> list[str]:
 
 
 def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
-    """What chapters name and the model has not."""
+    """Yield what chapters name and the model has not."""
     model = reading.model
     for kind, text, line in lines_of(reading):
         if kind == "show" and not kinds_of(reading, text):
@@ -62,7 +62,7 @@ def _of_another_kind(reading: Own, line: BookLine, word: str, key: str) -> BookE
 
 
 def shown(reading: Own) -> Iterator[BookError]:
-    """What chapters show twice, cannot show, or refer to without showing it."""
+    """Yield what chapters show twice, cannot show, or refer to without showing it."""
     once: dict[str, dict[str, int]] = {"show": {}, "formula": {}}
     for kind, key, line in lines_of(reading):
         if kind not in once:

@@ -56,7 +56,7 @@ class Own:
     def fault(
         self, line: BookLine | None, problem: str, hint: str, fragment: str = ""
     ) -> BookError:
-        """A mistake on a line; on the first one of the books where none is known."""
+        """Return a mistake on a line; on the first one of the books where none is known."""
         at = line or BookLine(f"{self.shelf.names[0]}.book", 1, "")
         return at_fragment(at, self.shelf, problem, hint, fragment)
 
@@ -73,7 +73,7 @@ class Own:
 
 
 def short_of(key: str) -> str:
-    """A node as its line calls it."""
+    """Return a node as its line calls it."""
     return _PREFIX.sub("", key.rpartition(".")[2])
 
 
@@ -205,7 +205,7 @@ def _odd(reading: Own, at: str | BookLine, texts: list[str]) -> Iterator[BookErr
 
 
 def unknown_in_charts(reading: Own) -> Iterator[BookError]:
-    """What charts name and the model has not, and curves whose ends do not meet."""
+    """Yield what charts name and the model has not, and curves whose ends do not meet."""
     model = reading.model
     known = model.nodes.keys() | model.grid_runs.keys()
     for chart in model.charts:

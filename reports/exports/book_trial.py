@@ -71,7 +71,7 @@ def _unset_symbols(reading: Own) -> Iterator[BookError]:
 
 
 def _unplaced(reading: Own, values: Values) -> Iterator[BookError]:
-    """What a chapter shows again or refers to though the report has it nowhere."""
+    """Yield what a chapter shows again or refers to though the report has it nowhere."""
     report = Report(replace(reading.model, chapters=()), values)
     placed, elsewhere = report.names
     shows = {(of, text) for kind, text, _ in lines_of(reading) if kind == "show"
@@ -117,7 +117,7 @@ def _unmade(reading: Own, values: Values, *, whole: bool) -> Iterator[BookError]
 
 
 def _alone(model: Model) -> Model:
-    """The model of a report of little else than own chapters."""
+    """Return the model of a report of little else than own chapters."""
     report = model.input.report.model_copy(update={"chapters": _CHAPTERS})
     return replace(model, input=model.input.model_copy(update={"report": report}))
 
@@ -148,5 +148,5 @@ def check_alone(path: Path) -> Iterator[str]:
 
 
 def _on_sample(problem: Problem, sample: str) -> Problem:
-    """A fault that the samples before have not, with the sample that has it."""
+    """Return a fault that the samples before have not, with the sample that has it."""
     return Problem(problem.where, f"на образце {sample}: {problem.what}", problem.hint)

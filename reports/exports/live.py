@@ -52,7 +52,7 @@ def results(model: Model, solution: Solution) -> Iterator[Data]:
 
 
 def _row(each: Scalar, value: float | str) -> Data:
-    """A result with its words."""
+    """Return a result with its words."""
     text = value if isinstance(value, str) else written(value, each.quantity.digits)
     return {"key": each.key, "title": each.note or each.quantity.title,
             "symbol": _symbol(each.quantity), "unit": each.quantity.unit_label,
@@ -60,13 +60,13 @@ def _row(each: Scalar, value: float | str) -> Data:
 
 
 def charts(model: Model, solution: Solution, sheet: str) -> list[Data]:
-    """The charts of a sheet; what the solver does not say follows from the formulas."""
+    """Return the charts of a sheet; what the solver does not say follows from the formulas."""
     formulas = Evaluation(model)
     return [_chart(each, solution, formulas) for each in model.charts if each.sheet == sheet]
 
 
 def _chart(chart: ChartSpec, solution: Solution, formulas: Evaluation) -> Data:
-    """A chart's curves, and where its cursor stands at every φ if it has no angle."""
+    """Return a chart's curves, and where its cursor stands at every φ if it has no angle."""
 
     def numbers(key: str) -> Any:  # noqa: ANN401
         try:
@@ -113,7 +113,7 @@ def _lists(**columns: Any) -> dict[str, list[float | None]]:  # noqa: ANN401
 
 
 def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
-    """A column as JSON carries it: digits that no screen shows are left out."""
+    """Return a column as JSON carries it: digits that no screen shows are left out."""
     values = np.asarray(values, dtype=float)
     finite = np.isfinite(values)
     most = float(np.max(np.abs(values[finite]), initial=0.0))
@@ -125,7 +125,7 @@ def plain_numbers(values: Any) -> list[float | None]:  # noqa: ANN401
 
 
 def moving(solution: Solution, cylinder: int = 0) -> Data:
-    """What the moving mechanisms of all cylinders and the star of cranks are drawn from.
+    """Return what the moving mechanisms of all cylinders and the star of cranks are drawn from.
 
     ``joints`` are the places of crankpin, articulated pin and piston pin [mm] in the frame of
     a cylinder, its axis upwards, over its own angle ``turn``; one set for each kind of rod.
@@ -166,7 +166,7 @@ def moving(solution: Solution, cylinder: int = 0) -> Data:
 
 
 def checks(model: Model) -> Data:
-    """The checks of a calculation, each with its value, and what the step leaves out."""
+    """Return the checks of a calculation, each with its value, and what the step leaves out."""
     value, reasons = Evaluation(model).value, reasons_of(model.input)
     keys = [scalar.key for block in model.blocks if isinstance(block, ScalarTable)
             for pair in block.pairs for scalar in pair]  # fmt: skip

@@ -64,11 +64,11 @@ class CsvForm:
         return "utf-8-sig" if self.excel else "utf-8"
 
     def writer(self, stream: TextIO) -> Any:  # noqa: ANN401 - csv has no type for it
-        """A writer of rows."""
+        """Return a writer of rows."""
         return csv.writer(stream, lineterminator="\n", delimiter=";" if self.excel else ",")
 
     def number(self, value: float) -> str:
-        """A number in full precision."""
+        """Return a number in full precision."""
         return repr(value).replace(".", ",") if self.excel else repr(value)
 
     def heads(self, keys: Sequence[str], units: Callable[[str], str]) -> Iterator[list[str]]:
@@ -78,7 +78,7 @@ class CsvForm:
             yield [units(key) for key in keys]
 
     def cell(self, value: float | str | None) -> str:
-        """A cell: a whole number without its point."""
+        """Return a cell: a whole number without its point."""
         if value is None or isinstance(value, str):
             return value or ""
         whole = value.is_integer() and abs(value) < 1e15

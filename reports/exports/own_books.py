@@ -47,7 +47,7 @@ def refuse_faults(model: InputFile) -> None:
 
 
 def read_books(model: InputFile) -> Own:
-    """The own books of an input as they are read for its engine.
+    """Return the own books of an input as they are read for its engine.
 
     Raises:
         InputError: everything that cannot be read.
@@ -95,7 +95,7 @@ def _checks_of(model: InputFile) -> set[str]:
 
 
 def failed_own_checks(model: InputFile) -> list[Failed]:
-    """Checks of own books that an engine does not pass and does not explain."""
+    """Return checks of own books that an engine does not pass and does not explain."""
     if not model.books:
         return []
     built = kept_model(model)
@@ -115,7 +115,7 @@ class OwnNumbers:
 
 
 def own_numbers(model: InputFile) -> OwnNumbers:
-    """What books give for an engine whose numbers no solver knows; nothing without them."""
+    """Return what books give for an engine whose numbers no solver knows; nothing without them."""
     if not model.books and not contents_of().alone:
         return OwnNumbers({}, {})
     built = kept_model(model)

@@ -29,19 +29,19 @@ class References(Protocol):
     """What the compiler asks of the layout: references as text."""
 
     def name(self, key: str) -> str:
-        """Reference to a scalar or to this row's cell of a column."""
+        """Return reference to a scalar or to this row's cell of a column."""
 
     def column(self, key: str, *, repeat_last: bool) -> str:
         """Range of a whole column; without the repeated last row unless asked for."""
 
     def last(self, key: str) -> str:
-        """Reference to the last cell of a column."""
+        """Return reference to the last cell of a column."""
 
     def following(self, key: str) -> str:
-        """Reference to the next row's cell of a column; in the last row to its own."""
+        """Return reference to the next row's cell of a column; in the last row to its own."""
 
     def previous(self, key: str) -> str:
-        """Reference to the cell of a column in the row above."""
+        """Return reference to the cell of a column in the row above."""
 
     def down_to_here(self, key: str) -> str:
         """Range of a column from its first row down to this one."""
@@ -56,11 +56,11 @@ class References(Protocol):
         """
 
     def run_wave(self, turn: str, angles: str, order: float | str) -> str:
-        """The same for the angles of a run, all of them."""
+        """Return the same for the angles of a run, all of them."""
 
 
 def number(value: float | str) -> str:
-    """A literal in a formula."""
+    """Return a literal in a formula."""
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"'
     if float(value).is_integer() and abs(value) < 1e15:
@@ -222,5 +222,5 @@ def _wave(name: str, args: list[ast.expr], refs: References) -> str:
 
 
 def _order(node: ast.expr) -> float | str:
-    """A number, or the key of a column of orders."""
+    """Return a number, or the key of a column of orders."""
     return float(node.value) if isinstance(node, ast.Constant) else _key(node)  # type: ignore[arg-type]

@@ -43,7 +43,7 @@ class Script:
 
 
 def value_script(text: str, key_of: Callable[[str], str]) -> Script:
-    """Function of one value; ``key_of`` gives the key of a name.
+    """Return function of one value; ``key_of`` gives the key of a name.
 
     Raises:
         FormulaError: a construct or function outside the language, a column that is no argument
@@ -58,7 +58,7 @@ def columns_script(
     texts: Sequence[str], keys: Sequence[str], key_of: Callable[[str], str],
     is_column: Callable[[str], bool],
 ) -> Script:  # fmt: skip
-    """Function of columns that are found together, a row at a time, in their order.
+    """Return function of columns that are found together, a row at a time, in their order.
 
     Args:
         texts: their formulas.
@@ -97,7 +97,7 @@ class _Writer:
     before: list[str] = field(default_factory=list)
 
     def text(self, node: ast.expr) -> str:
-        """A part of an expression; what is no single word stands in brackets."""
+        """Return a part of an expression; what is no single word stands in brackets."""
         match node:
             case ast.Constant(value=str() as value):
                 return json.dumps(value, ensure_ascii=False)
@@ -127,7 +127,7 @@ class _Writer:
         raise AssertionError(f"unexpected node {ast.dump(node)}")
 
     def call(self, name: str, args: list[ast.expr]) -> str:
-        """A function with its arguments."""
+        """Return a function with its arguments."""
         if name in SCALE_FUNCTIONS:
             way, unit = name.split("_", 1)
             return f"({self.text(args[0])}{'/' if way == 'to' else '*'}{SCALES[unit]!r})"
@@ -149,7 +149,7 @@ class _Writer:
         return f"h{self.before.index(call)}"
 
     def run(self, node: ast.expr) -> str:
-        """The variable of a value or of a whole column."""
+        """Return the variable of a value or of a whole column."""
         key = self.key_of(_name(node))
         return self.outs.get(key) or self.marks.setdefault(key, f"a{len(self.marks)}")
 

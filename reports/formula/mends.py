@@ -64,7 +64,7 @@ _USUAL = "язык формул и его функции — в docs/books.md"
 
 
 def mended(text: str, is_function: Callable[[str], bool]) -> tuple[str, str]:
-    """The part of an expression that is none, and how to mend it.
+    """Return the part of an expression that is none, and how to mend it.
 
     ``is_function`` tells the functions of the language.
     """

@@ -116,7 +116,7 @@ def evaluate_tree(tree: ast.expr, resolve: Resolver) -> Value:
 
 
 def compiled(text: str, key_of: Callable[[str], str]) -> Compiled:
-    """An expression as a function of a dict of values; ``key_of`` gives the key of a name.
+    """Return an expression as a function of a dict of values; ``key_of`` gives the key of a name.
 
     Raises:
         FormulaError: a construct or function outside the language.
@@ -125,7 +125,7 @@ def compiled(text: str, key_of: Callable[[str], str]) -> Compiled:
 
 
 def _made(node: ast.expr, read: Reading) -> Compiled:
-    """A part of an expression: its tree is walked once, not for each value."""
+    """Return a part of an expression: its tree is walked once, not for each value."""
     match node:
         case ast.BinOp(left=left, op=op, right=right):
             return _pair(_OPERATORS[type(op)], _made(left, read), _made(right, read))
@@ -187,7 +187,7 @@ def _choose(test: Value, body: Value, orelse: Value) -> Value:
 
 
 def _function(name: str) -> Callable[..., Value]:
-    """The function of a name of the language."""
+    """Return the function of a name of the language."""
     if name in SCALE_FUNCTIONS:
         way, unit = name.split("_", 1)
         scale = SCALES[unit]

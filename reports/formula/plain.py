@@ -26,7 +26,7 @@ _SUPERSCRIPT = {"2": "²", "3": "³", "4": "⁴", "5": "⁵"}
 
 
 def plain(text: str, symbol: Callable[[str], str]) -> str:
-    """An expression as people write it in a line; ``symbol`` gives the symbol of a name.
+    """Return an expression as people write it in a line; ``symbol`` gives the symbol of a name.
 
     Factors between units are left out, as the book does.
     """
@@ -79,7 +79,7 @@ def _text(node: ast.expr, symbol: Callable[[str], str]) -> tuple[str, int]:
 
 
 def _symbol(text: str) -> tuple[str, int]:
-    """A symbol; one that is a sum or a ratio itself wants brackets among others."""
+    """Return a symbol; one that is a sum or a ratio itself wants brackets among others."""
     text = text.rpartition(" = ")[2]
     level = _SUM if " − " in text or " + " in text else _PRODUCT if "/" in text else _ATOM
     return text, level

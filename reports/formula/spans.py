@@ -165,7 +165,7 @@ def _mapped(spans: Spans, act: Callable[[float], float]) -> Spans:
 
 
 def _common(some: Spans, others: Spans) -> Spans:
-    """What lies in both."""
+    """Return what lies in both."""
     both = (_cut(one, other) for one in some for other in others)
     return tuple(sorted(span for span in both if not span.is_empty))
 
@@ -177,7 +177,7 @@ def _cut(one: Interval, other: Interval) -> Interval:
 
 
 def _joined(spans: list[Interval]) -> Spans:
-    """What lies in any, those that touch made one."""
+    """Return what lies in any, those that touch made one."""
     whole: list[Interval] = []
     for span in sorted(span for span in spans if not span.is_empty):
         if whole and _touch(whole[-1], span):
@@ -194,7 +194,7 @@ def _touch(one: Interval, later: Interval) -> bool:
 
 
 def _others(spans: Spans) -> Spans:
-    """What lies in none."""
+    """Return what lies in none."""
     left: Spans = (_ALL,)
     for span in spans:
         outside = (Interval(-math.inf, True, span.low, span.above),

@@ -49,7 +49,7 @@ class Piece:
 
 
 def to_tex(text: str, symbols: Symbols, zeros: Collection[str] = ()) -> str:
-    """The expression in symbols.
+    """Return the expression in symbols.
 
     Args:
         text: the expression.
@@ -63,7 +63,7 @@ def to_tex(text: str, symbols: Symbols, zeros: Collection[str] = ()) -> str:
 
 
 def to_tex_numbers(text: str, symbols: Symbols, numbers: Numbers) -> str:
-    """The expression with the numbers of one row or of the scalars put in."""
+    """Return the expression with the numbers of one row or of the scalars put in."""
     return _Printer(symbols, numbers).text(parse(text))
 
 
@@ -80,7 +80,7 @@ def pieces(text: str, symbols: Symbols) -> list[Piece]:
 
 
 def chosen(text: str, holds: Callable[[str], bool]) -> str:
-    """The branch of a nested choice that is in force; the expression itself without a choice.
+    """Return branch of a nested choice that is in force; the expression itself without a choice.
 
     Args:
         text: the expression.
@@ -93,7 +93,7 @@ def chosen(text: str, holds: Callable[[str], bool]) -> str:
 
 
 def number_tex(value: float, digits: int = 4) -> str:
-    """A number for TeX: significant digits, decimal comma, powers of ten for extremes."""
+    """Return a number for TeX: significant digits, decimal comma, powers of ten for extremes."""
     if value == 0:
         return "0"
     exponent = math.floor(math.log10(abs(value)))
@@ -155,7 +155,7 @@ def _is_long(node: ast.expr, text: str) -> bool:
 
 
 def _level(symbol: str) -> int:
-    """A symbol that is itself a ratio, such as ``m_1/m_ш``, needs brackets in a product."""
+    """Return a symbol that is itself a ratio, such as ``m_1/m_ш``, needs brackets in a product."""
     if symbol.startswith(r"\dfrac"):
         return _PRODUCT
     return _SUM if "/" in symbol else _ATOM

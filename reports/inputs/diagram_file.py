@@ -72,7 +72,7 @@ class DiagramFill:
 
 
 def with_points(raw: dict[str, Any], folder: Path, source: str) -> DiagramFill:
-    """The mapping with the points of the named file in place of ``source = "file"``.
+    """Return the mapping with the points of the named file in place of ``source = "file"``.
 
     Raises:
         InputError: the file is missing or is no table of angles and pressures.
@@ -164,15 +164,15 @@ def _with_cycles_beside(rows: Recorded, refusal: _FileRefusal) -> Recorded:
     return replace(rows, pressures=(*rows.pressures, *rows.beside[:count]))
 
 
-def _unit(given: object, refusal: _FileRefusal) -> float:
-    """Unit of pressure in MPa, whatever its case and language."""
-    word = str(given or "").strip().casefold().replace(" ", "")
+def _unit(text: object, refusal: _FileRefusal) -> float:
+    """Return the unit of pressure in MPa, whatever its case and language."""
+    word = str(text or "").strip().casefold().replace(" ", "")
     unit = UNITS_MPA.get(_ALSO.get(word, word))
     if unit is None:
         hint = "допустимо: " + ", ".join(UNITS_MPA)
         problem = "не указана единица давления"
         if word:
-            problem = f"неизвестная единица давления «{one_line(str(given), 20)}»"
+            problem = f"неизвестная единица давления «{one_line(str(text), 20)}»"
         raise refusal.refused(problem, hint, key="gas.pressure_unit")
     return unit
 
@@ -228,7 +228,7 @@ def _closed(
     rows: Recorded, turn: float, period: float, how: tuple[object, float | None],
     refusal: _FileRefusal,
 ) -> tuple[list[tuple[float, float]], list[str]]:  # fmt: skip
-    """Closed points over one cycle from 0 to its end, and notes on the conversion.
+    """Return closed points over one cycle from 0 to its end, and notes on the conversion.
 
     ``how`` is whether cycles are averaged, and the speed [rpm].
     """
@@ -268,7 +268,7 @@ def _closed(
 def _cycles(
     angles: Array, period: float, average: object, refusal: _FileRefusal
 ) -> tuple[int, float]:
-    """Number of whole cycles and their step; refuse several unless averaging is wanted."""
+    """Return number of whole cycles and their step; refuse several unless averaging is wanted."""
     import numpy as np
 
     from reports.inputs.recorded_angles import is_several

@@ -215,7 +215,7 @@ def _regime_fields(regime: RegimeSection, index: int) -> Iterator[Field]:
 
 
 def regime_suffix(number: int) -> str:
-    """Ending of the names of a further regime, counted from 2; the main one has none."""
+    """Return the ending of the names of a further regime, counted from 2; the main one has none."""
     return f"_R{number}"
 
 
@@ -297,7 +297,7 @@ def _value(value: object, spec: Key, path: Path, empty: list[Path]) -> Any:  # n
 
 
 def in_cells(text: str) -> str:
-    """A message about keys, reworded for the cells of a workbook."""
+    """Return a message about keys, reworded for the cells of a workbook."""
     for of_file, of_book in _PHRASES:
         text = text.replace(of_file, of_book)
     text = _CHOICE.sub(_chosen, text)

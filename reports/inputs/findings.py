@@ -74,7 +74,7 @@ def radius_and_rod(values: ValidValues) -> tuple[float, float] | None:
 
 
 def accepted_keys(entries: Iterable[AcceptedEntry]) -> Keys:
-    """Accepted checks and keys."""
+    """Return accepted checks and keys."""
     return frozenset(entry.what for entry in entries)
 
 
@@ -127,7 +127,7 @@ def check_names(model: InputFile, names: Collection[str]) -> Iterator[Problem]:
 
 
 def _unknown(name: str, names: Collection[str]) -> tuple[str, str] | None:
-    """What is said of an accepted entry that names nothing; None of one that does."""
+    """Return what is said of an accepted entry that names nothing; None of one that does."""
     if name in names or _known(name):
         return None
     likely = likely_word(name, (*CHECKS, *names, *_keys()))

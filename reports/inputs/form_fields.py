@@ -20,7 +20,7 @@ _DRAWINGS = {"throw_angles_deg": "phases", "webs": "signs", "arms": "arms"}  # o
 
 
 def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
-    """Groups of fields in the order of the file, its lists among them, with keys not given.
+    """Yield groups of fields in the order of the file, its lists among them, with keys not given.
 
     A list has its ``path`` and what one more entry begins with: the last one again, of a list of
     choices one that is not taken; ``whole`` is the path of what may be taken away.
@@ -49,7 +49,7 @@ def absent(raw: Mapping[str, Any]) -> dict[str, str]:
 
 
 def without_foreign(raw: Mapping[str, Any]) -> Data:
-    """The input without keys of gas sources other than the chosen one."""
+    """Return the input without keys of gas sources other than the chosen one."""
     gas = _mapping(raw.get("gas"))
     foreign = {key for model in GAS_MODELS.values() for key in hints(model)}
     foreign -= set(hints(_gas_model(gas)))

@@ -70,7 +70,7 @@ def inside(index: int, path: Path) -> Path:
 
 
 def check_regime(values: ValidValues, regime: ValidValues) -> Iterator[Finding]:
-    """Findings about a regime's gas in the engine of the file."""
+    """Yield findings about a regime's gas in the engine of the file."""
     both = replace(regime, sections={**values.sections, **regime.sections})
     both.sections.pop("cycle", None)
     yield from check_gas(both)
@@ -103,7 +103,7 @@ class AcceptedOddity:
     reason: str
 
     def line(self) -> str:
-        """The one-line message."""
+        """Return the one-line message."""
         return one_line(f"{self.problem.where}: {self.problem.what}; причина: {self.reason}", 600)
 
 
@@ -279,7 +279,7 @@ class _SectionReader:
                 self.problems.append(problem)
 
     def loaded(self, model: InputFile) -> Loaded:
-        """The model with its warnings and accepted oddities."""
+        """Return the model with its warnings and accepted oddities."""
         entries = () if model.checks is None else model.checks.accepted
         odd, taken = explained(self.warnings, entries)
         return Loaded(model, tuple(odd), tuple(AcceptedOddity(*each) for each in taken))
@@ -334,7 +334,7 @@ class _SectionReader:
             return ()
 
     def own(self, raw: object, books: Texts) -> Strictly | None:
-        """The sections of own books, [own.SECTION] in the file."""
+        """Return the sections of own books, [own.SECTION] in the file."""
         declared, reader = sections_of(books), _SectionReader(self.source, self.locate)
         reader.home = ("own",)
         tables, sections = raw if isinstance(raw, dict) else {}, {}
@@ -359,7 +359,7 @@ class _SectionReader:
         return own_model(books).model_construct(None, **sections) if sections else None
 
     def regimes(self, raw: object) -> tuple[RegimeSection, ...]:
-        """The further regimes; each is read like a file with the same engine."""
+        """Return the further regimes; each is read like a file with the same engine."""
         regimes = []
         for item in regime_data(raw):
             if isinstance(item, Finding):

@@ -25,7 +25,7 @@ _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 
 
 def title_of(key: str) -> str:
-    """The title that the tables give a quantity, as a heading."""
+    """Return the title that the tables give a quantity, as a heading."""
     return capital(quantity(key).title)
 
 

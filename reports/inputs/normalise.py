@@ -66,8 +66,8 @@ def text_of(data: bytes, source: str) -> str:
         InputError: It is too large or no UTF-8 text.
     """
     if len(data) > MAX_BYTES:
-        what = f"файл больше {MAX_BYTES // 10**6} МБ"
-        raise refused(source, what, "это не файл исходных данных")
+        fault = f"файл больше {MAX_BYTES // 10**6} МБ"
+        raise refused(source, fault, "это не файл исходных данных")
     kind = kind_of(data)
     if kind == UTF16:
         raise refused(source, "кодировка UTF-16", "сохраните файл в UTF-8")
@@ -110,9 +110,9 @@ def plain(source: str, raw: object, where: str = "") -> Any:  # noqa: ANN401
         for key in raw:
             if not isinstance(key, str):
                 address = ": ".join(filter(None, (one_line(source, 120), where)))
-                what = f"ключ {one_line(repr(key), 40)} — не строка"
+                problem = f"ключ {one_line(repr(key), 40)} — не строка"
                 hint = "ключи пишут словами, например bore_mm"
-                raise InputError(Problem(address, what, hint, value=key))
+                raise InputError(Problem(address, problem, hint, value=key))
         return {key: plain(source, part, f"{where}.{key}".strip(".")) for key, part in raw.items()}
     if isinstance(raw, list | tuple):
         return [plain(source, part, where) for part in raw]
@@ -175,7 +175,7 @@ def _regime(entry: object) -> object:
 
 
 def in_types(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
-    """The values of a section in the types of its keys."""
+    """Return the values of a section in the types of its keys."""
     specs = hints(model)
     return {
         key: _entry(value, specs[key]) if key in specs else value for key, value in part.items()
@@ -221,7 +221,7 @@ def _folded(text: str) -> str:
 
 
 def number_of(text: str) -> object:
-    """Number of an unambiguous text; else the text itself."""
+    """Return the number of an unambiguous text; else the text itself."""
     plain = text.strip()
     if not _NUMBER.fullmatch(plain) or _AMBIGUOUS.fullmatch(plain):
         return text

@@ -174,7 +174,7 @@ class Declarations:
 
 @lru_cache(maxsize=64)
 def declared(text: str) -> Declared:
-    """What the text of a book declares.
+    """Return what the text of a book declares.
 
     Raises:
         DeclarationError: one of its declarations is none, or the text is beyond the limits.
@@ -242,8 +242,8 @@ def path_of_cell(name: str, books: Texts) -> tuple[str, ...] | None:
 
 def texts_of(raw: Mapping[str, Any]) -> Texts:
     """Names and texts of books in a mapping; without those in which something is wrong."""
-    given = raw.get("books")
-    pairs = given.items() if isinstance(given, Mapping) else given or ()
+    entries = raw.get("books")
+    pairs = entries.items() if isinstance(entries, Mapping) else entries or ()
     texts = []
     for pair in pairs if isinstance(pairs, Iterable) else ():
         name, text = pair if isinstance(pair, list | tuple) and len(pair) == 2 else ("", None)
@@ -265,13 +265,13 @@ def named(raw: object) -> list[str]:
 def with_books(
     raw: Mapping[str, Any], folder: Path, source: str
 ) -> tuple[dict[str, Any], list[Path]]:
-    """The mapping with the texts of the books it names, and the files that were read.
+    """Return the mapping with the texts of the books it names, and the files that were read.
 
     Raises:
         InputError: a book is missing or is no text.
     """
-    given = raw.get("books")
-    texts: dict[str, Any] = dict(given) if isinstance(given, Mapping) else {}
+    entries = raw.get("books")
+    texts: dict[str, Any] = dict(entries) if isinstance(entries, Mapping) else {}
     files = []
     for name in () if OWNER in os.environ else named(raw)[: MOST_BOOKS + 1]:
         if name not in texts:
@@ -351,7 +351,7 @@ def line_of_quantity(text: str, key: str) -> int:
 
 
 def allowed_texts(texts: Mapping[str, str], names: Sequence[str]) -> dict[str, str]:
-    """The texts to take: what was given, on a server those of its owner alone.
+    """Return the texts to take: what was given, on a server those of its owner alone.
 
     Raises:
         InputError: the owner allows no such book.
@@ -403,7 +403,7 @@ def _taken() -> frozenset[str]:
 
 
 def safe_text(text: str, *, empty: bool = False) -> str:
-    """A text that no spreadsheet takes for a formula and no page for a tag.
+    """Return a text that no spreadsheet takes for a formula and no page for a tag.
 
     Raises:
         ValueError: it is empty, too long or not of that kind.

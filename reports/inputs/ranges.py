@@ -29,7 +29,7 @@ class ParameterRange:
 
 
 def split_ranges(raw: Mapping[str, Any]) -> tuple[dict[str, Any], Any]:
-    """The sections of the engine, and the section [variants] or None."""
+    """Return the sections of the engine, and the section [variants] or None."""
     others = {key: value for key, value in raw.items() if key != SECTION}
     return others, raw.get(SECTION)
 
@@ -125,7 +125,7 @@ def _digits(number: float) -> int:
 
 
 def _like(value: float | int | str, current: float | int | str) -> float | int | str:
-    """A value as an integer where the file has an integer."""
+    """Return a value as an integer where the file has an integer."""
     if isinstance(value, str):
         return value
     if isinstance(current, int) and float(value).is_integer():

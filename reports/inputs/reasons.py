@@ -85,7 +85,7 @@ class Reason:
         return (low * heavier, high * heavier) if self.by_size else (low, high)
 
     def words(self, kind: str) -> str:
-        """The span as a comment has it."""
+        """Return the span as a comment has it."""
         low, high = self.span(kind)
         return f"пределы {short(low)}…{short(high)}{f' {self.unit}' if self.unit else ''}"
 
@@ -152,7 +152,7 @@ _BY_KEY = {reason.key: reason for reason in REASONS}
 
 
 def reason_of(key: str) -> Reason:
-    """The reason of that name."""
+    """Return the reason of that name."""
     return _BY_KEY[key]
 
 
@@ -162,7 +162,7 @@ def usual_span(key: str, kind: str) -> Span:
 
 
 def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:
-    """Notes on keys of a file, «section.key», with the usual spans of a kind of engine."""
+    """Return notes on keys of a file, «section.key», with the usual spans of a kind of engine."""
     return {
         key: "; ".join(filter(None, (words, _BY_KEY[_COMMENTED[key]].words(kind))))
         if key in _COMMENTED
@@ -172,7 +172,7 @@ def with_spans(notes: Mapping[str, str], kind: str) -> dict[str, str]:
 
 
 def prototype_file(model: InputFile, beside: Path) -> Path | None:
-    """The file of the prototype that an input names, if it names one.
+    """Return the file of the prototype that an input names, if it names one.
 
     Raises:
         InputError: There is no such file, or it is no TOML.

@@ -80,7 +80,7 @@ def angles_fault(
 
 
 def _turns(angles: Array, period: float) -> Fault | None:
-    """A cycle of two turns whose angles begin anew at each."""
+    """Return a cycle of two turns whose angles begin anew at each."""
     low, high = float(angles.min()), float(angles.max())
     steps = np.diff(angles)
     if period != 720 or not (steps < -180).any() or not 315 <= high - low <= 360 + 1e-6:

@@ -63,7 +63,7 @@ class _UnfitError(Exception):
 
 
 def text_of(file: Path, refused: Refuse) -> str:
-    """The text of a recorder's or a spreadsheet's file: UTF-8, UTF-16 or Windows-1251.
+    """Return the text of a recorder's or a spreadsheet's file: UTF-8, UTF-16 or Windows-1251.
 
     Raises:
         InputError: it is missing, too large or no text.
@@ -129,7 +129,7 @@ def _value(cell: str) -> float | None:
 
 
 def _mend(cell: str, units: frozenset[str]) -> str:
-    """What makes a number of a cell that is nearly one; empty if nothing does."""
+    """Return what makes a number of a cell that is nearly one; empty if nothing does."""
     if _value(cell) is not None:
         return ""
     if _THOUSANDS.fullmatch(cell):
@@ -255,7 +255,7 @@ def _fault(
 def _thousands(
     rows: list[Row], cells: list[list[str]], first: int, refused: Refuse
 ) -> _UnfitError | None:
-    """The first "1,234" of a column that has whole hundreds without a sign beside such cells."""
+    """Return first "1,234" of a column that has whole hundreds without a sign beside such cells."""
     for column in zip(*cells[first:], strict=True):
         signed = [i for i, cell in enumerate(column) if "," in cell or "." in cell]
         whole = any(cell.lstrip("-+−").isdecimal() and len(cell) > 2 for cell in column)

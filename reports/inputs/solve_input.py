@@ -212,7 +212,7 @@ def grid_errors(model: InputFile) -> tuple[GridError, ...]:
 
 
 def refined(model: InputFile) -> InputFile:
-    """The engine with tables at the fine step, without parts that have steps of their own.
+    """Return the engine with tables at the fine step, without parts that have steps of their own.
 
     Its oil hole stays where the model's own tables put it: in another plane is another moment.
     """
@@ -290,7 +290,7 @@ def written_alike(error: GridError) -> tuple[str, str, str]:
 
 
 def lighter_than(inertias: Array, throws: int) -> int:
-    """Number in the train of the lightest throw if the flywheel is lighter still; else 0."""
+    """Return number in the train of the lightest throw if the flywheel is lighter still; else 0."""
     lightest = 1 + int(inertias[1 : throws + 1].argmin())
     return lightest + 1 if inertias[throws + 1] < inertias[lightest] else 0
 

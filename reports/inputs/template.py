@@ -114,14 +114,14 @@ def set_file(values: Mapping[str, Any]) -> str:
 
 
 def _model(name: str, section: Mapping[str, Any]) -> type[Strictly]:
-    about = SECTIONS[name]
+    spec = SECTIONS[name]
     if name == "geometry" and "bore_mm" not in section:
         return DesignGeometrySection
-    return about.sources.get(section.get("source", ""), about.model)
+    return spec.sources.get(section.get("source", ""), spec.model)
 
 
 def _commented(section: InputSection) -> Iterator[str]:
-    """An optional section as comments: its words, its head, its keys."""
+    """Yield an optional section as comments: its words, its head, its keys."""
     yield from section.words
     lists = dict(records(section.model))
     plain = {key: item for key, item in hints(section.model).items() if key not in lists}

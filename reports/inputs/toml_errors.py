@@ -67,7 +67,7 @@ def toml_error(error: Exception, text: str) -> Words:
 
 
 def decimal_commas(text: str) -> Iterator[Words]:
-    """Lists that are valid TOML and still look like decimal fractions with a comma."""
+    """Yield lists that are valid TOML and still look like decimal fractions with a comma."""
     for row, line in enumerate(text.splitlines(), start=1):
         pairs = re.search(r"=\s*\[\s*(\d+,\d+(?:,\s+\d+,\d+)+)\s*\]", line)
         if pairs is not None:
@@ -89,18 +89,18 @@ def _opened(lines: list[str], end: int) -> int:
 
 
 def _code(line: str) -> str:
-    """A line without its comment."""
+    """Return a line without its comment."""
     comment = _COMMENT.match(line)
     return comment[1] if comment else line.partition(" #")[0]
 
 
 def bare(line: str) -> str:
-    """A line without its comment and the insides of its strings."""
+    """Return a line without its comment and the insides of its strings."""
     return _STRING.sub('""', _code(line))
 
 
 def _space(line: str) -> Iterator[Words]:
-    """A space or an invisible sign that only looks empty."""
+    """Yield a space or an invisible sign that only looks empty."""
     for number, sign in enumerate(line, start=1):
         if sign in "\t " or unicodedata.category(sign) not in ("Zs", "Cf"):
             continue
@@ -111,7 +111,7 @@ def _space(line: str) -> Iterator[Words]:
 
 
 def _letter(line: str) -> Iterator[Words]:
-    """A letter of another alphabet in a key or in the name of a section."""
+    """Yield a letter of another alphabet in a key or in the name of a section."""
     key = re.match(r"\s*\[{0,2}\s*([^\s=\[\]\"'#]+)", line)
     if key is None:
         return
@@ -140,7 +140,7 @@ def _quotes(line: str) -> Iterator[Words]:
 
 
 def _backslash(line: str) -> Iterator[Words]:
-    """A Windows path in double quotes."""
+    """Yield a Windows path in double quotes."""
     text = re.search(r'"([^"]*\\[^"]*)"', line)
     if text is not None:
         mended = text[1].replace("\\", "/")
@@ -148,7 +148,7 @@ def _backslash(line: str) -> Iterator[Words]:
 
 
 def _list(line: str) -> Iterator[Words]:
-    """A list without its brackets or with the separators of a Russian Excel."""
+    """Yield a list without its brackets or with the separators of a Russian Excel."""
     value = _value(bare(line))
     brackets = re.match(r"[\[({](.*?)[\])}]?$", value)
     inside = brackets[1] if brackets else value
@@ -167,7 +167,7 @@ def _list(line: str) -> Iterator[Words]:
 
 
 def _number(line: str) -> Iterator[Words]:
-    """A number with a decimal comma, blanks, a unit or a formula."""
+    """Yield a number with a decimal comma, blanks, a unit or a formula."""
     value = _value(bare(line))
     if re.match(r"[-+]?\d+,\d+$", value):
         yield (
@@ -191,7 +191,7 @@ def _number(line: str) -> Iterator[Words]:
 
 
 def _text(line: str) -> Iterator[Words]:
-    """A text without quotation marks, or with one of them."""
+    """Yield a text without quotation marks, or with one of them."""
     value = _value(_code(line))
     if not value and "=" in _code(line):
         yield "после знака «=» ничего нет", "впишите значение или удалите строку"

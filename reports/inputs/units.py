@@ -52,7 +52,7 @@ class InputUnit:
         return self._labelled(number_text(value))
 
     def limit(self, value: float) -> str:
-        """A limit with its label, a large power of ten as such: ``10¹² Н·м/рад``."""
+        """Return a limit with its label, a large power of ten as such: ``10¹² Н·м/рад``."""
         return self._labelled(power_of_ten(value) or number_text(value))
 
     def _labelled(self, number: str) -> str:

@@ -45,7 +45,7 @@ _ODD = -1234.5  # a number that no sentence has
 
 
 def fields(model: Model, used: frozenset[str]) -> Iterator[Data]:
-    """Groups of fields: those that the page changes, and those that only a build can."""
+    """Yield groups of fields: those that the page changes, and those that only a build can."""
     listed = [each for each in model.inputs if each.path[0] not in _PAGES_OF_INPUT]
     for section, group in groupby(listed, key=lambda each: each.section):
         entries = [_field(each, used) for each in group if each.name in used or each.structural]
@@ -73,13 +73,13 @@ def _field(field: Field, used: frozenset[str]) -> Data:
 
 
 def sentences() -> dict[str, str]:
-    """What ``check`` says of a value, ``{}`` in place of the value."""
+    """Return what ``check`` says of a value, ``{}`` in place of the value."""
     said: dict[str, str] = {}
-    for key, fault, value, shown in (("limit", "less_than_equal", _ODD, "-1234.5"),
+    for key, fault, value, printed in (("limit", "less_than_equal", _ODD, "-1234.5"),
                                      ("number", "float_type", "{}", "«{}»"),
                                      ("whole", "int_from_float", _ODD, "-1234.5")):  # fmt: skip
         error: Any = {"type": fault, "input": value}
-        said[key] = explain(error, None)[0].replace(shown, "{}")
+        said[key] = explain(error, None)[0].replace(printed, "{}")
     return said
 
 
@@ -92,13 +92,13 @@ def main_fields(model: Model) -> list[str]:
 def sheets(model: Model) -> list[Data]:
     """Tables of the short book by sheets, in the book's order."""
     contents = contents_for(model)
-    shown = [sheet for sheet in model.sheets if sheet not in model.folded]
+    titles = [sheet for sheet in model.sheets if sheet not in model.folded]
     return [
         {"title": sheet, "heading": heading(sheet, contents),
          "chapter": chapter_of(sheet, contents).title,
          "blocks": [_block(each) for each in model.blocks
                     if each.sheet == sheet and not getattr(each, "helper", False)]}
-        for sheet in ordered(shown, contents)
+        for sheet in ordered(titles, contents)
     ]  # fmt: skip
 
 
@@ -122,8 +122,8 @@ def _column(table: str, column: Column) -> Data:
 
 
 def _row(scalar: Scalar) -> Data:
-    about = _about(scalar.quantity)
-    return {"key": scalar.key, **about, "title": scalar.note or about["title"]}
+    quantity = _about(scalar.quantity)
+    return {"key": scalar.key, **quantity, "title": scalar.note or quantity["title"]}
 
 
 def _verdicts(block: ScalarTable) -> Iterator[Data]:
@@ -140,12 +140,12 @@ def _about(of: Quantity) -> Data:
 
 
 def symbol(of: Quantity) -> str:
-    """A symbol as the page writes it, its index behind an underscore."""
+    """Return a symbol as the page writes it, its index behind an underscore."""
     return indexed(of.tex, of.symbol)
 
 
 def checks(model: Model) -> list[Data]:
-    """What is judged, with the reasons that the input gives."""
+    """Return what is judged, with the reasons that the input gives."""
     reasons = reasons_of(model.input)
     return [
         {**each, "reason": reasons.get(each["key"].partition("_")[2], "")}
@@ -155,14 +155,14 @@ def checks(model: Model) -> list[Data]:
 
 
 def key_numbers(model: Model) -> list[Data]:
-    """The four numbers of an engine."""
-    found = []
+    """Return the four numbers of an engine."""
+    numbers = []
     for pattern in _KEY_NUMBERS:
         scalar = next((s for key, s in model.scalars.items() if re.fullmatch(pattern, key)), None)
         if scalar is not None:
             at = f"phi_{scalar.key}_deg"
-            found.append({**_row(scalar), "at": at if at in model.scalars else None})
-    return found
+            numbers.append({**_row(scalar), "at": at if at in model.scalars else None})
+    return numbers
 
 
 def charts(model: Model) -> list[Data]:
@@ -191,14 +191,14 @@ def _name(key: str, model: Model) -> str:
 
 
 def keys_of(chart: Data) -> Iterator[str]:
-    """What a chart is drawn from."""
+    """Yield what a chart is drawn from."""
     for line in chart["lines"]:
         yield from (line["x"], line["y"])
     yield from (key for key, _ in chart["contact"])
 
 
 def with_joints(model: Model) -> Model:
-    """The model with the places of pins and the sizes that a moving mechanism is drawn from."""
+    """Return model with the places of pins and the sizes that a moving mechanism is drawn from."""
     turn, shape = model.tables["P3_1"], Shape.of(model.input)
     angle = replace(turn.columns[0], every="360")
     across = "to_mm(k_offset*r_crank)" if shape.offset else "0*phi_deg"
@@ -223,7 +223,7 @@ def with_joints(model: Model) -> Model:
 
 
 def scene(model: Model) -> Data:
-    """What stands still of a moving mechanism, and the keys of the rest."""
+    """Return what stands still of a moving mechanism, and the keys of the rest."""
     shape = Shape.of(model.input)
     tables = ["P4_1", *(f"cylinder_{i}" for i in shape.numbers if i > 1)]
     forces = [key for key in FORCES if all(f"{each}.{key}" in model.nodes for each in tables)]
@@ -244,7 +244,7 @@ def scene(model: Model) -> Data:
 
 
 def scene_keys(of: Data) -> Iterator[str]:
-    """What the mechanism reads."""
+    """Yield what the mechanism reads."""
     yield from ("P3_1.phi_deg", "P4_1.phi_deg", "P4_1.Pg_MPa", "live_radius_mm", "live_wall_mm",
                 "live_bore_mm")  # fmt: skip
     yield from (key for kind in of["joints"] for joint in kind for key in joint)

@@ -46,7 +46,7 @@ _SUMMARY = "summary"  # begins the names of the lists of results
 
 
 def live_page(model: Model, book: bytes, stem: str) -> bytes:
-    """The page of a checked engine.
+    """Return the page of a checked engine.
 
     Args:
         model: all tables of the engine.
@@ -65,14 +65,14 @@ def live_page(model: Model, book: bytes, stem: str) -> bytes:
 
 
 def _data(model: Model, book: bytes, stem: str) -> tuple[Data, dict[str, str]]:
-    """The data of the page and the modules of its programs."""
+    """Return the data of the page and the modules of its programs."""
     short, drawn = short_model(model), describe.with_joints(model)
     charts, scene = describe.charts(short), describe.scene(drawn)
     curves = [key for chart in charts for key in describe.keys_of(chart)]
     program = program_of(model, (*short.nodes, *curves))
     fine_model = describe.with_joints(_fine(model))
-    wanted = [key for key in curves if key in fine_model.nodes and key not in program.fixed]
-    fine = program_of(fine_model, (*wanted, *describe.scene_keys(scene)))
+    nodes = [key for key in curves if key in fine_model.nodes and key not in program.fixed]
+    fine = program_of(fine_model, (*nodes, *describe.scene_keys(scene)))
     used = frozenset(program.inputs_read | fine.inputs_read)
     fields = list(describe.fields(model, used))
     data = {
@@ -87,7 +87,7 @@ def _data(model: Model, book: bytes, stem: str) -> tuple[Data, dict[str, str]]:
 
 
 def _fine(model: Model) -> Model:
-    """The same engine with the step of the curves."""
+    """Return the same engine with the step of the curves."""
     calculation = model.input.calculation.model_copy(update={"step_deg": describe.FINE_DEG})
     return build_model(model.input.model_copy(update={"calculation": calculation}))
 
@@ -99,7 +99,7 @@ def _fixed_tables(model: Model, program: LiveProgram) -> list[str]:
 
 
 def _book(model: Model, book: bytes) -> Data:
-    """The workbook and where the cells of its inputs are."""
+    """Return the workbook and where the cells of its inputs are."""
     layout = Layout.of(model)
     with zipfile.ZipFile(io.BytesIO(book)) as archive:
         part = sheet_parts(archive)[INPUT_SHEET]
@@ -139,12 +139,12 @@ def _table(caption: str, rows: list[tuple[str, str, str]]) -> Iterator[str]:
 
 
 def _inside(text: str) -> str:
-    """A text that does not end the script that it lies in."""
+    """Return a text that does not end the script that it lies in."""
     return _END.sub(r"<\\/", text)
 
 
 def _address(script: str) -> str:
-    """A module as the address of its text; imports name modules by the page's map."""
+    """Return a module as the address of its text; imports name modules by the page's map."""
     plain = _IMPORT.sub(r"\1\2", script)
     return "data:text/javascript;base64," + b64encode(plain.encode()).decode()
 
@@ -156,7 +156,7 @@ def _modules() -> dict[str, str]:
 
 @lru_cache(maxsize=1)
 def _style() -> str:
-    """The page's style with its fonts."""
+    """Return the page's style with its fonts."""
 
     def font(match: re.Match[str]) -> str:
         data = b64encode((_STATIC / "vendor" / match[1]).read_bytes()).decode()
@@ -168,6 +168,6 @@ def _style() -> str:
 
 @lru_cache(maxsize=1)
 def _chart_scripts() -> str:
-    """The libraries of charts; an old browser does not read them."""
+    """Return the libraries of charts; an old browser does not read them."""
     texts = (_inside((_STATIC / "vendor" / name).read_text("utf-8")) for name in _CHARTS)
     return "\n".join(f"<script>{text}</script>" for text in texts)

@@ -41,12 +41,12 @@ class LiveProgram:
     fixed: frozenset[str]
 
     def script(self) -> str:
-        """The functions as a module of JavaScript."""
+        """Return the functions as a module of JavaScript."""
         body = ",\n".join(self.functions)
         return f'import {{F}} from "./functions.js";\nexport const functions = [\n{body}];\n'
 
     def data(self) -> dict[str, Any]:
-        """The rest as plain data."""
+        """Return the rest as plain data."""
         number = {key: i for i, key in enumerate(self.keys)}
         return {
             "keys": self.keys, "steps": self.steps,
@@ -69,13 +69,13 @@ class LiveProgram:
         return len(self.script()) + len(json.dumps(self.data(), ensure_ascii=False))
 
 
-def program_of(model: Model, wanted: Iterable[str]) -> LiveProgram:
+def program_of(model: Model, nodes: Iterable[str]) -> LiveProgram:
     """Compile what gives the wanted nodes.
 
     Raises:
         FormulaError: a formula that has no meaning in JavaScript.
     """
-    return _Compiler(model).compiled(wanted)
+    return _Compiler(model).compiled(nodes)
 
 
 @dataclass
@@ -101,11 +101,11 @@ class _Compiler:
                  for column in table.columns if table.is_computed(column)}  # fmt: skip
         return frozenset(key for key in nodes if key in first or first & graph.ancestors(key))
 
-    def compiled(self, wanted: Iterable[str]) -> LiveProgram:
-        """The program that gives these nodes."""
+    def compiled(self, nodes: Iterable[str]) -> LiveProgram:
+        """Return the program that gives these nodes."""
         for name in self.model.fields:
             self._start(name, self.evaluation.inputs[name])
-        for key in wanted:
+        for key in nodes:
             self._need(key)
         return LiveProgram(
             tuple(self.functions), tuple(self.numbers), self.values, self.runs,
@@ -135,18 +135,18 @@ class _Compiler:
             self._take(top)
 
     def _references(self, key: str) -> Iterator[str]:
-        """What must stand before a node."""
+        """Yield what must stand before a node."""
         runs = self._run(key)
         if runs is not None:
             yield from runs
         elif key not in self.fixed:
-            own = {f"{key.split('.', 1)[0]}.{column.key}" for column in self._together(key)}
-            for each in own or {key}:
+            columns = {f"{key.split('.', 1)[0]}.{column.key}" for column in self._together(key)}
+            for each in columns or {key}:
                 node = self.model.nodes[each]
                 table = each.split(".", 1)[0] if "." in each else ""
-                found = names(node.expr) if node.expr is not None else ()
-                yield from (name for name in (node_of(n, table, self.model) for n in found)
-                            if name not in own)  # fmt: skip
+                names_read = names(node.expr) if node.expr is not None else ()
+                yield from (name for name in (node_of(n, table, self.model) for n in names_read)
+                            if name not in columns)  # fmt: skip
 
     def _run(self, key: str) -> tuple[str, ...] | None:
         return self.model.grid_runs.get(key) or self.model.input_runs.get(key)
@@ -180,15 +180,15 @@ class _Compiler:
         angles = [each for each in columns if each.expr is None]
         for each in angles:
             self._start(f"{table.id}.{each.key}", table.rows)
-        found = [each for each in columns if each.expr is not None]
-        if not found:
+        calculated = [each for each in columns if each.expr is not None]
+        if not calculated:
             return
-        keys = [f"{table.id}.{each.key}" for each in found]
+        keys = [f"{table.id}.{each.key}" for each in calculated]
         script = columns_script(
-            [each.expr or "" for each in found], keys,
+            [each.expr or "" for each in calculated], keys,
             lambda name: node_of(name, table.id, self.model), self._is_column,
         )  # fmt: skip
-        is_text = any(gives_text(each.expr or "") for each in found)
+        is_text = any(gives_text(each.expr or "") for each in calculated)
         self._step(script, len(table.rows), keys, is_text=is_text)
 
     def _is_column(self, key: str) -> bool:

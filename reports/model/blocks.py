@@ -292,7 +292,7 @@ class Model:
         return {}
 
     def with_inputs(self, input_file: InputFile, inputs: tuple[Field, ...]) -> Model:
-        """The same specifications for an input of the same structure."""
+        """Return the same specifications for an input of the same structure."""
         copy = Model(input_file, inputs, self.blocks, self.charts, self.remarks, self.chapters,
                      self.own_nodes, self.department)  # fmt: skip
         # What follows from the blocks and from the names of the inputs is the same as well.
@@ -330,7 +330,7 @@ def judged(
     words: tuple[str, str] = (YES, NO),
     usual: tuple[float, float] | None = None,
 ) -> tuple[Scalar, Scalar]:
-    """A value and whether it passes; ``{value}`` in the test stands for it."""
+    """Return a value and whether it passes; ``{value}`` in the test stands for it."""
     good, bad = words
     verdict = f'"{good}" if {test.format(value=value_key)} else "{bad}"'
     return (
@@ -353,7 +353,7 @@ def allowed(
 
 
 def extreme_columns(column: str, name: str) -> tuple[Column, ...]:
-    """Helper columns: the angle where the value is the extreme, the last angle elsewhere."""
+    """Return helper columns: the angle where the value is the extreme, the last angle elsewhere."""
     high, low = f"{name}_max", f"{name}_min"
     return (
         Column(

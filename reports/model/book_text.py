@@ -105,14 +105,14 @@ class Shelf:
         return tuple(book_name(name) for name, _ in self.own)
 
     def called(self, name: str) -> str:
-        """A book as messages call it: an own one by the name that its file has."""
+        """Return a book as messages call it: an own one by the name that its file has."""
         return next(
             (full_name for full_name, _ in self.own if book_name(full_name) == Path(name).stem),
             name,
         )
 
     def of_book(self, name: str) -> Shelf:
-        """The shelf to read a book from: the house's own where no own book is asked of it."""
+        """Return shelf to read a book from: the house's own where no own book is asked of it."""
         houses = house_shelf()
         borrowed = any(f"{other}.book" in _libraries(houses) for other in self.names)
         return self if name in self.names or borrowed else houses
@@ -152,18 +152,18 @@ def _libraries(shelf: Shelf) -> frozenset[str]:
 
 
 def shelf_of(books: Texts) -> Shelf:
-    """The books of the house behind the own books of an input."""
+    """Return the books of the house behind the own books of an input."""
     return Shelf(house_shelf().folders, own=books) if books else house_shelf()
 
 
 @lru_cache(maxsize=8)
 def environment_of(shelf: Shelf) -> jinja2.Environment:
-    """The environment of a shelf, made once."""
+    """Return the environment of a shelf, made once."""
     return shelf.environment()
 
 
 def house_shelf() -> Shelf:
-    """The books of the house."""
+    """Return the books of the house."""
     return Shelf((templates_dir() / "tables",), trusted=True)
 
 
@@ -236,7 +236,7 @@ def _rendered(name: str, shelf: Shelf, names: Mapping[str, object]) -> str:
 
 
 def cause_of(error: Exception, letters: int = 80) -> str:
-    """What went wrong in a book: in Russian as it was said, or by the kind of the error."""
+    """Return what went wrong in a book: in Russian as it was said, or by the kind of the error."""
     text = str(error)
     if isinstance(error, FormulaError):
         return one_line(f"«{error.fragment}» не разобрано: {error.mend}", letters)
@@ -251,7 +251,7 @@ def cause_of(error: Exception, letters: int = 80) -> str:
 
 
 def _cause(error: Exception) -> str:
-    """The same after a colon, where there is any."""
+    """Return the same after a colon, where there is any."""
     cause = cause_of(error)
     return f": {cause}" if cause else ""
 
@@ -294,7 +294,7 @@ def _place(mark: str) -> tuple[str, str]:
 def at_fragment(
     line: BookLine, shelf: Shelf, problem: str, hint: str = "", fragment: str = ""
 ) -> BookError:
-    """A mistake in a line; its column is that of the fragment where it is written."""
+    """Return a mistake in a line; its column is that of the fragment where it is written."""
     source, book = shelf.source(line.book)[0].splitlines(), shelf.called(line.book)
     for number, written in enumerate(source[line.number - 1 :], line.number):
         if fragment and fragment in written:
@@ -306,17 +306,17 @@ def at_fragment(
 
 def book_faults(model: Model, lines: Mapping[str, BookLine], shelf: Shelf) -> Iterator[BookError]:
     """Names that formulas of books do not know, circles; ``lines`` are the lines of nodes."""
-    known = model.nodes.keys() | model.fields.keys() | model.grid_runs.keys()
-    known |= model.input_runs.keys()
+    nodes = model.nodes.keys() | model.fields.keys() | model.grid_runs.keys()
+    nodes |= model.input_runs.keys()
     for key, line in lines.items():
         node = model.nodes.get(key)
         if node is None or node.expr is None:
             continue
         table = key.partition(".")[0] if "." in key else ""
         for name in sorted(names(node.expr)):
-            if node_of(name, table, model) not in known:
+            if node_of(name, table, model) not in nodes:
                 yield at_fragment(line, shelf, f"имя «{name}» неизвестно",
-                                  _likely(name, known), name)  # fmt: skip
+                                  _likely(name, nodes), name)  # fmt: skip
     yield from _circles(model, lines, shelf)
 
 

@@ -131,7 +131,7 @@ class _BookReader:
         self._line = BookLine("", 1, "")
 
     def part(self) -> Part:
-        """What was read."""
+        """Return what was read."""
         with self._told():
             self._close()
         return Part(tuple(self._blocks), tuple(self._charts), tuple(self._chapters))
@@ -184,7 +184,7 @@ class _BookReader:
             self._body(self._open, word, tail, text)
 
     def _said(self, block: _Open, word: str, tail: str, text: str) -> None:
-        """A line of a chapter's text."""
+        """Read a line of a chapter's text."""
         kind = word if word in ("heading", "formula", "show") else "paragraph"
         said = tail if kind != "paragraph" else text
         block.lines.append(TextLine(kind, said, self._line.book, self._line.number))
@@ -297,7 +297,7 @@ class _BookReader:
         return self._sourced(_scalar(text, self._shelf.own, named=named), text)
 
     def _sourced(self, node: Kind | None, text: str) -> Kind:
-        """The column or scalar of a line, which says where its formula is from."""
+        """Return the column or scalar of a line, which says where its formula is from."""
         if node is None:
             raise self._fault(f"строка «{text}» не разобрана", "пишите КЛЮЧ = ФОРМУЛА | ИСТОЧНИК")
         if node.expr is not None and not node.source:
@@ -363,7 +363,7 @@ class _BookReader:
         )  # fmt: skip
 
     def _fault(self, problem: str, hint: str = "", fragment: str = "") -> BookError:
-        """A mistake in the line taken."""
+        """Return a mistake in the line taken."""
         return at_fragment(self._line, self._shelf, problem, hint, fragment)
 
 
@@ -396,13 +396,13 @@ def _refuse_odd_columns(columns: list[Column], *, computed: bool) -> None:
 
 
 def _plain(test: str) -> str:
-    """A condition whose braces are no places to fill in, and whose choice is one condition."""
+    """Return condition whose braces are no places to fill in, and whose choice is one condition."""
     test = f"({test})" if re.search(r"\bif\b", test) else test
     return test.replace("{", "{{").replace("}", "}}")
 
 
 def solved_columns(table: str, model: InputFile) -> Columns:
-    """What the solver finds for a table of values, in units of the tables."""
+    """Return what the solver finds for a table of values, in units of the tables."""
     return solved(model).columns[table]
 
 
@@ -431,7 +431,7 @@ def _column(text: str, declared: Texts) -> Column | None:
 
 
 def _known(node: Kind, books: Texts) -> Kind:
-    """The node, whose formula is of the language and whose quantity is known.
+    """Return the node, whose formula is of the language and whose quantity is known.
 
     ``books`` are own ones, which may declare it.
 

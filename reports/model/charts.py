@@ -132,7 +132,7 @@ class ChartLines:
 
     @classmethod
     def opened(cls, word: str, tail: str, sheet: str) -> ChartLines:
-        """A chart from its heading.
+        """Return a chart from its heading.
 
         Raises:
             ValueError: it is none.
@@ -144,7 +144,7 @@ class ChartLines:
                    head["over"] or "", head["box"] or "")  # fmt: skip
 
     def take(self, word: str, tail: str) -> ChartLines:
-        """The chart with one more line.
+        """Return the chart with one more line.
 
         Raises:
             ValueError: the line says nothing of a chart.
@@ -172,7 +172,7 @@ class ChartLines:
         raise ValueError(f"слово «{word}» диаграмме неизвестно; слова диаграмм — в docs/books.md")
 
     def made(self) -> ChartSpec:
-        """The description.
+        """Return the description.
 
         Raises:
             ValueError: there is nothing to draw.
@@ -199,7 +199,7 @@ class ChartLines:
 
 
 def _step(text: str) -> float:
-    """A step of an axis.
+    """Return a step of an axis.
 
     Raises:
         ValueError: it is none.

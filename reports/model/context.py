@@ -85,10 +85,10 @@ def diagram_kind(gas: BaseModel) -> str:
 
 
 def _mark(word: str, key: str) -> str:
-    """What the report puts in place of a key, once its values are known."""
+    """Return what the report puts in place of a key, once its values are known."""
     return f"⟦{word} {key}⟧"
 
 
 def each(text: str, members: Iterable[object], between: str = ", ") -> str:
-    """The text for every number or name, which is ``@`` in it: arguments, or terms of a sum."""
+    """Return text for every number or name, which is ``@`` in it: arguments, or terms of a sum."""
     return between.join(text.replace("@", str(member)) for member in members)

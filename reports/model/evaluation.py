@@ -56,7 +56,7 @@ class Evaluation:
         self.done.update(values or {})
 
     def fork(self, values: Mapping[str, Any]) -> Evaluation:
-        """The same model with other known values, nothing else evaluated yet."""
+        """Return the same model with other known values, nothing else evaluated yet."""
         other = Evaluation.__new__(Evaluation)
         other.model, other.nodes, other.running = self.model, self.nodes, set()
         other.inputs, other.runs, other.programs = self.inputs, self.runs, self.programs
@@ -182,7 +182,7 @@ def evaluate_model(model: Model) -> Values:
 
 
 def graph_of(model: Model) -> Graph:
-    """The graph of a model; made once for a class, whose books differ in numbers only."""
+    """Return the graph of a model; made once for a class, whose books differ in numbers only."""
     key = tuple((name, node.expr) for name, node in model.nodes.items())
     graph = _graphs.get(key)
     if graph is None:
@@ -198,7 +198,7 @@ def nodes_of(block: Block) -> list[str]:
 
 
 def node_of(name: str, table: str, model: Model) -> str:
-    """A bare name in a table's formula is a column of the same table first."""
+    """Resolve a bare name in a table's formula: a column of the same table first."""
     spec = model.tables.get(table)
     if spec is not None and any(column.key == name for column in spec.columns):
         return f"{table}.{name}"
@@ -216,7 +216,7 @@ class Graph:
         self._ancestors: dict[str, frozenset[str]] = {}
 
     def expression(self, node: str) -> str | None:
-        """Formula of a node; None for an input or an angle."""
+        """Return the formula of a node; None for an input or an angle."""
         return self._formulas.get(node)
 
     def references(self, node: str) -> frozenset[str]:

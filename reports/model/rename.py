@@ -16,7 +16,7 @@ _TOKEN = re.compile(r'"[^"]*"|(?<![\w.])[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)?')
 
 
 def renamed(expr: str, names: Names) -> str:
-    """An expression with its names passed through ``names``; texts in quotes stay."""
+    """Return an expression with its names passed through ``names``; texts in quotes stay."""
 
     def swap(match: re.Match[str]) -> str:
         token = match.group()
@@ -34,7 +34,7 @@ def substituted(blocks: tuple[Block, ...], names: Mapping[str, str]) -> tuple[Bl
 
 
 def copied(block: Block, names: Names) -> Block:
-    """A block under other names: its id, its scalars and all that its formulas name.
+    """Return a block under other names: its id, its scalars and all that its formulas name.
 
     The columns of a table keep their keys.
     """
@@ -62,7 +62,7 @@ def sized(blocks: tuple[Block, ...], small: int) -> tuple[Block, ...]:
 
 
 def copied_chart(chart: ChartSpec, names: Names) -> ChartSpec:
-    """A chart of what ``copied`` made of its tables."""
+    """Return a chart of what ``copied`` made of its tables."""
     return replace(
         chart,
         series=tuple(replace(s, x=names(s.x), y=names(s.y)) for s in chart.series),

@@ -67,7 +67,7 @@ class Budget:
 
 
 def bounded(text: str) -> str:
-    """A text within its length."""
+    """Return a text within its length."""
     if len(text) > MOST_TEXT:
         raise LimitError(f"текст длиннее {MOST_TEXT} знаков")
     return text
@@ -153,7 +153,7 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
         return super().call_binop(context, operator, left, right)
 
     def get_template(self, name: Any, *args: Any, **options: Any) -> Any:  # noqa: ANN401
-        """A template, whose use counts as a call."""
+        """Return a template, whose use counts as a call."""
         self.budget.call()
         return super().get_template(name, *args, **options)
 
@@ -183,7 +183,7 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
 
 
 def rendered(name: str, names: Any, environment: jinja2.Environment) -> str:  # noqa: ANN401
-    """The text of a template; of a strict environment within its limits."""
+    """Return the text of a template; of a strict environment within its limits."""
     if not isinstance(environment, StrictEnvironment):
         return environment.get_template(name).render(names)
     environment.budget = Budget()
@@ -197,7 +197,7 @@ def rendered(name: str, names: Any, environment: jinja2.Environment) -> str:  # 
 
 
 def _counted(tree: nodes.Template) -> nodes.Template:
-    """The tree with counted loops and bounded joins; what no book needs is refused."""
+    """Return the tree with counted loops and bounded joins; what no book needs is refused."""
     for kind in (nodes.Extends, nodes.Block, nodes.CallBlock, nodes.ScopedEvalContextModifier):
         for node in tree.find_all(kind):
             raise jinja2.TemplateSyntaxError(f"{kind.__name__.lower()} книге не нужно", node.lineno)

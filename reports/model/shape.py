@@ -145,7 +145,7 @@ class Shape:
         return bool(self.arrangement[cylinder - 1].rod_place)
 
     def throw_of(self, cylinder: int) -> int:
-        """Number of the cylinder's throw."""
+        """Return the number of the cylinder's throw."""
         return self.arrangement[cylinder - 1].throw + 1
 
     def throw_torque(self, throw: int) -> tuple[str, str]:
@@ -239,7 +239,7 @@ def rods_table(throw: int) -> str:
 
 
 def pin_name(number: int) -> str:
-    """Number of a crankpin within keys: empty for the first one."""
+    """Return the number of a crankpin within keys: empty for the first one."""
     return "" if number == 1 else str(number)
 
 

@@ -32,7 +32,7 @@ _TOKENS = {
 
 
 def said_of(error: jinja2.TemplateError) -> str:
-    """What Jinja2 says of a mistake, in Russian; nothing where it names nothing."""
+    """Return what Jinja2 says of a mistake, in Russian; nothing where it names nothing."""
     text = str(error.message)
     missing = re.search(r"has no attribute '(.+?)'", text)
     if missing is not None:

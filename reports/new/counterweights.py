@@ -41,10 +41,10 @@ def counterweights_for(data: Mapping[str, Any]) -> NewCounterweights:
     rounded = {key: math.floor(10 * sizes[f"cw_{key}"] + 1e-6) / 10 for key in _SIZES}
     section = {"goal": _GOAL, **rounded}
     model = load_mapping({**data, "counterweight": section}, source="kshm new").model
-    found = solve(to_engine(model)).scalars
-    share = number_text(round(found["cw_taken"], 2))
-    limited = found["cw_taken"] < found["cw_best"]
+    scalars = solve(to_engine(model)).scalars
+    share = number_text(round(scalars["cw_taken"], 2))
+    limited = scalars["cw_taken"] < scalars["cw_best"]
     why = "больше сектор не берёт" if limited else "с ней сумма нагрузок коренных шеек наименьшая"
     notes = {f"counterweight.{key}": text for key, text in _SIZES.items()}
     notes["crankshaft.webs.counterweight_kg"] = f"доля {share} вращающихся масс колена: {why}"
-    return NewCounterweights(section, float(f"{found['cw_reduced']:.4g}"), notes)
+    return NewCounterweights(section, float(f"{scalars['cw_reduced']:.4g}"), notes)

@@ -184,7 +184,7 @@ def rods_of(layout: str) -> int:
 
 
 def throws_of(cylinders: int, layout: str) -> int:
-    """Number of throws."""
+    """Return the number of throws."""
     return cylinders // rods_of(layout)
 
 
@@ -278,7 +278,7 @@ def table_masses(
 
 
 def _inside(value: float, bounds: tuple[float, float], taken: float) -> float:
-    """A mass to four digits, rounded away from the nearer bound of the value ``taken``."""
+    """Return a mass to four digits, rounded away from the nearer bound of the value ``taken``."""
     unit = 10.0 ** (math.floor(math.log10(value)) - 3)
     up = taken < sum(bounds) / 2
     # What has four digits already is noise away from a whole number of units.
@@ -287,7 +287,7 @@ def _inside(value: float, bounds: tuple[float, float], taken: float) -> float:
 
 
 def _grams(value: float) -> float:
-    """A mass to four significant digits."""
+    """Return a mass to four significant digits."""
     return float(f"{value:.4g}")
 
 
@@ -327,7 +327,7 @@ def _arms(layout: str, sizes: ShaftSizes, number: int) -> dict[str, float]:
 
 
 def timing_notes(timing: Phases) -> Notes:
-    """Notes on the phases."""
+    """Return notes on the phases."""
     bank = "угол из обычных для такого числа цилиндров; впишите свой вместе с фазами"
     memory = "по памяти: сверьте со своим"
     return {
@@ -341,7 +341,7 @@ def timing_notes(timing: Phases) -> Notes:
 
 
 def file_text(engine: NewEngine) -> str:
-    """The engine as a commented input file."""
+    """Return the engine as a commented input file."""
     lines = [f"# {line}" for line in (*engine.head, *NUMBER_WORDS)]
     others = [name for name in SECTIONS if name not in FIRST and name in engine.data]
     for name in FIRST:
@@ -367,7 +367,7 @@ def file_text(engine: NewEngine) -> str:
 
 
 def _text(text: str) -> str:
-    """A text of many lines as TOML writes it."""
+    """Return a text of many lines as TOML writes it."""
     return tomlkit.string(text, literal="'''" not in text, multiline=True).as_string()
 
 

@@ -97,7 +97,7 @@ class _Sizing:
 
     @staticmethod
     def last(key: str) -> int:
-        """The last place of a span, or of the strongest steel."""
+        """Return the last place of a span, or of the strongest steel."""
         return len(_STEELS[key]) - 1 if key in _STEELS else _STEPS
 
     def share(self, key: str, choice: Mapping[str, int]) -> tuple[float, float, float]:

@@ -101,7 +101,7 @@ def _train(old: Mapping[str, Any], grown: Grown) -> dict[str, Any]:
 
 
 def _scaled(section: type[Strictly], key: str, size: float, factor: float) -> float:
-    """A size within the limits of its key [mm]."""
+    """Return a size within the limits of its key [mm]."""
     (limits,) = hints(section)[key].metas
     low, high = limits.minimum, limits.maximum
     return min(max(round(size * factor, _DIGITS), low or 0.0), math.inf if high is None else high)
@@ -116,7 +116,7 @@ def alternative(
     displacement: float = 1.0,
     cause: str = "",
 ) -> NewEngine:
-    """The engine of ``model`` with another number of cylinders.
+    """Return the engine of ``model`` with another number of cylinders.
 
     Args:
         model: The engine to start from.
@@ -250,7 +250,7 @@ def _rods(model: InputFile, layout: str) -> float:
 
 
 def _grown(model: InputFile, layout: str, sizes: ShaftSizes, linear: float, faster: float) -> Grown:
-    """The new shaft over the old one, along a pin that of one rod."""
+    """Return the new shaft over the old one, along a pin that of one rod."""
     old = model.crankshaft
     before = sum(old.main_lengths_mm) / len(old.main_lengths_mm)
     return Grown(
@@ -274,7 +274,7 @@ def _bounded(key: str, size: float, bore: float) -> float:
 
 
 def _up(size: float) -> float:
-    """A size with its last digit rounded up [mm]."""
+    """Return a size with its last digit rounded up [mm]."""
     return float(math.ceil(size * 10**DIGITS) / 10**DIGITS)
 
 

@@ -188,11 +188,11 @@ def _shared(
 
 
 def size_notes(task: EngineTask, usual: Usual, stroke: float, speed: float) -> dict[str, str]:
-    """Notes on the sizes: of the task, usual, to be replaced."""
+    """Return notes on the sizes: of the task, usual, to be replaced."""
     pressure = number_text(usual.effective_mpa)
     mean = number_text(round(stroke * speed / 30000, 1))
     advice = "впишите свой" if task.power_kw is None else "свой задают ключом {}"
-    known = {
+    remarks = {
         "geometry.bore_mm": (
             task.bore_mm,
             f"при p_e = {pressure} МПа и Sn/30 ≈ {mean} м/с; {advice.format('--bore')}",
@@ -210,7 +210,9 @@ def size_notes(task: EngineTask, usual: Usual, stroke: float, speed: float) -> d
             f"обычная: средняя скорость поршня {number_text(usual.piston_speed)} м/с",
         ),
     }
-    notes = {key: words if value is None else "по заданию" for key, (value, words) in known.items()}
+    notes = {
+        key: words if value is None else "по заданию" for key, (value, words) in remarks.items()
+    }
     notes["gas.max_pressure_mpa"] = f"диаграмма даёт p_e ≈ {pressure} МПа"
     return notes
 

@@ -231,7 +231,7 @@ def _product(operand: list[Token]) -> list[Token]:
 
 
 def _plain(grid: CellGrid, token: Token) -> Token:
-    """A token with its text folded, its sheet as it is called, its name as the cells meant."""
+    """Return token with its text folded, its sheet as it is called, its name as the cells meant."""
     kind, value = token
     if kind == "text":
         return kind, folded(value)

@@ -123,7 +123,7 @@ def _stands_alone(tokens: tuple[Token, ...], at: int, width: int) -> bool:
 
 
 def _crossing_cell(tokens: tuple[Token, ...], run: Run, grid: CellGrid) -> list[Token] | None:
-    """The cell of a range that a formula means, None where there is none or it is no range."""
+    """Return cell of a range that a formula means, None where there is none or it is no range."""
     area = area_of(tokens, grid)
     address = _meant(area.first, area.last, run) if area is not None else ""
     return [*area.sheet, ("ref", address)] if area and address else None
@@ -173,7 +173,7 @@ def _spilled(tokens: tuple[Token, ...], run: Run, grid: CellGrid) -> list[Token]
 
 
 def _extent(tokens: tuple[Token, ...], run: Run, grid: CellGrid) -> list[Token]:
-    """The cells of the array formula in a cell; nothing where each row has another, or none."""
+    """Return cells of the array formula in a cell; nothing where each row has another, or none."""
     sheet = [token for token in tokens[:1] if token[0] == "sheet"]
     if [kind for kind, _ in tokens[len(sheet) :]] != ["ref"]:
         return []

@@ -96,7 +96,7 @@ def _unknown(title: str, name: str) -> tuple[Token, ...]:
 
 
 def put_local(grid: CellGrid, local: Local) -> None:
-    """The formulas of a grid with the names of single sheets replaced by what they stand for."""
+    """Replace names of single sheets in the formulas of a grid by what they stand for."""
     folded = {title.casefold(): names for title, names in local.items()}
     nobody = {title.casefold(): {name: _unknown(title, name) for name in names}
               for title, names in local.items()}  # fmt: skip

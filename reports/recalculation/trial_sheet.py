@@ -47,7 +47,7 @@ def by_column(cells: Iterable[Cells]) -> dict[tuple[str, int], list[Cells]]:
 
 
 def pinned(grid: CellGrid, cells: Iterable[Cells]) -> CellGrid:
-    """A grid with constants in some cells, whatever stood there; other columns are shared."""
+    """Return grid with constants in some cells, whatever stood there; other columns are shared."""
     sheets = {title: dict(columns) for title, columns in grid.sheets.items()}
     copied: set[tuple[str, int]] = set()
     for part in cells:
@@ -107,7 +107,7 @@ class PinnedGrid:
         return [run for c in columns for run in c.runs_in(area.first_row, area.last_row)]
 
     def needed(self, areas: Iterable[Area]) -> dict[str, dict[int, CellColumn]]:
-        """The columns with some cells, and those that their formulas read in turn, by sheets."""
+        """Return columns with some cells, and those that their formulas read in turn, by sheets."""
         return _needed(self.grid, areas, self.column)
 
 

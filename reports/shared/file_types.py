@@ -29,7 +29,7 @@ _BEGINNINGS = (
 
 
 def kind_of(data: bytes) -> str:
-    """The kind of a file; text is what has no sign of anything else."""
+    """Return the kind of a file; text is what has no sign of anything else."""
     for beginning, kind in _BEGINNINGS:
         if data.startswith(beginning):
             return kind
@@ -37,7 +37,7 @@ def kind_of(data: bytes) -> str:
 
 
 def read_bytes(path: Path, most: int, hint: str) -> bytes:
-    """The bytes of a file; ``hint`` tells of one that is larger than ``most``.
+    """Return the bytes of a file; ``hint`` tells of one that is larger than ``most``.
 
     Raises:
         InputError: it is too large, or cannot be read.

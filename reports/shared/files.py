@@ -271,7 +271,7 @@ def reason(error: OSError) -> str:
 
 
 def temporary_failure(error: Exception) -> OutputError:
-    """The error of a temporary file that a library could not write."""
+    """Return the error of a temporary file that a library could not write."""
     number = error.errno if isinstance(error, OSError) else None
     code = number if number is not None else getattr(errno, str(error).removeprefix("IO_"), 0)
     text = "нет папки" if number == errno.ENOENT else _REASONS.get(code, "ошибка ввода-вывода")
@@ -361,7 +361,7 @@ def _target(path: Path) -> Path:
 
 
 def _descriptor(path: Path) -> int | None:
-    """The number of this process's open stream that a path names, as /dev/stdout does.
+    """Return the number of this process's open stream that a path names, as /dev/stdout does.
 
     Opened by its name a stream that is a regular file would be written from its beginning, over
     what others have written into it.

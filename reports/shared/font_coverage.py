@@ -54,14 +54,14 @@ def printable(text: str) -> str:
 
 @functools.lru_cache(maxsize=4096)
 def cleaned(text: str) -> str:
-    """The same with all letters kept: on a screen and in Word the system's fonts have them."""
+    """Return same with all letters kept: on a screen and in Word the system's fonts have them."""
     if USUAL.fullmatch(text):
         return text
     return "".join(_printed(char) for char in unicodedata.normalize("NFC", text))
 
 
 def boxed(text: str) -> str:
-    """A text or a whole page with □ for the letters that no face on paper has."""
+    """Return a text or a whole page with □ for the letters that no face on paper has."""
     return _foreign().sub(lambda met: REPLACEMENT if _is_letter(met[0]) else met[0], text)
 
 
@@ -84,7 +84,7 @@ def _is_letter(char: str) -> bool:
 
 
 def unprintable(text: str) -> tuple[str, ...]:
-    """The signs of a text that are printed as □, each once."""
+    """Return the signs of a text that are printed as □, each once."""
     if USUAL.fullmatch(text):
         return ()
     signs = dict.fromkeys(unicodedata.normalize("NFC", text))

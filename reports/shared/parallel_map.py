@@ -112,7 +112,7 @@ def _windowed(
     items: Iterable[Item],
     ahead: int,
 ) -> Iterator[Result]:
-    """A bounded number of items under way: neither inputs nor results pile up."""
+    """Yield a bounded number of items under way: neither inputs nor results pile up."""
     waiting: deque[Any] = deque()
     try:
         for item in items:

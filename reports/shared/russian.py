@@ -31,12 +31,12 @@ _PATRONYMIC = re.compile("[А-ЯЁ][а-яё]+(?:ич|вна|чна)")
 
 
 def comma(text: str) -> str:
-    """A number that Python wrote, with decimal comma and real minus."""
+    """Return a number that Python wrote, with decimal comma and real minus."""
     return text.replace(".", ",").replace("-", MINUS)
 
 
 def short(value: float, digits: int = 6) -> str:
-    """A number of so many significant digits without needless zeros, never as 2e+04."""
+    """Return a number of so many significant digits without needless zeros, never as 2e+04."""
     text = f"{value:.{digits}g}"
     if "e" in text:
         text = f"{float(text):.12f}".rstrip("0").rstrip(".")
@@ -70,12 +70,12 @@ def fixed(value: float, digits: int = 2, *, group: bool = True) -> str:
 
 
 def as_printed(value: float, digits: int) -> float:
-    """The number that ``fixed`` writes."""
+    """Return the number that ``fixed`` writes."""
     return float(fixed(value, digits, group=False).replace(MINUS, "-").replace(",", "."))
 
 
 def grouped(text: str) -> str:
-    """A number that Python wrote, its integer part in groups of three from five digits on."""
+    """Return number that Python wrote, its integer part in groups of three from five digits on."""
     whole = re.match(r"-?(\d*)", text)
     digits = whole.group(1) if whole else ""
     if len(digits) < _GROUP_FROM:
@@ -84,7 +84,7 @@ def grouped(text: str) -> str:
 
 
 def mantissa(value: float, decimals: int) -> tuple[str, int]:
-    """A number as a mantissa in [1, 10) with so many decimals and an exponent of ten.
+    """Return a number as a mantissa in [1, 10) with so many decimals and an exponent of ten.
 
     Raises:
         ValueError: The number is not finite.
@@ -96,7 +96,7 @@ def mantissa(value: float, decimals: int) -> tuple[str, int]:
 
 
 def written(value: float, digits: Digits, *, more: int | None = None, group: bool = False) -> str:
-    """A value of a quantity as plain text; ``more`` decimals than cells show it with."""
+    """Return a value of a quantity as plain text; ``more`` decimals than cells show it with."""
     if digits.hides == "zeros" and value == 0:
         return ""
     if digits.kind == "scientific":
@@ -110,7 +110,7 @@ def written(value: float, digits: Digits, *, more: int | None = None, group: boo
 
 
 def last_bound(text: str) -> str:
-    """The text whose last word, where it is short, does not stand alone in a line."""
+    """Return the text whose last word, where it is short, does not stand alone in a line."""
     before, space, last = text.rpartition(" ")
     return f"{before}{NBSP}{last}" if space and len(last) <= _ALONE else text
 
@@ -123,7 +123,7 @@ def power_of_ten(value: float) -> str:
 
 
 def capital(text: str) -> str:
-    """The text with its first letter large; a symbol stays what it is, λ and not Λ."""
+    """Return the text with its first letter large; a symbol stays what it is, λ and not Λ."""
     return text[:1].upper() + text[1:] if "а" <= text[:1] <= "ё" else text
 
 
@@ -172,7 +172,7 @@ def _follows(before: str, after: str) -> bool:
 
 
 def plural(count: int, one: str, few: str, many: str) -> str:
-    """A number with its noun: 1 столбец, 2 столбца, 12 столбцов."""
+    """Return a number with its noun: 1 столбец, 2 столбца, 12 столбцов."""
     tens, units = count // 10 % 10, count % 10
     if tens == 1 or units == 0 or units > 4:
         return f"{count} {many}"
@@ -180,7 +180,7 @@ def plural(count: int, one: str, few: str, many: str) -> str:
 
 
 def instrumental(count: int, one: str, many: str) -> str:
-    """A count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
+    """Return a count after «с»: «одним коленом», «четырьмя коленами»; digits beyond twelve."""
     return (
         f"{_WITH[count - 1] if count <= len(_WITH) else count}{NBSP}{one if count == 1 else many}"
     )
@@ -192,7 +192,7 @@ def cylindered(count: int) -> str:
 
 
 def surname(name: str) -> str:
-    """The surname of a person's name, as title blocks have it; all where none is told.
+    """Return the surname of a person's name, as title blocks have it; all where none is told.
 
     Initials are left out, of three words a patronymic tells the order.
     """

@@ -59,6 +59,6 @@ def standing(value: float, span: tuple[float, float], digits: int) -> Standing:
 
 
 def printed_span(span: tuple[float, float]) -> tuple[float, float]:
-    """Ends of a span as they are printed."""
+    """Return ends of a span as they are printed."""
     low, high = (float(f"{end:.{_SPAN_DIGITS}g}") for end in span)
     return low, high

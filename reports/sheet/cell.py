@@ -155,12 +155,12 @@ def running(canvas: Canvas, room: CellArea, terms: Terms) -> None:
     angles = np.asarray(terms.model.tables["P4_4"].rows, dtype=float)
     most = int(room.height / 4.2) - 2
     step = next(s for s in _STEPS if (angles[-1] - angles[0]) / s + 1 <= most or s == _STEPS[-1])
-    kept = [n for n, a in enumerate(angles) if abs(np.remainder(a + 1e-6, step)) < 1e-3]
+    indices = [n for n, a in enumerate(angles) if abs(np.remainder(a + 1e-6, step)) < 1e-3]
     columns = [terms.column(f"P4_4.Mmain{k}_Nm") for k in range(2, throws + 2)]
     rows = [["φ, °", *(f"шейка {k}" for k in range(2, throws + 2))]]
     digits = terms.quantity("P4_4.Mmain2_Nm").digits
     rows += [[fixed(angles[n], 0), *(of_digits(float(c[n]), digits) for c in columns)]
-             for n in kept]  # fmt: skip
+             for n in indices]  # fmt: skip
     swings = [terms.num(f"dM_main{k}") for k in range(2, throws + 2)]
     rows.append(["размах", *swings])
     grid(canvas, room, rows)
@@ -182,7 +182,7 @@ def results(canvas: Canvas, room: CellArea, terms: Terms) -> None:
 
 
 def shaft(canvas: Canvas, room: CellArea, terms: Terms) -> None:
-    """The shaft from the side and from the nose with the firing order."""
+    """Draw the shaft from the side and from the nose with the firing order."""
     crankshaft = terms.model.input.crankshaft
     angles = crankshaft.throw_angles_deg
     offsets, period = crankshaft.firing_offsets_deg, Shape.of(terms.model.input).period
@@ -285,20 +285,20 @@ def balance(canvas: Canvas, room: CellArea, terms: Terms) -> None:
 
 
 def throw(canvas: Canvas, room: CellArea, terms: Terms) -> None:
-    """The first throw with its sizes."""
+    """Draw the first throw with its sizes."""
     sizes = throw_of(terms)
     _placed(canvas, room, "Колено вала", partial(throw_drawing, sizes))
 
 
 def mechanism(canvas: Canvas, room: CellArea, terms: Terms) -> None:
-    """The mechanism with its sizes."""
+    """Draw the mechanism with its sizes."""
     sizes = mechanism_of(terms)
     title = "Кривошипно-шатунный механизм"
     _placed(canvas, room, title, partial(mechanism_drawing, sizes))
 
 
 def counterweight(canvas: Canvas, room: CellArea, terms: Terms) -> None:
-    """A web with the proposed counterweight and its sizes."""
+    """Draw a web with the proposed counterweight and its sizes."""
     words = (f"Противовес щеки: {terms.num('cw_mass')} кг, ширина {terms.num('cw_width_mm')} мм, "
              f"доля {terms.num('cw_taken')}")  # fmt: skip
     _placed(canvas, room, words, partial(counterweight_drawing, counterweight_of(terms)))
@@ -324,7 +324,7 @@ def _placed(canvas: Canvas, room: CellArea, title: str, draw: Callable[..., list
 
 
 def _said(scale: float) -> str:
-    """A scale as it stands on a drawing: ``М 1:2,5``."""
+    """Return a scale as it stands on a drawing: ``М 1:2,5``."""
     ratio = max(scale, 1 / scale)
     text = fixed(ratio, 0 if abs(ratio - round(ratio)) < 1e-6 else 1)
     return f"М {text}:1" if scale > 1 else f"М 1:{text}"

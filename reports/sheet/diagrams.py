@@ -74,12 +74,12 @@ class Scale:
         return [self.low + n * STEP * self.unit for n in range(count + 1)]
 
     def text(self, value: float) -> str:
-        """A value at a line of the grid as it is written."""
+        """Return a value at a line of the grid as it is written."""
         return fixed(value, decimals(STEP * self.unit))
 
 
 def round_scale(low: float, high: float, room: float, *, angle: bool = False) -> Scale:
-    """The largest round scale at which values fit a room [mm]; ends at lines of the grid."""
+    """Return the largest round scale at which values fit a room [mm]; ends at lines of the grid."""
     units = iter(_ANGLE_STEPS) if angle else _units((high - low) / room)
     for unit in units:
         step = STEP * unit
@@ -107,7 +107,7 @@ def decimals(step: float) -> int:
 
 
 def unit_text(unit: float) -> str:
-    """A scale as it is written."""
+    """Return a scale as it is written."""
     return fixed(unit, decimals(unit))
 
 
@@ -117,7 +117,7 @@ def symbol(terms: Terms, name: str) -> str:
 
 
 def drawn_symbol(tex: str) -> str:
-    """A TeX symbol for a drawing: «R′_ш.ш.ср»."""
+    """Return a TeX symbol for a drawing: «R′_ш.ш.ср»."""
     text = _GROUP.sub(lambda group: "_" + group[1].replace(" ", "."), plain(tex))
     return text.replace("'", "′").replace(" ", "")
 
@@ -166,7 +166,7 @@ def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, cl
 
 
 def _whole(value: float) -> float:
-    """A place on the grid of millimetres."""
+    """Return a place on the grid of millimetres."""
     return float(round(value))
 
 
@@ -226,10 +226,10 @@ def path(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None
     points = _points(origin, across, up, xs, ys)
     canvas.line(*points, layer=CURVES, closed=True, name=f"{chart.id}:{drawn.y}")
     frame = (origin[0], origin[1], origin[0] + across.length, origin[1] + up.length)
-    places = [(origin[0] + across.at(0.0), origin[1] + up.at(pole)) for pole in poles.values()]
+    marks = [(origin[0] + across.at(0.0), origin[1] + up.at(pole)) for pole in poles.values()]
     # Beyond a narrow grid rather than over the curve.
     _poles(
-        canvas, dict(zip(poles, places, strict=True)), (room.left, room.low, room.right, frame[3])
+        canvas, dict(zip(poles, marks, strict=True)), (room.left, room.low, room.right, frame[3])
     )
     _angles(canvas, terms, drawn, (origin, across, up, signs), frame)
 
@@ -331,7 +331,7 @@ def _beside(
 
 
 def wear(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec) -> None:
-    """Sums of the forces laid off from the journal's circle inwards in a round scale."""
+    """Draw sums of the forces laid off from the journal's circle inwards in a round scale."""
     grid = chart.series[0].x.partition(".")[0]
     sums, rays = (
         np.array([terms.value(key) for key in terms.model.grid_runs[f"{grid}.{of}"][:-1]])

@@ -129,12 +129,12 @@ def title_block(canvas: Canvas, model: InputFile, left: float, low: float) -> No
     cell(designation(report), (65, 40, STAMP_WIDTH, 55), 7.0)
     title = f"Динамический расчёт двигателя{named_engine(model)}"
     cell(title, (*_NAME[:1], 15, _NAME[1], 40), 5.0)
-    places = (report.institution, report.department, report.group)
-    cell(", ".join(filter(None, places)), (135, 0, STAMP_WIDTH, 15), 3.5)
+    names = (report.institution, report.department, report.group)
+    cell(", ".join(filter(None, names)), (135, 0, STAMP_WIDTH, 15), 3.5)
 
 
 def designation(report: ReportSection) -> str:
-    """The sheet's own designation: that of the note with the code of diagrams, ГОСТ 2.102."""
+    """Return sheet's own designation: that of the note with the code of diagrams, ГОСТ 2.102."""
     return _NOTE.sub(" Д", report.designation)
 
 
@@ -152,7 +152,7 @@ def corner(canvas: Canvas, report: ReportSection, width: float, height: float) -
 
 
 def sheet_items(terms: Terms) -> tuple[Canvas, float, float]:
-    """The whole sheet; its width and height [mm].
+    """Return the whole sheet; its width and height [mm].
 
     Raises:
         InputError: the sheet cannot hold what was picked.
@@ -185,7 +185,7 @@ def blocks(terms: Terms, section: SheetSection) -> list[Draw]:
 
 
 def _fillers(terms: Terms, section: SheetSection, width: float, height: float) -> list[Draw]:
-    """What fills the cells that the usual diagrams leave free."""
+    """Return what fills the cells that the usual diagrams leave free."""
     if section.diagrams:
         return []
     usual, draws = blocks(terms, section), available(terms)
@@ -292,7 +292,7 @@ def _grids(width: float, height: float) -> Iterator[list[CellArea]]:
 
 
 def sheet_files(model: Model, values: Values) -> dict[str, bytes]:
-    """The sheet's files by the endings of their names.
+    """Return the sheet's files by the endings of their names.
 
     Raises:
         InputError: the sheet cannot hold what was picked.
@@ -328,7 +328,7 @@ def _mechanism(mechanism: MechanismSizes) -> bytes:
 
 
 def sheet_pdf(items: list[Item], width: float, height: float, model: Model) -> bytes:
-    """A sheet of a size [mm] as PDF, lines and letters as such."""
+    """Return a sheet of a size [mm] as PDF, lines and letters as such."""
     from html import escape
 
     letters = (

@@ -71,7 +71,7 @@ class _Book:
 
 
 def book_bytes(engines: Sequence[Compared]) -> bytes:
-    """The finished workbook."""
+    """Return the finished workbook."""
     book = _Book(engines)
     _data(book)
     _results(book)
@@ -125,10 +125,10 @@ def _results(book: _Book) -> None:
             change = row.change(index)
             if change is None:
                 continue
-            first, own = (Cell(RESULTS, number, 4 + i).coordinate for i in (0, index))
+            first, current = (Cell(RESULTS, number, 4 + i).coordinate for i in (0, index))
             at = Cell(RESULTS, number, 3 + count + index)
             look = "0.0###" if change < LEAST_PERCENT else "0.0"
-            book.formula(sheet, at, f"=({own}/{first}-1)*100", change, look)
+            book.formula(sheet, at, f"=({current}/{first}-1)*100", change, look)
     number += 2
     sheet.cell(number - 1, 1, lacking or None)
     bold(sheet.cell(number, 1, "Выводы"))
@@ -209,8 +209,8 @@ class StudyBook:
 
     def __post_init__(self) -> None:
         if self.plan.count > MOST_ROWS:
-            what = f"сочетаний {self.plan.count}, а в книге помещается {MOST_ROWS}"
-            raise InputError(Problem("-o", what, "выберите .parquet или .csv"))
+            problem = f"сочетаний {self.plan.count}, а в книге помещается {MOST_ROWS}"
+            raise InputError(Problem("-o", problem, "выберите .parquet или .csv"))
         self._book = new_book(rows_only=True)
         self._first = self._book.create_sheet(SUMMARY)
         self._drawn = self._book.create_sheet(CHARTS) if self._charted() else None
@@ -270,7 +270,7 @@ class StudyBook:
         self._data.close()
 
     def data(self) -> bytes:
-        """The finished workbook."""
+        """Return the finished workbook."""
         self._summary()
         ranges = self._charts()
         return finish(self._book, CacheValues(ranges=ranges))
@@ -299,11 +299,11 @@ class StudyBook:
                 )
                 largest.number_format = smallest.number_format = format_of(name, self.wanted)
                 still = _level((extreme.smallest, extreme.largest)) is not None
-                places = [
+                cells = [
                     (_NOWHERE,) * len(keys) if still else at
                     for at in (extreme.at_largest, extreme.at_smallest)
                 ]
-                sheet.append([name, title, unit, largest, *places[0], smallest, *places[1]])
+                sheet.append([name, title, unit, largest, *cells[0], smallest, *cells[1]])
 
     def _charts(self) -> dict[str, list[float]]:
         """One chart a quantity; the numbers of their ranges."""
@@ -362,11 +362,11 @@ class StudyBook:
 
 
 def _level(values: Sequence[float]) -> float | None:
-    """The value of a quantity that stays the same but for rounding."""
-    known = [value for value in values if math.isfinite(value)]
-    if not known or max(known) - min(known) > 1e-9 * max(map(abs, known)):
+    """Return the value of a quantity that stays the same but for rounding."""
+    finite = [value for value in values if math.isfinite(value)]
+    if not finite or max(finite) - min(finite) > 1e-9 * max(map(abs, finite)):
         return None
-    return float(f"{known[0]:.6g}")
+    return float(f"{finite[0]:.6g}")
 
 
 def _valued(axis: Axis, number: int) -> str:

@@ -110,7 +110,7 @@ class Row:
     smalls: tuple[int, ...] = ()
 
     def quantity(self, number: int) -> Quantity:
-        """The quantity with the decimals of an engine."""
+        """Return the quantity with the decimals of an engine."""
         return quantity(self.about.key, self.smalls[number]) if self.smalls else self.about
 
     @property
@@ -124,7 +124,7 @@ class Row:
         A value of the other sign is no part of the base: per cent would say nothing of it.
         """
         base, value = self.values[0], self.values[number]
-        largest = max(abs(known) for known in self.values if known is not None)
+        largest = max(abs(value) for value in self.values if value is not None)
         if base is None or value is None or abs(base) <= _NOUGHT * largest or base * value < 0:
             return None
         return (value / base - 1) * 100
@@ -183,14 +183,14 @@ def check_sources(
     if not FEWEST <= count <= MOST:
         hint = f"сравниваются от {FEWEST} до {MOST} двигателей"
         raise InputError(Problem(where, f"файлов {count}", hint))
-    places = [source.resolve() for source in sources]
-    for number, path in enumerate(places):
-        if path in places[:number]:
-            what, hint = "файл назван дважды", "уберите повтор или сделайте копию с правками"
-            raise InputError(Problem(str(sources[number]), what, hint))
-    if target is not None and target.resolve() in places:
-        what = "результат записался бы поверх исходного файла"
-        raise InputError(Problem(str(target), what, "укажите другое имя ключом -o"))
+    paths = [source.resolve() for source in sources]
+    for number, path in enumerate(paths):
+        if path in paths[:number]:
+            problem, hint = "файл назван дважды", "уберите повтор или сделайте копию с правками"
+            raise InputError(Problem(str(sources[number]), problem, hint))
+    if target is not None and target.resolve() in paths:
+        problem = "результат записался бы поверх исходного файла"
+        raise InputError(Problem(str(target), problem, "укажите другое имя ключом -o"))
 
 
 def labels(sources: Sequence[Path]) -> list[str]:
@@ -228,27 +228,27 @@ def split_rows(rows: Sequence[AnyRow], labels: Sequence[str]) -> tuple[list[AnyR
     """
     owners = [tuple(value is not None for value in row.values) for row in rows]
     groups = {(row.group, has) for row, has in zip(rows, owners, strict=True)}
-    shown, left = [], dict[str, dict[str, None]]()
+    rows_shown, left = [], dict[str, dict[str, None]]()
     for row, has in zip(rows, owners, strict=True):
         if all(has) or len({value for value in row.values if value is not None}) > 1:
-            shown.append(row)
+            rows_shown.append(row)
             continue
         whole = row.group and sum(group == row.group for group, _ in groups) == 1
         names = joined([label for label, there in zip(labels, has, strict=True) if there])
         left.setdefault(names, {})[uncapital(row.group if whole else row.title)] = None
     sentence = "; ".join(f"{names} — {', '.join(things)}" for names, things in left.items())
-    return shown, f"Есть не у всех: {sentence}." if sentence else ""
+    return rows_shown, f"Есть не у всех: {sentence}." if sentence else ""
 
 
 def _gathered(model: InputFile) -> Iterator[tuple[str, tuple[Field, str | int | float]]]:
     lists: dict[str, list[Field]] = {}
-    given = given_by_cycle(model)
+    by_cycle = given_by_cycle(model)
     for field in iter_fields(model):
         path = field.path
-        if path[0] in _NOT_COMPARED or path == ("engine", "name") or field.name in given:
+        if path[0] in _NOT_COMPARED or path == ("engine", "name") or field.name in by_cycle:
             continue
-        own = path[2:] if path[0] == "regimes" else path
-        if not any(isinstance(part, int) for part in own):
+        keys = path[2:] if path[0] == "regimes" else path
+        if not any(isinstance(part, int) for part in keys):
             label = (field.choices or {}).get(str(field.value), field.value)
             title = field.title
             if path[0] == "regimes":
@@ -278,14 +278,16 @@ def results(engines: Sequence[Compared]) -> tuple[Row, ...]:
 
 def _own_results(engines: Sequence[Compared]) -> Iterator[Row]:
     """Scalars of own books, in the order of the first engine that has them."""
-    found = [own_numbers(engine.model).scalars for engine in engines]
-    for key in dict.fromkeys(key for scalars in found for key in scalars):
-        about = next(scalars[key][0] for scalars in found if key in scalars)
-        values = [scalars[key][1] if key in scalars else None for scalars in found]
+    results = [own_numbers(engine.model).scalars for engine in engines]
+    for key in dict.fromkeys(key for scalars in results for key in scalars):
+        quantity = next(scalars[key][0] for scalars in results if key in scalars)
+        values = [scalars[key][1] if key in scalars else None for scalars in results]
         numbers = tuple(None if isinstance(value, str) or value is None else float(value)
                         for value in values)  # fmt: skip
         if any(number is not None for number in numbers):
-            yield Row("Свои книги", key, capital(about.title), about.symbol, about, numbers)
+            yield Row(
+                "Свои книги", key, capital(quantity.title), quantity.symbol, quantity, numbers
+            )
 
 
 def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str]) -> Row | None:
@@ -295,8 +297,8 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
     for engine in engines:
         scalars = engine.solution.scalars
         # Of unequal crankpins the most loaded one is told, as in the report.
-        own = re.sub("^(R|q_)pin_", rf"\1pin{pin_name(_worst_pin(engine))}_", pattern)
-        names = [name for name in scalars if re.fullmatch(own, name)]
+        key_of_pin = re.sub("^(R|q_)pin_", rf"\1pin{pin_name(_worst_pin(engine))}_", pattern)
+        names = [name for name in scalars if re.fullmatch(key_of_pin, name)]
         known = known or (names[0] if names else "")
         largest = max((float(scalars[name]) for name in names), default=None)
         values.append(0.0 if largest is not None and abs(largest) < _ROUNDING else largest)
@@ -335,7 +337,7 @@ def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
 
 
 def _widest(columns: object) -> str:
-    """The main journal whose running-on torque swings most."""
+    """Return the main journal whose running-on torque swings most."""
     widths = {
         name: max(values) - min(values)
         for name, values in columns.items()  # type: ignore[attr-defined]
@@ -377,12 +379,12 @@ def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         if row is None or values is None or min(values) <= 0:
             continue
         big, small = values.index(max(values)), values.index(min(values))
-        shown = written(values[big], row.quantity(big).digits, group=True)
-        text = f"{shown} {row.unit}".rstrip().replace(" ", NBSP)
+        number = written(values[big], row.quantity(big).digits, group=True)
+        text = f"{number} {row.unit}".rstrip().replace(" ", NBSP)
         if spread(values) <= SAME:
-            what = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
-            what = what.removeprefix("Самый тяжёлый ")
-            yield f"Одинаковы с точностью 1{NBSP}%: {what}, {text}."
+            name = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
+            name = name.removeprefix("Самый тяжёлый ")
+            yield f"Одинаковы с точностью 1{NBSP}%: {name}, {text}."
         else:
             more = _more(values[big] / values[small])
             yield f"{words} — {names[big]}: {text}, {more} больше, чем у {names[small]}."
@@ -421,8 +423,8 @@ def _balance(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         sizes = _known(rows.get(size)) or [0.0] * len(values)
         still = [
             name
-            for name, value, own in zip(names, values, sizes, strict=True)
-            if abs(value) <= max(STILL * abs(own), _NOUGHT)
+            for name, value, size in zip(names, values, sizes, strict=True)
+            if abs(value) <= max(STILL * abs(size), _NOUGHT)
         ]
         if len(still) == len(names):
             yield f"У всех {words} уравновешены самим расположением колен."
@@ -439,7 +441,7 @@ def spread(values: Sequence[float]) -> float:
 
 
 def _known(row: Row | None) -> list[float] | None:
-    """The values if every engine has one."""
+    """Return the values if every engine has one."""
     if row is None or None in row.values:
         return None
     return [value for value in row.values if value is not None]

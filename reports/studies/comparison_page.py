@@ -63,7 +63,7 @@ class NumberedBlock:
 
 
 def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "screen"]) -> str:
-    """The whole page with style sheet and fonts inside."""
+    """Return the whole page with style sheet and fonts inside."""
     from reports.document.page.render import environment
 
     numbering = Draft()
@@ -73,7 +73,7 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
     data = numbering.section(1, "Чем отличаются исходные данные")
     data_table = NumberedBlock(data_block(labels, different), numbering.place("table", "data"),
                         "Исходные данные, которые не совпадают")  # fmt: skip
-    shown = numbering.section(1, "Результаты")
+    section = numbering.section(1, "Результаты")
     tables = []
     for group in dict.fromkeys(row.group for row in rows):
         block = results_block(labels, [row for row in rows if row.group == group])
@@ -91,7 +91,7 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
         title=_TITLE,
         engines=[(engine.label, engine.model.engine.name, engine.source.name)
                  for engine in engines],
-        headings=(data, shown, drawn, ending),
+        headings=(data, section, drawn, ending),
         data=data_table,
         only=only,
         tables=tables,
@@ -104,7 +104,7 @@ def comparison_page(engines: Sequence[Compared], *, media: Literal["print", "scr
 
 
 def data_block(labels: Sequence[str], differing: Sequence[Difference]) -> TableBlock:
-    """What differs in the data."""
+    """Return what differs in the data."""
     columns = [TableColumn("Величина", 2.6, text=True)]
     columns += [TableColumn(label, 1.3, text=True) for label in labels]
     rows = [
@@ -139,19 +139,19 @@ def results_block(labels: Sequence[str], rows: Sequence[Row]) -> TableBlock:
 
 
 def _change(percent: float | None) -> str:
-    """The difference in brackets: of ten times and more nobody reads per cent."""
+    """Return the difference in brackets: of ten times and more nobody reads per cent."""
     if percent is None:
         return ""
     if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     if not float(f"{percent:.1f}"):
         return ""  # alike: the numbers themselves say so
-    shown = fixed(percent, 1)
-    return f"({'' if shown.startswith(MINUS) else '+'}{shown}{NBSP}%)"
+    text = fixed(percent, 1)
+    return f"({'' if text.startswith(MINUS) else '+'}{text}{NBSP}%)"
 
 
 def _titled(title: str, unit: str) -> str | Markup:
-    """A title with its unit, which no line divides."""
+    """Return a title with its unit, which no line divides."""
     if not unit:
         return title
     return Markup('{}, <span class="nb">{}</span>').format(rich(title), rich(unit))
@@ -180,7 +180,7 @@ def _with_symbol(chart: Chart) -> str:
 
 
 def with_others(path: Path, loaded: Loaded) -> Loaded:
-    """The input with the files it is compared with among those that were read.
+    """Return the input with the files it is compared with among those that were read.
 
     Raises:
         InputError: one of them is missing or wrong, or there are too many.
@@ -204,7 +204,7 @@ def _others(path: Path, loaded: Loaded) -> list[Path]:
 
 
 def comparison_chapters(path: Path, loaded: Loaded) -> tuple[ComparisonChapter, ...]:
-    """The chapter of a checked input, none where its file names no other engines.
+    """Return the chapter of a checked input, none where its file names no other engines.
 
     Raises:
         InputError: a named file is wrong, or an engine gives no finite result.
@@ -240,13 +240,13 @@ class ComparisonChapter:
         labels = [label for label, *_ in self.engines]
         size = "dense" if len(labels) <= _FEW_ENGINES else "tiny"
         different, only = split_rows(self.differences, labels)
-        shown, lacking = split_rows(self.rows, labels)
+        listed, lacking = split_rows(self.rows, labels)
         data = TablePlan(
             partial(data_block, labels, different),
             "Исходные данные, которые не совпадают", size=size, lined=True,
         )  # fmt: skip
         groups: dict[str, list[Row]] = {}
-        for row in shown:
+        for row in listed:
             groups.setdefault(row.group, []).append(row)
         tables = [
             (f"compare_{number}",
@@ -279,8 +279,8 @@ def check_suffix(target: Path) -> None:
         InputError: it is none of them.
     """
     if target.suffix.lower() not in SUFFIXES:
-        what = f"нужно окончание {', '.join(SUFFIXES)}"
-        raise InputError(Problem(target.name, what, "укажите имя ключом -o"))
+        problem = f"нужно окончание {', '.join(SUFFIXES)}"
+        raise InputError(Problem(target.name, problem, "укажите имя ключом -o"))
 
 
 def write(sources: Sequence[Path], models: Sequence[InputFile], target: Path) -> None:
@@ -310,7 +310,7 @@ def write(sources: Sequence[Path], models: Sequence[InputFile], target: Path) ->
 
 
 def _rows(engines: Sequence[Compared]) -> Iterator[dict[str, Any]]:
-    """Data that differ and results, a row each."""
+    """Yield data that differ and results, a row each."""
     for differing in differences(engines):
         yield {
             "group": differing.group or "Данные", "key": "", "title": differing.title,

@@ -89,8 +89,8 @@ class Journal:
         if not self._keeps or not self.path.exists():
             return
         if not resume:
-            what, hint = "здесь незаконченное исследование", "продолжите его ключом --resume"
-            raise InputError(Problem(str(self.path), what, f"{hint} или удалите этот файл"))
+            problem, hint = "здесь незаконченное исследование", "продолжите его ключом --resume"
+            raise InputError(Problem(str(self.path), problem, f"{hint} или удалите этот файл"))
         self._check()
 
     def _check(self) -> None:
@@ -99,16 +99,16 @@ class Journal:
                 head = json.loads(stream.readline())
             except ValueError:
                 head = {}
-            asked = self._making.head()
+            expected = self._making.head()
             if not isinstance(head, dict) or head.get("format") != _FORMAT:
-                what, hint = "это не начатое исследование", "удалите файл и начните заново"
-                raise InputError(Problem(str(self.path), what, hint))
-            for key, what in (("program", "начато другой версией программы"),
+                problem, hint = "это не начатое исследование", "удалите файл и начните заново"
+                raise InputError(Problem(str(self.path), problem, hint))
+            for key, problem in (("program", "начато другой версией программы"),
                               ("input", "начато с другими данными, ключами или величинами"),
                               ("chunk", "начато другими порциями")):  # fmt: skip
-                if head.get(key) != asked[key]:
+                if head.get(key) != expected[key]:
                     hint = "удалите файл и начните заново или повторите прежнюю команду"
-                    raise InputError(Problem(str(self.path), what, hint))
+                    raise InputError(Problem(str(self.path), problem, hint))
             self._end = stream.tell()
 
     def chunks(self, rows: Iterator[list[Any]]) -> Iterator[Chunk]:

@@ -76,7 +76,7 @@ class Plan:
 
 
 def make_plan(model: InputFile, source: str, vary: Sequence[str], *, pairwise: bool) -> Plan:
-    """The plan of ``--vary`` texts.
+    """Return the plan of ``--vary`` texts.
 
     Raises:
         InputError: a text that is no range, a key that cannot be varied, too many points.
@@ -96,7 +96,7 @@ def make_plan(model: InputFile, source: str, vary: Sequence[str], *, pairwise: b
 
 
 def dotted(path: Path) -> str:
-    """A path as ``--vary`` and ``[variants]`` name it: ``crankshaft.webs.1.mass_kg``."""
+    """Return a path as ``--vary`` and ``[variants]`` name it: ``crankshaft.webs.1.mass_kg``."""
     return ".".join(str(part + 1) if isinstance(part, int) else part for part in path)
 
 
@@ -109,8 +109,8 @@ def _axis(text: str, fields: dict[str, Field]) -> Axis:
     meant = [fields[name] for name in every if fnmatch.fnmatchcase(name, key)]
     field = fields.get(key) or next(iter(meant), None)
     if field is None:
-        near = difflib.get_close_matches(key, list(fields), n=3, cutoff=0.5)
-        hint = f"похожи: {', '.join(near)}" if near else "ключи смотрите в файле"
+        similar = difflib.get_close_matches(key, list(fields), n=3, cutoff=0.5)
+        hint = f"похожи: {', '.join(similar)}" if similar else "ключи смотрите в файле"
         raise _wrong(text, f"в файле нет ключа {one_line(key, 80)}", hint)
     if field.structural:
         raise _wrong(text, f"ключ {key} меняет строение расчёта", "сделайте отдельный файл")
@@ -145,14 +145,14 @@ def _values(text: str, span: str, *, whole: bool) -> tuple[float | int, ...]:
 
 
 def span_text(axis: Axis) -> str:
-    """The values of an axis in words."""
+    """Return the values of an axis in words."""
     first, last = (number_text(float(value)) for value in (axis.values[0], axis.values[-1]))
     unit = f" {axis.unit}" if axis.unit else ""
     return f"{axis.title}: {first}…{last}{unit}, точек {len(axis.values)}"
 
 
-def _wrong(text: str, what: str, hint: str) -> InputError:
-    return InputError(Problem(f"--vary {one_line(text, 80)}", what, hint))
+def _wrong(text: str, problem: str, hint: str) -> InputError:
+    return InputError(Problem(f"--vary {one_line(text, 80)}", problem, hint))
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,22 +175,22 @@ class Chunk:
     errors: list[str] = field(default_factory=list)
 
 
-def tasks(plan: Plan, wanted: ChosenQuantities, size: int) -> Any:  # noqa: ANN401
-    """The tasks of a plan in order, made as they are needed."""
+def tasks(plan: Plan, quantities: ChosenQuantities, size: int) -> Any:  # noqa: ANN401
+    """Return the tasks of a plan in order, made as they are needed."""
     paths = tuple(axis.paths for axis in plan.axes)
-    return (SweepTask(plan.raw, plan.source, paths, wanted, rows) for rows in plan.chunks(size))
+    return (SweepTask(plan.raw, plan.source, paths, quantities, rows) for rows in plan.chunks(size))
 
 
 def solved(task: SweepTask) -> Chunk:
     """Every combination is checked like an input file; those that fail keep their reason."""
     errors = [""] * len(task.rows)
-    models, engines, places = _engines(task, errors)
+    models, engines, indices = _engines(task, errors)
     cycles = [cycle for _, cycle in engines]
     values = {name: np.full(len(task.rows), np.nan) for name in task.wanted.names}
     begin = 0
     for raw in solve_chunks(engine for engine, _ in engines):
         these = slice(begin, begin + len(raw.batch.engines))
-        begin, here = these.stop, places[these]
+        begin, here = these.stop, indices[these]
         numbers_of, reasons = of_batch(raw, task.wanted, cycles[these])
         for name, numbers in numbers_of.items():
             values[name][here] = numbers
@@ -199,7 +199,7 @@ def solved(task: SweepTask) -> Chunk:
         for row, reason in zip(here, reasons, strict=True):
             errors[row] = _in_words(reason)
     finite = np.all([np.isfinite(each) for each in values.values()], axis=0)
-    for row in places:
+    for row in indices:
         if not finite[row]:
             errors[row] = errors[row] or NOT_FINITE
     return Chunk(task.rows, values, errors)
@@ -211,10 +211,10 @@ def _in_words(reason: KshmError | None) -> str:
     return reason.lines()[0] if reason else ""
 
 
-def _of_own(models: Sequence[InputFile], wanted: ChosenQuantities) -> dict[str, Array]:
+def _of_own(models: Sequence[InputFile], quantities: ChosenQuantities) -> dict[str, Array]:
     """Values of own books, by their formulas for each engine."""
-    runs = [Evaluation(kept_model(model)) for model in models if wanted.own]
-    return {name: np.array([float(run.value(name)) for run in runs]) for name in wanted.own}
+    runs = [Evaluation(kept_model(model)) for model in models if quantities.own]
+    return {name: np.array([float(run.value(name)) for run in runs]) for name in quantities.own}
 
 
 def _engines(
@@ -224,7 +224,7 @@ def _engines(
     repeated = [len(paths) for paths in task.paths]
     models: list[InputFile] = []
     engines: list[tuple[Engine, CycleRun | None]] = []
-    places: list[int] = []
+    indices: list[int] = []
     for number, row in enumerate(task.rows):
         try:
             values = (value for value, count in zip(row, repeated, strict=True)
@@ -234,5 +234,5 @@ def _engines(
             errors[number] = error.lines()[0]
         else:
             models.append(revisions.revised)
-            places.append(number)
-    return models, engines, places
+            indices.append(number)
+    return models, engines, indices

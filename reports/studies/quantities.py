@@ -18,7 +18,7 @@ def choose(
     base: ChainArrays,
     names: Sequence[str],
     cycle: CycleRun | None = None,
-    own: Mapping[str, Quantity] | None = None,
+    department: Mapping[str, Quantity] | None = None,
 ) -> ChosenQuantities:
     """Choose quantities as `kshm.results.chosen.choose`.
 
@@ -26,7 +26,7 @@ def choose(
         InputError: there is no such quantity.
     """
     try:
-        return choose_keys(base, names, cycle, own)
+        return choose_keys(base, names, cycle, department)
     except UnknownNameError as error:
         close = error.problems[0].value
         hint = f"похожи: {', '.join(close)}" if close else "ключи показывает kshm solve --json"
@@ -34,13 +34,13 @@ def choose(
         raise InputError(Problem(where, "нет такой величины", hint)) from None
 
 
-def symbol_of(name: str, wanted: ChosenQuantities) -> str:
+def symbol_of(name: str, quantities: ChosenQuantities) -> str:
     """Symbol of a name as the report has it; the name itself where there is none."""
-    return wanted.quantity(name).symbol or name
+    return quantities.quantity(name).symbol or name
 
 
-def format_of(name: str, wanted: ChosenQuantities) -> str:
-    """Number format of a name; the grid's angles may be fractions of a degree."""
+def format_of(name: str, quantities: ChosenQuantities) -> str:
+    """Return the number format of a name; the grid's angles may be fractions of a degree."""
     if name.endswith("_deg") and "." in name:
         return "0.##"
-    return excel_format(wanted.quantity(name))
+    return excel_format(quantities.quantity(name))

@@ -47,24 +47,24 @@ class Sink(Protocol):
 
 @contextmanager
 def sink(
-    path: Path, suffix: str, plan: Plan, wanted: ChosenQuantities, form: CsvForm = PLAIN
+    path: Path, suffix: str, plan: Plan, quantities: ChosenQuantities, form: CsvForm = PLAIN
 ) -> Iterator[Sink]:
-    """A writer into ``path`` for one of ``SUFFIXES``.
+    """Yield a writer into ``path`` for one of ``SUFFIXES``.
 
     Raises:
         KshmError: the suffix is none of them.
         SystemPartMissing: Parquet is asked for without its package.
     """
     if suffix == ".parquet":
-        with _parquet(path, plan, wanted) as writer:
+        with _parquet(path, plan, quantities) as writer:
             yield writer
     elif suffix == ".csv":
         with path.open("w", encoding=form.encoding, newline="") as stream:
-            yield _Csv(form, stream, plan, wanted)
+            yield _Csv(form, stream, plan, quantities)
     elif suffix == ".xlsx":
         from reports.studies.books import StudyBook
 
-        book = StudyBook(plan, wanted)
+        book = StudyBook(plan, quantities)
         try:
             yield book
         except BaseException:
@@ -76,10 +76,12 @@ def sink(
 
 
 class _Csv:
-    def __init__(self, form: CsvForm, stream: TextIO, plan: Plan, wanted: ChosenQuantities) -> None:
-        self._form, self._writer, self._names = form, form.writer(stream), wanted.names
-        about = _descriptions(plan, wanted)
-        heads = form.heads([*about, ERROR], lambda key: about.get(key, ("", ""))[1])
+    def __init__(
+        self, form: CsvForm, stream: TextIO, plan: Plan, quantities: ChosenQuantities
+    ) -> None:
+        self._form, self._writer, self._names = form, form.writer(stream), quantities.names
+        descriptions = _descriptions(plan, quantities)
+        heads = form.heads([*descriptions, ERROR], lambda key: descriptions.get(key, ("", ""))[1])
         self._writer.writerows(heads)
 
     def write(self, chunk: Chunk) -> None:
@@ -91,14 +93,14 @@ class _Csv:
             self._writer.writerow([*map(number, inputs), *texts, neutralised(error)])
 
 
-def _descriptions(plan: Plan, wanted: ChosenQuantities) -> dict[str, tuple[str, str]]:
+def _descriptions(plan: Plan, quantities: ChosenQuantities) -> dict[str, tuple[str, str]]:
     """Title and unit of every column of numbers."""
     axes = {axis.key: (axis.title, axis.unit) for axis in plan.axes}
-    return axes | {name: described(name, wanted) for name in wanted.names}
+    return axes | {name: described(name, quantities) for name in quantities.names}
 
 
 @contextmanager
-def _parquet(path: Path, plan: Plan, wanted: ChosenQuantities) -> Iterator[Sink]:
+def _parquet(path: Path, plan: Plan, quantities: ChosenQuantities) -> Iterator[Sink]:
     try:
         import pyarrow as pa
         from pyarrow import parquet
@@ -108,7 +110,7 @@ def _parquet(path: Path, plan: Plan, wanted: ChosenQuantities) -> Iterator[Sink]
         ) from None
     numbers = [
         pa.field(name, pa.float64(), metadata={"title": title, "unit": unit})
-        for name, (title, unit) in _descriptions(plan, wanted).items()
+        for name, (title, unit) in _descriptions(plan, quantities).items()
     ]
     schema = pa.schema([*numbers, pa.field(ERROR, pa.string())])
     with parquet.ParquetWriter(path, schema) as writer:
@@ -192,18 +194,18 @@ def sweep(
     model = loaded.model
     plan = make_plan(model, source.name, vary, pairwise=pairwise)
     engine, cycle = engine_and_cycle(model)
-    own = {key: about for key, (about, value) in own_numbers(model).scalars.items()
+    department = {key: about for key, (about, value) in own_numbers(model).scalars.items()
            if not isinstance(value, str)}  # fmt: skip
-    wanted = choose(solve_batch([engine]), quantities, cycle, own)
+    chosen = choose(solve_batch([engine]), quantities, cycle, department)
     size = options.chunk or chunk_size(engine)
-    journal = Journal(target, Making(plan, wanted, size), resume=options.resume)
-    study = _Running(plan, wanted, size, options, journal)
+    journal = Journal(target, Making(plan, chosen, size), resume=options.resume)
+    study = _Running(plan, chosen, size, options, journal)
     try:
         with (
             Progress("Исследование") as progress,
             atomic_path(target) as temporary,
             _disk_errors(target),
-            sink(temporary, suffix, plan, wanted, options.form) as out,
+            sink(temporary, suffix, plan, chosen, options.form) as out,
         ):
             study.run(out, progress)
     except BaseException as error:
@@ -228,10 +230,10 @@ class _Running:
     """A study under way: finished chunks of an earlier run first, then the others."""
 
     def __init__(
-        self, plan: Plan, wanted: ChosenQuantities, size: int, options: SweepOptions,
+        self, plan: Plan, quantities: ChosenQuantities, size: int, options: SweepOptions,
         journal: Journal,
     ) -> None:  # fmt: skip
-        self.plan, self.wanted, self.size, self.options = plan, wanted, size, options
+        self.plan, self.wanted, self.size, self.options = plan, quantities, size, options
         self.journal = journal
         self.done = self.failed = 0
         self.first_error = ""

@@ -127,7 +127,7 @@ class Book:
         return tuple(checked for checked in self.tables if checked.table.source == source)
 
     def counts_of(self, source: str) -> Counts:
-        """Counts of a source."""
+        """Return counts of a source."""
         return count(check for checked in self.of(source) for check in checked.checks)
 
 
@@ -137,14 +137,14 @@ def count(checks: Iterable[Check]) -> Counts:
     numbers = [check for check in listed if check.is_number]
     agreeing = [check for check in numbers if check.verdict is Verdict.AGREES]
     by_verdict = {kind: sum(check.verdict is kind for check in numbers) for kind in Verdict}
-    places = [check for check in listed if check.cell.is_place]
+    cells = [check for check in listed if check.cell.is_place]
     return Counts(
         total=len(numbers),
         close=sum(check.units is None or check.units <= _CLOSE for check in agreeing),
         by_verdict=by_verdict,
         signs=_apart(check for check in listed if check.is_sign),
-        placed=_apart(check for check in places if check.cell.text),
-        empty=_apart(check for check in places if not check.cell.text),
+        placed=_apart(check for check in cells if check.cell.text),
+        empty=_apart(check for check in cells if not check.cell.text),
         new=sum(check.verdict is Verdict.NEW for check in listed),
     )
 
@@ -162,7 +162,7 @@ def validate() -> Book:
 
 
 def printed(check: Check) -> str:
-    """The printed text with a decimal comma, a real minus and minutes of angles."""
+    """Return the printed text with a decimal comma, a real minus and minutes of angles."""
     text = check.cell.text
     if check.printed is None:
         return _plain(text) or EMPTY
@@ -182,7 +182,7 @@ def ours(check: Check) -> str:
 
 
 def value(number: float, like: Number) -> str:
-    """A number with a digit more than a printed one."""
+    """Return a number with a digit more than a printed one."""
     digits = like.decimals + _OUR_EXTRA
     if not like.minutes:
         return fixed(number, digits, group=False)
@@ -202,7 +202,7 @@ def deviation(check: Check) -> str:
 
 
 def tolerance(check: Check) -> str:
-    """Allowed deviation in the unit of the print."""
+    """Return allowed deviation in the unit of the print."""
     if check.tolerance is None or check.printed is None:
         return "—"
     if check.printed.unit < 10.0**-check.printed.decimals:
@@ -221,7 +221,7 @@ def verdict(check: Check) -> str:
 
 
 def apart(counts: Counts) -> str:
-    """What is checked besides the numbers, in a sentence."""
+    """Return what is checked besides the numbers, in a sentence."""
     signs, placed, empty = (
         f"{all_} (совпадает {agree})" for all_, agree in (counts.signs, counts.placed, counts.empty)
     )
@@ -232,7 +232,7 @@ def apart(counts: Counts) -> str:
 
 
 def row_head(check: Check) -> str:
-    """What a row is: the number in running text, the labelled row of a table."""
+    """Return what a row is: the number in running text, the labelled row of a table."""
     if check.cell.what:
         unit = f", {check.cell.unit}" if check.cell.unit else ""
         return check.cell.what + unit

@@ -34,7 +34,7 @@ class Number:
 
 
 def number(text: str) -> Number | None:
-    """What a printed text says; None where it is no number (a sign, a slip of the press)."""
+    """Return what a printed text says; None where it is no number (a sign, a slip of the press)."""
     bound = text.startswith(_UP_TO)
     text = text.removeprefix(_UP_TO)
     if match := _MINUTES.fullmatch(text):
@@ -78,7 +78,7 @@ def rows_of(name: str) -> tuple[dict[str, str], ...]:
 
 
 def cells_of(table: str) -> Iterator[PrintedCell]:
-    """Printed cells of a table file; its first column labels the rows."""
+    """Yield printed cells of a table file; its first column labels the rows."""
     for row in rows_of(table):
         label, *_ = row.values()
         for column, text in list(row.items())[1:]:
@@ -87,7 +87,7 @@ def cells_of(table: str) -> Iterator[PrintedCell]:
 
 
 def text_of(table: str) -> Iterator[PrintedCell]:
-    """Printed numbers of a section of running text."""
+    """Yield printed numbers of a section of running text."""
     for row in rows_of("text"):
         if row["table"] == table:
             units = float(row["units"])
@@ -95,10 +95,10 @@ def text_of(table: str) -> Iterator[PrintedCell]:
 
 
 def outputs_of(table: str) -> Iterator[PrintedCell]:
-    """Printed outputs of the program: path of the number in the cycle, value."""
-    about = {quantity.key: quantity for quantity in OUTPUTS}
+    """Yield printed outputs of the program: path of the number in the cycle, value."""
+    quantities = {quantity.key: quantity for quantity in OUTPUTS}
     for row in rows_of(table):
-        quantity = about[row["key"]]
+        quantity = quantities[row["key"]]
         yield PrintedCell(row["key"], "value", row["value"], quantity.title, quantity.unit)
 
 
@@ -111,7 +111,7 @@ def window_cells(table: str) -> Iterator[PrintedCell]:
 
 
 def force_cells(table: str) -> Iterator[PrintedCell]:
-    """The one force of each row of a wear table."""
+    """Yield the one force of each row of a wear table."""
     for row in rows_of(table):
         label, *texts = row.values()
         if label.isdigit():
@@ -143,7 +143,7 @@ class PrintTolerance:
     why: str = "половина последнего знака"
 
     def of(self, cell: PrintedCell, printed: Number) -> float:
-        """Allowed distance of a cell."""
+        """Return allowed distance of a cell."""
         if self.absolute is not None:
             return self.absolute
         units = self.units
@@ -254,7 +254,7 @@ def check_table(table: Table) -> tuple[Check, ...]:
 def check_cell(table: Table, cell: PrintedCell, ours: Ours) -> Check:
     """One printed cell with its verdict."""
     printed = number(cell.text)
-    known = errata().get((table.id, cell.row, cell.column))
+    misprint = errata().get((table.id, cell.row, cell.column))
     deviation = tolerance = None
     if printed is not None and not isinstance(ours, str):
         deviation = ours - printed.value
@@ -265,15 +265,15 @@ def check_cell(table: Table, cell: PrintedCell, ours: Ours) -> Check:
     else:
         agrees = isinstance(ours, str) and sign(cell.text) == ours
     verdict, reason, value = Verdict.AGREES, "", ""
-    if known is not None and not agrees:
-        verdict, reason, value = known.verdict, known.reason, known.value
-    elif known is not None:
-        verdict, reason = Verdict.NEW, f"записано отклонение, но число сходится: {known.reason}"
+    if misprint is not None and not agrees:
+        verdict, reason, value = misprint.verdict, misprint.reason, misprint.value
+    elif misprint is not None:
+        verdict, reason = Verdict.NEW, f"записано отклонение, но число сходится: {misprint.reason}"
     elif not agrees:
         verdict, reason = Verdict.NEW, "отклонение без записанной причины"
     return Check(table, cell, printed, ours, deviation, tolerance, verdict, reason, value)
 
 
 def sign(text: str) -> str:
-    """A printed sign whatever dash the press took."""
+    """Return a printed sign whatever dash the press took."""
     return text.replace("–", "-").replace("—", "-").strip()

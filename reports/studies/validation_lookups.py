@@ -41,7 +41,7 @@ _MULTIPLE = re.compile(r"(\d*)p(\d)")
 
 @lru_cache(maxsize=8)
 def solution(sample: str, step_deg: int | None = None) -> Solution:
-    """A sample solved, on its own or another grid of angles."""
+    """Return a sample solved, on its own or another grid of angles."""
     engine, run = engine_and_cycle(load_toml(samples_dir() / f"{sample}.toml").model)
     if step_deg is not None:
         engine = replace(engine, step_deg=step_deg)
@@ -49,7 +49,7 @@ def solution(sample: str, step_deg: int | None = None) -> Solution:
 
 
 def on_grid(label: str, step: float = DINN_STEP) -> float:
-    """The point of the program's grid that a rounded row label stands for."""
+    """Return the point of the program's grid that a rounded row label stands for."""
     return float(np.floor(float(label) / step + 0.5) * step)
 
 
@@ -66,18 +66,20 @@ def by_angle(
         rename: printed column → ours, where they differ.
         step: grid that the printed labels are rounded from.
     """
-    places = {round(float(angle), 6): index for index, angle in enumerate(columns["phi_deg"])}
+    rows_by_angle = {
+        round(float(angle), 6): index for index, angle in enumerate(columns["phi_deg"])
+    }
 
     def look(row: str, column: str) -> Ours:
         angle = float(row) if step is None else on_grid(row, step)
-        value = columns[(rename or {}).get(column, column)][places[angle]]
+        value = columns[(rename or {}).get(column, column)][rows_by_angle[angle]]
         return value if isinstance(value, str) else float(value) + 0.0
 
     return look
 
 
 def printed_inputs() -> CycleInputs:
-    """The inputs of the listing as printed, each by its code, in SI."""
+    """Return the inputs of the listing as printed, each by its code, in SI."""
     codes = {row["code"]: float(row["value"]) for row in rows_of("app2_inputs")}
     si: dict[str, Any] = {q.key: codes[q.code] * q.scale for q in INPUTS}
     boost = {key.removeprefix("boost."): si.pop(key) for key in list(si) if "boost." in key}
@@ -87,12 +89,12 @@ def printed_inputs() -> CycleInputs:
 
 @lru_cache(maxsize=1)
 def listing() -> Cycle:
-    """The cycle of the listing with the program's peculiarities."""
+    """Return the cycle of the listing with the program's peculiarities."""
     return cycle(printed_inputs(), Listing())
 
 
 def minutes(radians: float) -> float:
-    """An angle in minutes, as numbers with minutes are compared."""
+    """Return an angle in minutes, as numbers with minutes are compared."""
     return 60 * float(np.degrees(radians))
 
 
@@ -128,7 +130,7 @@ def third_journal() -> Lookup:
 
 
 def pin_forces() -> Lookup:
-    """Forces of table 14 of the engine of appendix 1."""
+    """Return forces of table 14 of the engine of appendix 1."""
     return by_angle(solution("gots-diesel").columns["crankpin"], rename={"R_MPa": "Rpin_MPa"})
 
 
@@ -145,11 +147,11 @@ def wear_windows() -> Lookup:
     )
     loads = ray_loads(up, against, _RAYS)
     sums = ray_sums(up, against, size, _RAYS)
-    places = {row["phi_deg"]: index for index, row in enumerate(rows)}
+    indices = {row["phi_deg"]: index for index, row in enumerate(rows)}
 
     def look(row: str, column: str) -> Ours:
         ray = keys.index(column)
-        value = sums[ray] if row == "sum" else loads[places[row], ray]
+        value = sums[ray] if row == "sum" else loads[indices[row], ray]
         return float(value) if value else ""
 
     return look
@@ -162,13 +164,13 @@ def _middle(rays: list[int]) -> float:
 
 
 def cycle_outputs() -> Lookup:
-    """Outputs of the listing of appendix 2."""
+    """Return outputs of the listing of appendix 2."""
     printout = listing()
     return lambda row, _column: value_of(printout, row)
 
 
 def cycle_diagram() -> Lookup:
-    """Indicator diagram of appendix 2."""
+    """Return indicator diagram of appendix 2."""
     diagram = indicator_diagram(listing())
     return by_angle(
         {

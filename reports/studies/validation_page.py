@@ -138,7 +138,7 @@ class _Setter:
 
 
 def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
-    """The whole page with style sheet and fonts inside."""
+    """Return the whole page with style sheet and fonts inside."""
     from reports.document.page.render import environment
 
     setter = _Setter()
@@ -161,7 +161,7 @@ def validation_page(book: Book, *, media: Literal["print", "screen"]) -> str:
 
 
 def count_cells(counts: Counts) -> list[str]:
-    """Counts in the columns of the summaries."""
+    """Return counts in the columns of the summaries."""
     numbers = [counts.total, counts.agrees, counts.close]
     numbers += [counts.by_verdict[kind] for kind in _KINDS]
     return [str(number) for number in numbers]
@@ -187,11 +187,11 @@ def _by_table(book: Book) -> TableBlock:
 
 def _list(checks: tuple[Check, ...], *, with_column: bool = False) -> TableBlock:
     """One check a row: what, book, ours, deviation, tolerance, verdict."""
-    what = [TableColumn("Строка", 0.9), TableColumn("Столбец", 1.4)] if with_column else [
+    heads = [TableColumn("Строка", 0.9), TableColumn("Столбец", 1.4)] if with_column else [
         TableColumn("Число", 3.0, text=True)
     ]  # fmt: skip
     columns = [
-        *what, TableColumn("В книге", 1.3), TableColumn("У нас", 1.4),
+        *heads, TableColumn("В книге", 1.3), TableColumn("У нас", 1.4),
         TableColumn("Отклонение", 1.7),
         TableColumn("Допуск", 1.2), TableColumn("Вердикт", 3.4, text=True),
     ]  # fmt: skip
@@ -213,7 +213,7 @@ def _list_row(check: Check, *, with_column: bool) -> list[str]:
 
 
 def _lowered(text: str) -> Markup:
-    """A text whose lowered signs, which the font lacks, are real subscripts."""
+    """Return a text whose lowered signs, which the font lacks, are real subscripts."""
     parts = _LOWERED.split(text)
     return Markup("").join(
         Markup("<sub>{}</sub>").format(part.translate(_PLAIN)) if index % 2 else rich(part)
@@ -222,7 +222,7 @@ def _lowered(text: str) -> Markup:
 
 
 def _grid(checked: Checked) -> TableBlock:
-    """The table as printed, in each cell the book's number above ours."""
+    """Return the table as printed, in each cell the book's number above ours."""
     keys = list(dict.fromkeys(check.cell.column for check in checked.checks))
     rows: dict[str, dict[str, Check]] = {}
     for check in checked.checks:
@@ -252,7 +252,7 @@ def _cell(check: Check) -> Markup:
 
 
 def markdown(book: Book) -> str:
-    """The page as Markdown; the same data give the same text."""
+    """Return the page as Markdown; the same data give the same text."""
     return "\n".join(_lines(book)) + "\n"
 
 

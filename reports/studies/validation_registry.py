@@ -176,7 +176,7 @@ TABLES: tuple[Table, ...] = (
 
 
 def table(name: str) -> Table:
-    """A table by its id.
+    """Return a table by its id.
 
     Raises:
         KeyError: There is none.

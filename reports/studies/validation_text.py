@@ -123,7 +123,7 @@ SECTION_1_4: dict[str, Number] = {
 
 @lru_cache(maxsize=1)
 def figure_6() -> dict[str, Any]:
-    """The curves of figure 6 as the software draws them."""
+    """Return the curves of figure 6 as the software draws them."""
     raw = to_mapping(load_toml(samples_dir() / "gots-p3.toml").model)
     raw["reference"] = {}
     return dict(solve(to_engine(load_mapping(raw, source="6").model)).columns["ref_fig6"])
@@ -223,7 +223,7 @@ SECTION_2_9: dict[str, Number] = {
 
 
 def _input(*path: str | int) -> float:
-    """An input of the run that gives table П4.1."""
+    """Return an input of the run that gives table П4.1."""
     raw: Any = to_mapping(load_toml(samples_dir() / "gots-diesel.toml").model)
     for name in path:
         raw = raw[name]

@@ -60,12 +60,12 @@ class CycleRange:
 
 
 def section_of(model: InputFile) -> CycleSection | None:
-    """The [cycle] section when the gas comes from it."""
+    """Return the [cycle] section when the gas comes from it."""
     return model.cycle if model.gas.source == "cycle" else None
 
 
 def cycle_stand_ins(model: InputFile) -> dict[str, str]:
-    """Inputs of [gas] and the results of the cycle that take their place."""
+    """Return inputs of [gas] and the results of the cycle that take their place."""
     return {} if section_of(model) is None else GAS_NAMES
 
 

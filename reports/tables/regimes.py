@@ -124,14 +124,14 @@ class RegimeModel:
         return frozenset(keys | ids | inputs | {"gas_points_deg", "gas_points_mpa"})
 
     def name(self, token: str) -> str:
-        """A name of the main regime as this one has it."""
+        """Return a name of the main regime as this one has it."""
         head, dot, column = token.partition(".")
         if head not in self._own:
             return token
         return f"{regime_key(head, self.number)}{dot}{column}"
 
     def part(self) -> Part:
-        """The copies with names, ids and sheets of their own; charts of copied tables alone."""
+        """Return copies with names, ids and sheets of their own; charts of copied tables alone."""
         ids = {block.id for block in self.blocks_to_copy}
         charts = (
             self._chart(chart)
@@ -284,7 +284,7 @@ def _name(model: InputFile, number: int) -> str:
 
 
 def _charts(model: InputFile) -> tuple[ChartSpec, ...]:
-    """The forces of all regimes over the crank angle, figures 23-25 laid over each other."""
+    """Return the forces of all regimes over the crank angle, figures 23-25 laid over each other."""
     tables = [(_key("P4_1", n), name) for n, name in enumerate(regime_titles(model), 1)]
     return tuple(
         ChartSpec(

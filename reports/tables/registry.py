@@ -104,7 +104,7 @@ def _mass_stand_ins(model: InputFile) -> dict[str, str]:
 
 
 def stand_ins(model: InputFile) -> dict[str, str]:
-    """Inputs that the file leaves out and the scalars that take their place."""
+    """Return inputs that the file leaves out and the scalars that take their place."""
     return {**_size_stand_ins(model), **_mass_stand_ins(model), **cycle_stand_ins(model)}
 
 

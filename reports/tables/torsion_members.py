@@ -59,7 +59,7 @@ class TrainMasses:
         return range(1, min(_MODES, self.count - self.is_free) + 1)
 
     def mass_of(self, throw: int) -> int:
-        """Number of the mass with a throw, from 1; 0 where there is none."""
+        """Return the number of the mass with a throw, from 1; 0 where there is none."""
         throws = [mass.throw for mass in self.masses]
         return throws.index(throw) + 1 if throw in throws else 0
 
@@ -81,7 +81,7 @@ class TrainMasses:
 
 
 def torsion_names(scope: Scope) -> dict[str, object]:
-    """The train, orders to draw, estimates where the file gives nothing."""
+    """Return the train, orders to draw, estimates where the file gives nothing."""
     section = scope.input.torsion
     if section is None:
         return {}

@@ -68,7 +68,7 @@ class Failed:
     reason: str
 
     def line(self) -> str:
-        """The one-line message."""
+        """Return the one-line message."""
         text = f"не выполнена проверка «{self.title}»: получено {self.value}"
         if self.reason:
             return f"{text}; причина: {self.reason}"
@@ -90,7 +90,7 @@ def checks_of(model: Model, *, department: bool = False) -> dict[str, Scalar]:
 
 
 def failed_checks(model: Model, values: Values, *, department: bool = False) -> list[Failed]:
-    """The checks that did not pass, in their order; ``department`` leaves those of own books."""
+    """Return checks that did not pass, in their order; ``department`` leaves those of own books."""
     reasons = reasons_of(model.input)
     names = {scalar.key for scalar in checks_of(model, department=department).values()}
     return [
@@ -133,5 +133,5 @@ def reasons_of(model: InputFile) -> dict[str, str]:
 
 
 def check_value(value: float) -> str:
-    """What a check found, as it is printed."""
+    """Return what a check found, as it is printed."""
     return fixed(value, 2 if abs(value) >= 1 else 4)

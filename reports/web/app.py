@@ -44,14 +44,14 @@ SESSION_S = 12 * 3600
 
 
 async def page(request: Request, name: str, root: str = ".") -> Response:
-    """A page whose script lies beside this module; ``root`` leads from its address."""
+    """Return a page whose script lies beside this module; ``root`` leads from its address."""
     request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
     text = Template((STATIC / "page.html").read_text(encoding="utf-8"))
     return HTMLResponse(text.substitute(name=name, root=root))
 
 
 async def choices(_: Request) -> Data:
-    """What may be chosen before there is an engine."""
+    """Return what may be chosen before there is an engine."""
     chapters = [chapter.colour for chapter in contents_of().chapters]
     return {"samples": engine.samples(), "layouts": LAYOUTS, "strokes": STROKES, "kinds": KINDS,
             "fields": engine.FORM, "shapes": engine.SHAPES,
@@ -60,16 +60,16 @@ async def choices(_: Request) -> Data:
 
 
 def create_app(settings: Settings) -> Guard:
-    """The whole application, the guard before it."""
+    """Return the whole application, the guard before it."""
     private_dir(settings.data, SECRET)
     for path in (*settings.data.glob("book-*"), *settings.data.rglob(".kshm-*")):  # half written
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
     # What makes links unguessable, kept beside the files.
     secret, count = kept_secret(settings.data / SECRET), settings.workers or processors()
     books = settings.own_books
-    own = {OWNER: books}
-    jobs = Jobs(settings.data / "jobs", secret, settings.dask, count, own)
-    classes = Classes(settings.data / "classes", secret, settings.dask, own)
+    folders = {OWNER: books}
+    jobs = Jobs(settings.data / "jobs", secret, settings.dask, count, folders)
+    classes = Classes(settings.data / "classes", secret, settings.dask, folders)
 
     @contextlib.asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:

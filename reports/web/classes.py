@@ -46,7 +46,7 @@ def token_of(secret: bytes) -> str:
 
 
 def _digest(entry: object) -> str:
-    """What is kept of a session: who reads the file cannot enter with it."""
+    """Return what is kept of a session: who reads the file cannot enter with it."""
     return hashlib.sha256(str(entry).encode()).hexdigest()
 
 
@@ -80,9 +80,9 @@ class Classes(Queue):
         ]
 
     async def _login(self, request: Request) -> None:
-        given = str((await body(request)).get("token", "")).strip().encode("utf-8", "replace")
+        token = str((await body(request)).get("token", "")).strip().encode("utf-8", "replace")
         # The right key is never kept out, whoever tries wrong ones beside it.
-        if not hmac.compare_digest(token_of(self.secret).encode(), given):
+        if not hmac.compare_digest(token_of(self.secret).encode(), token):
             if not self.tries.allows(caller(request)):
                 raise HTTPException(429, "слишком много попыток; подождите минуту")
             raise HTTPException(403, "неверный ключ; его печатает команда kshm serve")
@@ -108,7 +108,7 @@ class Classes(Queue):
         raise HTTPException(404, "нет такой группы")
 
     def _inside(self, request: Request) -> Path:
-        """The class that a request names, else the folder of all: for the instructor alone."""
+        """Return class that a request names, else the folder of all: for the instructor alone."""
         if _digest(request.session.get("teacher")) not in self._entered():
             raise HTTPException(403, "войдите с ключом преподавателя")
         name = request.path_params.get("name")
@@ -196,11 +196,14 @@ class Classes(Queue):
         ]  # fmt: skip
 
     def _address(self, request: Request) -> str:
-        """The address of this server as a telephone in the same network knows it."""
-        settings, own = request.app.state.settings, f"{request.url.scheme}://{request.url.netloc}"
-        is_local = urlsplit(own).hostname in ("127.0.0.1", "localhost", "::1")
+        """Return the address of this server as a telephone in the same network knows it."""
+        settings, origin = (
+            request.app.state.settings,
+            f"{request.url.scheme}://{request.url.netloc}",
+        )
+        is_local = urlsplit(origin).hostname in ("127.0.0.1", "localhost", "::1")
         printed = next(iter(settings.addresses), "") if is_local else ""
-        return str(settings.public or printed or own).rstrip("/")
+        return str(settings.public or printed or origin).rstrip("/")
 
     async def _links(self, request: Request) -> Response:
         folder, stream = self._inside(request), io.StringIO(newline="")
@@ -215,7 +218,7 @@ class Classes(Queue):
         return Response(stream.getvalue().encode("utf-8-sig"), headers=heads, media_type="text/csv")
 
     async def _code(self, request: Request) -> Response:
-        """The link of a student as a QR code, of number 0 the address itself."""
+        """Return the link of a student as a QR code, of number 0 the address itself."""
         import segno
 
         number, address = request.path_params["number"], f"{self._address(request)}/"
@@ -268,15 +271,15 @@ class Classes(Queue):
             book = next(book for book in register.books if book.number == number)
         except (BadData, StopIteration):
             raise HTTPException(404, "нет такой страницы") from None
-        about, work = read_json(folder / "about.json"), folder / "works" / book.file
-        rows = read_json(folder / "results/summary.json").get("rows", ()) if about["open"] else ()
+        record, work = read_json(folder / "about.json"), folder / "works" / book.file
+        rows = read_json(folder / "results/summary.json").get("rows", ()) if record["open"] else ()
         row: Data = next((row for row in rows if row["number"] == number), {})
         files = {"book": folder / "issued" / book.folder / book.file,
                  "page": folder / "results" / row.get("page", "")}  # fmt: skip
         entry = {
-            "title": about["title"], "student": book.student.full, "file": book.file,
-            **_handed(work, about.get("deadline") or ""), "open": bool(row.get("page")),
-            "deadline": about.get("deadline") or "",
+            "title": record["title"], "student": book.student.full, "file": book.file,
+            **_handed(work, record.get("deadline") or ""), "open": bool(row.get("page")),
+            "deadline": record.get("deadline") or "",
             "points": row.get("points"), "status": row.get("status", ""),
         }  # fmt: skip
         limit, tried = register.rubric.attempts.tries, len(entry["earlier"]) + entry["handed"]
@@ -284,13 +287,13 @@ class Classes(Queue):
         closed = ""
         if limit and tried >= limit:
             closed = f"попытки кончились: {tried} из {limit}"
-        elif about["open"] and not about.get("late"):
+        elif record["open"] and not record.get("late"):
             closed = (
                 "страницы проверки уже открыты: новая книга не засчитывается, пока преподаватель "
                 "не разрешит"
             )
         # After the deadline nobody learns how his work stands.
-        early = limit and not _is_past(about.get("deadline") or "")
+        early = limit and not _is_past(record.get("deadline") or "")
         return Shown(
             {**entry, "closed": closed, "tries": [tried, limit]}, files, {"work": work},
             closed=closed, tries=str(folder / "issued") if early else "",
@@ -313,5 +316,5 @@ def _handed(work: Path, until: str) -> Data:
 
 
 def _bytes(text: object) -> bytes:
-    """A file that has come as one character a byte."""
+    """Return a file that has come as one character a byte."""
     return str(text or "").encode("latin-1", "replace")

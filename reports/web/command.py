@@ -91,9 +91,9 @@ def _alone(folder: Path) -> Iterator[None]:
 
                 fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            what = "папку уже держит другой сервер"
+            problem = "папку уже держит другой сервер"
             hint = "остановите его или укажите другую папку"
-            raise KshmError(f"--data {folder}: {what}; {hint}") from None
+            raise KshmError(f"--data {folder}: {problem}; {hint}") from None
         yield
 
 
@@ -124,15 +124,15 @@ def _served(
     wide = host in ("0.0.0.0", "::")
     hosts = (socket.gethostname(), "*") if wide else (host,)
     names = _own_addresses() if wide else [host]
-    shown = [f"{'https' if certificate else 'http'}://{f'[{name}]' if ':' in name else name}:{port}"
+    urls = [f"{'https' if certificate else 'http'}://{f'[{name}]' if ':' in name else name}:{port}"
              for name in names]  # fmt: skip
-    shown = [public.rstrip("/")] if public else shown
-    settings = Settings(folder.resolve(), hosts, public, dask, books=books, addresses=tuple(shown))
+    urls = [public.rstrip("/")] if public else urls
+    settings = Settings(folder.resolve(), hosts, public, dask, books=books, addresses=tuple(urls))
     app = create_app(settings)
     token = token_of(kept_secret(folder / SECRET))
-    click.echo(f"Страница: {shown[0]}/")
-    click.echo(f"Преподавателю: {shown[0]}/teacher#{token}")
-    for address in shown[1:]:
+    click.echo(f"Страница: {urls[0]}/")
+    click.echo(f"Преподавателю: {urls[0]}/teacher#{token}")
+    for address in urls[1:]:
         click.echo(f"Ещё адрес: {address}/")
     if wide and not certificate and not public:
         click.echo("Внимание: соединения не шифруются: ключ, ссылки и работы видны всем в этой "
@@ -140,7 +140,7 @@ def _served(
     if wide and sys.stdout.isatty():
         import segno
 
-        segno.make(f"{shown[0]}/", micro=False).terminal(compact=True)
+        segno.make(f"{urls[0]}/", micro=False).terminal(compact=True)
     click.echo("Остановить: Ctrl-C", err=True)
     kind = ProxyConnection if public else Connection
     config = uvicorn.Config(
@@ -160,10 +160,10 @@ def _own_addresses() -> list[str]:
         way.connect(("192.0.2.1", 9))  # nothing is sent: the system only chooses the way
         names.append(way.getsockname()[0])
     with contextlib.suppress(OSError):
-        known = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)
-        names += [str(info[4][0]) for info in known]
-    own = [name for name in dict.fromkeys(map(str, names)) if not name.startswith("127.")]
-    return [*own, "127.0.0.1"]
+        entries = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)
+        names += [str(info[4][0]) for info in entries]
+    addresses = [name for name in dict.fromkeys(map(str, names)) if not name.startswith("127.")]
+    return [*addresses, "127.0.0.1"]
 
 
 def _bound(host: str, port: int) -> socket.socket:

@@ -135,8 +135,8 @@ class Guard(BaseHTTPMiddleware):
         super().__init__(app)
         public = urlsplit(settings.public)
         self.public = f"{public.scheme}://{public.netloc}"
-        known = ("127.0.0.1", "localhost", "::1", *settings.hosts, public.hostname or "")
-        self.hosts = {name.lower() for name in known if name}
+        hosts = ("127.0.0.1", "localhost", "::1", *settings.hosts, public.hostname or "")
+        self.hosts = {name.lower() for name in hosts if name}
         self.rate = Rate(10 * settings.per_s, 10)
 
     async def dispatch(self, request: Request, call_next: RequestResponseEndpoint) -> Response:
@@ -160,9 +160,9 @@ class Guard(BaseHTTPMiddleware):
             return None
         if request.method != "POST":
             return 405, "нет такого действия"
-        own = {f"{scheme}://{headers['host']}" for scheme in ("http", "https")} | {self.public}
+        origins = {f"{scheme}://{headers['host']}" for scheme in ("http", "https")} | {self.public}
         foreign = headers.get("sec-fetch-site", "same-origin") != "same-origin"
-        if foreign or MARK not in headers or headers.get("origin", self.public) not in own:
+        if foreign or MARK not in headers or headers.get("origin", self.public) not in origins:
             return 403, "запрос с чужой страницы"
         if not headers.get("content-type", "").startswith(_KINDS):
             return 415, "неверный вид данных"
@@ -177,7 +177,7 @@ class Guard(BaseHTTPMiddleware):
 
 
 def caller(request: Request) -> str:
-    """The address from which a request comes."""
+    """Return the address from which a request comes."""
     return request.client.host if request.client else ""
 
 
@@ -187,7 +187,7 @@ def visitor(request: Request) -> str:
 
 
 def public_words(text: str) -> str:
-    """A message without the folders of the server."""
+    """Return a message without the folders of the server."""
     return _FOLDERS.sub("", text)
 
 
@@ -202,7 +202,7 @@ def refusal(
 
 
 async def failed(_: Request, error: Exception) -> Response:
-    """What becomes of an error."""
+    """Return what becomes of an error."""
     if isinstance(error, OSError | OutputError):
         return refusal(507, "на сервере не удаётся записать файл; сообщите тому, кто его держит")
     if isinstance(error, KshmError):
@@ -216,11 +216,11 @@ async def failed(_: Request, error: Exception) -> Response:
     return refusal(500, "внутренняя ошибка: повторите; если останется, сообщите, что вы делали")
 
 
-def route(method: str, path: str, door: Door, *given: Any) -> Route:  # noqa: ANN401
+def route(method: str, path: str, door: Door, *options: Any) -> Route:  # noqa: ANN401
     """Route that passes a request and given values to a handler; data go as JSON."""
 
     async def answer(request: Request) -> Response:
-        answer_body = await door(request, *given)
+        answer_body = await door(request, *options)
         return answer_body if isinstance(answer_body, Response) else JSONResponse(answer_body or {})
 
     return Route(path, answer, methods=[method])
@@ -251,16 +251,16 @@ async def ask(
         try:
             reply: Data = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_S + seconds)
         except TimeoutError:
-            what = f"считается дольше {seconds:.0f} с: отклонено"
-            raise InputError(Problem("", what, "уменьшите расчёт или книгу")) from None
+            problem = f"считается дольше {seconds:.0f} с: отклонено"
+            raise InputError(Problem("", problem, "уменьшите расчёт или книгу")) from None
         except (Died, NeverStarted):
-            what = "не считается: не хватило памяти"
-            raise InputError(Problem("", what, "уменьшите расчёт или книгу")) from None
+            problem = "не считается: не хватило памяти"
+            raise InputError(Problem("", problem, "уменьшите расчёт или книгу")) from None
     return reply
 
 
 async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -> None:
-    """A body within its size and time; more than a share of all unfinished ones is refused."""
+    """Read a body within its size and time; refuse more than a share of all unfinished ones."""
     loop, state = asyncio.get_running_loop(), request.app.state
     began = loop.time()
     try:
@@ -278,7 +278,7 @@ async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -
 
 
 async def body(request: Request) -> Data:
-    """The JSON object of a request; InputError if it is none."""
+    """Return the JSON object of a request; InputError if it is none."""
     content: Any = None
     stream = io.BytesIO()
     await _read(request, stream, MOST_JSON, request.app.state.settings.body_s)
@@ -291,7 +291,7 @@ async def body(request: Request) -> Data:
 
 @contextlib.asynccontextmanager
 async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -> AsyncIterator[Path]:
-    """The body of a request as a file that goes with the block, unless it is moved."""
+    """Yield the body of a request as a file that goes with the block, unless it is moved."""
     state = request.app.state
     with tempfile.TemporaryDirectory(prefix="book-", dir=state.settings.data) as folder:
         path = Path(folder, name)
@@ -302,7 +302,7 @@ async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -
 
 
 async def asked(request: Request, function: Callable[..., Data], *keys: str) -> Response | Data:
-    """Handler that asks a worker with values of these keys, or the whole body."""
+    """Return handler that asks a worker with values of these keys, or the whole body."""
     data = await body(request)
     try:
         return await ask(request, function, *([data.get(key) for key in keys] or [data]))
@@ -364,9 +364,9 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, target.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
-                    own = str(job.gives["book"])
-                    await ask(request, refuse_foreign, str(file), own, seconds=BOOK_S)
-                    data = await ask(request, remarks, str(file), own, seconds=BOOK_S)
+                    book = str(job.gives["book"])
+                    await ask(request, refuse_foreign, str(file), book, seconds=BOOK_S)
+                    data = await ask(request, remarks, str(file), book, seconds=BOOK_S)
                     if job.tries:
                         data |= await ask(request, told_of_try, str(file), job.tries,
                                           seconds=BOOK_S)  # fmt: skip

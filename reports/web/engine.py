@@ -73,13 +73,13 @@ def _sample(name: str) -> Data:
 
 
 def read_toml(path: str) -> Data:
-    """The mapping of a file, as the page keeps it; InputError in the words of ``check``."""
+    """Return the mapping of a file, as the page keeps it; InputError in the words of ``check``."""
     file = Path(path)
     return {"raw": split_ranges(parsed(read_text(file), source=file.name))[0]}
 
 
 def read_book(path: str) -> Data:
-    """The input that an edited workbook holds; InputError if it is none of ours or wrong."""
+    """Return the input that an edited workbook holds; InputError if it is none of ours or wrong."""
     return {"raw": to_mapping(load_workbook_input(Path(path)).model)}
 
 
@@ -108,9 +108,9 @@ def _sheet(title: str, contents: Contents) -> tuple[str, str, str]:
     plain, _, number = title.partition(" (")
     for chapter in contents.chapters:
         for name, heading in chapter.sheets:
-            rest = title.removeprefix(name)
-            if name in (plain, title) or (rest != title and rest.strip().isdigit()):
-                more = number.rstrip(")") if name == plain else rest.strip()
+            tail = title.removeprefix(name)
+            if name in (plain, title) or (tail != title and tail.strip().isdigit()):
+                more = number.rstrip(")") if name == plain else tail.strip()
                 return title, f"{heading} {more}".strip(), chapter.title
     return title, "Прочее", "Прочее"
 
@@ -130,21 +130,21 @@ def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data
 
 
 def as_toml(raw: Mapping[str, Any]) -> Data:
-    """The commented file of an input."""
+    """Return the commented file of an input."""
     return {"text": file_text(NewEngine(to_mapping(load_remote(raw).model), {}, HEAD))}
 
 
-def fresh(wanted: Mapping[str, Any]) -> Data:
+def fresh(form: Mapping[str, Any]) -> Data:
     """A sample, an own engine or an alternative to ``raw`` by ``kshm new``; KshmError if none."""
-    given = {key: str(wanted[key]).replace(",", ".") for key in FORM if wanted.get(key)}
-    if "sample" not in wanted:
-        given["cylinders"] = repr(wanted.get("cylinders"))
-    options = [f"--{key}={value}" for key, value in given.items()]
-    base = ("исходном двигателе", lambda: load_remote(wanted["raw"]).model)
+    fields = {key: str(form[key]).replace(",", ".") for key in FORM if form.get(key)}
+    if "sample" not in form:
+        fields["cylinders"] = repr(form.get("cylinders"))
+    options = [f"--{key}={value}" for key, value in fields.items()]
+    base = ("исходном двигателе", lambda: load_remote(form["raw"]).model)
     try:
         params = new.make_context("new", options).params
         del params["output"]
-        text = new_text(**{**params, "base": base if "raw" in wanted else None})
+        text = new_text(**{**params, "base": base if "raw" in form else None})
     except click.ClickException as error:
         raise KshmError(_of_page(error_text(error))) from None
     except KshmError as error:
@@ -155,7 +155,7 @@ def fresh(wanted: Mapping[str, Any]) -> Data:
 
 
 def _of_page(words: str) -> str:
-    """A message of the command in the words of the form."""
+    """Return a message of the command in the words of the form."""
     for option, field in _WORDS.items():
         words = words.replace(option, field)
     return words

@@ -94,13 +94,16 @@ async def run(
     Returns:
         Whether it is done or failed, and what it said.
     """
-    kept = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
-    home = [str(Path(__file__).resolve().parents[2]), kept.get("PYTHONPATH", "")]
-    kept |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
-    kept |= more or {}
-    kept |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # as many jobs as processors
+    environment = {key: os.environ[key] for key in _SYSTEM if key in os.environ}
+    home = [str(Path(__file__).resolve().parents[2]), environment.get("PYTHONPATH", "")]
+    environment |= {"PYTHONPATH": os.pathsep.join(filter(None, home)), "PYTHONIOENCODING": "utf-8"}
+    environment |= more or {}
+    environment |= {
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": "1",
+    }  # as many jobs as processors
     process = await asyncio.create_subprocess_exec(
-        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=kept,
+        sys.executable, "-c", _KSHM, *arguments, cwd=folder, env=environment,
         start_new_session=True, stdin=asyncio.subprocess.PIPE,
         stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
     )  # fmt: skip
@@ -165,7 +168,7 @@ class Queue:
                 task.cancel()
 
     def put(self, name: str, files: Texts, command: Sequence[str], visitor: str = "") -> None:
-        """A command to be run in the folder of that name, beside these files."""
+        """Queue a command to be run in the folder of that name, beside these files."""
         folder = self.folder / name
         folder.mkdir(mode=0o700, exist_ok=True)
         (folder / "done.json").unlink(missing_ok=True)
@@ -177,7 +180,7 @@ class Queue:
         self._ready.release()
 
     def line(self) -> list[str]:
-        """The waiting jobs in their order: everybody's first before anybody's second."""
+        """Return the waiting jobs in their order: everybody's first before anybody's second."""
         return fair(self.waiting, (visitor for visitor, _ in self.running.values()))
 
     def about(self, name: str) -> dict[str, Any]:
@@ -203,7 +206,7 @@ class Queue:
                 done = await task
                 self.took += 0.2 * (time.monotonic() - began - self.took)
             except asyncio.CancelledError:
-                if (own := asyncio.current_task()) and own.cancelling():  # the server ends
+                if (current := asyncio.current_task()) and current.cancelling():  # the server ends
                     raise
                 shutil.rmtree(self.folder / name, ignore_errors=True)
                 del self.running[name], self.tasks[name]
@@ -246,7 +249,7 @@ class Jobs(Queue):
     pack = ("out/tables.zip", "csv", "*.csv")
 
     def add(self, files: Texts, command: Sequence[str], visitor: str, title: str = "engine") -> str:
-        """The name of a job: a command beside files; InputError where enough jobs wait already.
+        """Return name of a job: a command beside files; InputError where enough jobs wait already.
 
         ``title`` is what its files are called.
         """
@@ -260,11 +263,11 @@ class Jobs(Queue):
         if state in ("waiting", "running", "done"):
             return name
         everybody = [*self.waiting.values(), *(who for who, _ in self.running.values())]
-        own = everybody.count(visitor)
-        near = sum(address_of(who) == address_of(visitor) for who in everybody)
-        if len(self.waiting) >= MOST_WAITING or near >= MOST_NEAR or own >= MOST_OWN:
-            what = "очередь полна" if own < MOST_OWN else f"у вас уже {own} файлов в очереди"
-            raise InputError(Problem("", what, "дождитесь их"))
+        count = everybody.count(visitor)
+        neighbours = sum(address_of(who) == address_of(visitor) for who in everybody)
+        if len(self.waiting) >= MOST_WAITING or neighbours >= MOST_NEAR or count >= MOST_OWN:
+            problem = "очередь полна" if count < MOST_OWN else f"у вас уже {count} файлов в очереди"
+            raise InputError(Problem("", problem, "дождитесь их"))
         shutil.rmtree(folder, ignore_errors=True)
         self.clean()
         self.put(name, files, command, visitor)
@@ -307,7 +310,7 @@ class Jobs(Queue):
 
     def _made(self, request: Request) -> Shown:
         name = request.path_params["name"]
-        if not (about := self.about(name)):
+        if not (record := self.about(name)):
             raise HTTPException(404, "нет такого файла; закажите заново")
         files = sorted((self.folder / name / "out").glob("[!.]*"))
         title = read_json(self.folder / name / "title.json").get("title", "engine")
@@ -315,10 +318,10 @@ class Jobs(Queue):
                  else f"{title}, {path.name}" for path in files}  # fmt: skip
         sizes = [{"file": path.name, "name": names[path.name], "size": path.stat().st_size}
                  for path in files]  # fmt: skip
-        return Shown({**about, "files": sizes}, {path.name: path for path in files}, names=names)
+        return Shown({**record, "files": sizes}, {path.name: path for path in files}, names=names)
 
 
 def _file_name(raw: Mapping[str, Any]) -> str:
-    """What files of an engine are called, whatever a file system allows."""
+    """Return what files of an engine are called, whatever a file system allows."""
     name = str((raw.get("engine") or {}).get("name") or "engine")
     return re.sub(r'[\\/:*?"<>|\s\x00-\x1f]+', " ", name).strip(" .")[:80] or "engine"

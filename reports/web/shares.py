@@ -26,7 +26,7 @@ MOST_CONNECTIONS = 250  # of one address: a class may stand behind one
 
 
 def address_of(visitor: str) -> str:
-    """The address of a visitor."""
+    """Return the address of a visitor."""
     return visitor.partition("/")[0]
 
 
@@ -35,21 +35,21 @@ def fair(
 ) -> list[Any]:
     """Who waits, in the order of turns; ``spent`` is what visitor and address have had lately."""
     busy, had = [*running], spent or {}
-    own, near = Counter(busy), Counter(map(address_of, busy))
+    per_visitor, per_address = Counter(busy), Counter(map(address_of, busy))
     rank = {}
     for each, who in waiting.items():
         address = address_of(who)
-        rank[each] = own[who], had.get(who, 0), had.get(address, 0), near[address]
-        own[who] += 1
-        near[address] += 1
+        rank[each] = per_visitor[who], had.get(who, 0), had.get(address, 0), per_address[address]
+        per_visitor[who] += 1
+        per_address[address] += 1
     return sorted(waiting, key=lambda each: rank[each])
 
 
 def busy(seconds: float) -> HTTPException:
     """Refusal that says when to come again."""
     wait = max(1, math.ceil(seconds))
-    what = f"сервер занят: повторите примерно через {wait} с"
-    return HTTPException(503, what, {"retry-after": str(wait)})
+    problem = f"сервер занят: повторите примерно через {wait} с"
+    return HTTPException(503, problem, {"retry-after": str(wait)})
 
 
 class Turns:
@@ -62,8 +62,8 @@ class Turns:
         usual_s: what a turn takes until it is known.
     """
 
-    def __init__(self, at_once: int, most: int, own: int, usual_s: float) -> None:
-        self.at_once, self.most, self.own, self.took = at_once, most, own, usual_s
+    def __init__(self, at_once: int, most: int, per_person: int, usual_s: float) -> None:
+        self.at_once, self.most, self.own, self.took = at_once, most, per_person, usual_s
         self.waiting: dict[asyncio.Future[None], str] = {}
         self.running: list[str] = []
         self.spent, self._end = defaultdict[str, float](float), 0.0  # s of visitors, addresses
@@ -74,7 +74,7 @@ class Turns:
 
     @contextlib.asynccontextmanager
     async def turn(self, who: str, patience_s: float) -> AsyncIterator[None]:
-        """A turn of a visitor; HTTPException 503 where it does not come in time."""
+        """Yield a turn of a visitor; HTTPException 503 where it does not come in time."""
         if [*self.waiting.values(), *self.running].count(who) >= self.own:
             raise busy(self.took * self.own / self.at_once)
         ticket = asyncio.get_running_loop().create_future()

@@ -44,7 +44,7 @@ _BELOW = {"BodyText": "BodyAfterTable", "Flush": "FlushAfterTable"}
 def table_of(
     lines: Lines, source: HtmlElement, width: int, continued: Sequence[Element] = ()
 ) -> Element:
-    """A data table.
+    """Return a data table.
 
     Args:
         lines: what writes the content of cells.
@@ -73,7 +73,7 @@ def table_of(
 
 
 def frame_of(style: str, widths: Sequence[int], indent: int = 0) -> Element:
-    """A table of fixed widths without rows [twips]."""
+    """Return a table of fixed widths without rows [twips]."""
     properties = w("tblPr", w("tblStyle", val=style), w("tblW", w=sum(widths), type="dxa"),
               *([w("tblInd", w=indent, type="dxa")] if indent else []),
               w("tblLayout", type="fixed"), w("tblLook", val="0000"))  # fmt: skip
@@ -83,7 +83,7 @@ def frame_of(style: str, widths: Sequence[int], indent: int = 0) -> Element:
 def table_cell(
     width: int, content: Sequence[Element], *more: Element, middle: bool = True
 ) -> Element:
-    """A cell with its paragraphs; ``more`` are further properties in the schema's order."""
+    """Return a cell with its paragraphs; ``more`` are further properties in the schema's order."""
     properties = w("tcPr", w("tcW", w=width, type="dxa"), *more)
     if middle:
         properties.append(w("vAlign", val="center"))
@@ -91,7 +91,7 @@ def table_cell(
 
 
 def _continued(words: Sequence[Element], widths: Sequence[int]) -> Element:
-    """A row of the heading without rules."""
+    """Return a row of the heading without rules."""
     bare = w("tcBorders", *(w(side, val="nil") for side in ("top", "left", "right")))
     properties = w("trPr", w("cantSplit"), w("trHeight", val=twips(CONTINUED_MM), hRule="exact"),
               w("tblHeader"))  # fmt: skip
@@ -137,7 +137,7 @@ def _found(column: HtmlElement) -> re.Match[str]:
 
 
 def stamp_table(lines: Lines, source: HtmlElement, indent: int) -> Element:
-    """A title block by ГОСТ 2.104: widths in millimetres, cells over several rows and columns.
+    """Return title block by ГОСТ 2.104: widths in millimetres, cells over several rows and columns.
 
     Args:
         lines: what writes the content of cells.
@@ -177,7 +177,7 @@ def _stamp_cells(
 
 
 def _sized(runs: list[Element], source: HtmlElement) -> list[Element]:
-    """Runs in the type size of their cell."""
+    """Return runs in the type size of their cell."""
     match = re.search(r"font-size:([\d.]+)pt", source.get("style", ""))
     for piece in runs if match else []:
         properties = piece.find(f"{{{piece.nsmap['w']}}}rPr")
@@ -237,7 +237,7 @@ class Blocks:
             yield from self._division(element, names, usual)
 
     def _division(self, element: HtmlElement, names: list[str], usual: str) -> Iterator[Element]:
-        """A ``div`` or ``section`` by its class."""
+        """Yield a ``div`` or ``section`` by its class."""
         special: dict[str, Callable[[HtmlElement], Iterator[Element]]] = {
             "eq": self._formula, "where": self._where, "tcap": self._caption, "toc": self._contents,
         }  # fmt: skip
@@ -293,7 +293,7 @@ class Blocks:
             yield paragraph("FigureCaption", self.lines.runs(caption))
 
     def _caption(self, element: HtmlElement) -> Iterator[Element]:
-        """A table's caption; that of a further part names the same number."""
+        """Yield a table's caption; that of a further part names the same number."""
         anchor, number = element.get("id"), "".join(element.find("span").itertext())
         if anchor:
             self._table = bookmark_name(anchor)
@@ -318,7 +318,7 @@ class Blocks:
         return rectangle(area, 1000 + self._covers, "Начало таблицы", line=False)
 
     def _formula(self, element: HtmlElement) -> Iterator[Element]:
-        """A displayed formula line by line; a numbered one in a row without rules."""
+        """Yield a displayed formula line by line; a numbered one in a row without rules."""
         end = "".join(element.find("span").itertext()).strip()
         sources = [s.get("data-tex") for s in element.iter("span") if s.get("data-tex")]
         lines = [
@@ -370,7 +370,7 @@ def _is_table(element: Element) -> bool:
 
 
 def _moved_down(block: Element) -> None:
-    """A paragraph after a table takes the style with room above."""
+    """Give a paragraph after a table the style with room above."""
     style = block.find(f"{{{block.nsmap['w']}}}pPr/{{{block.nsmap['w']}}}pStyle")
     if style is not None:
         key = f"{{{block.nsmap['w']}}}val"

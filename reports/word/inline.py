@@ -62,7 +62,7 @@ def _text(run: Element) -> str:
 
 
 def _runs(words: Element) -> list[Element]:
-    """The runs of a field from its beginning to its end."""
+    """Return the runs of a field from its beginning to its end."""
     parent = words.getparent()
     begin = parent.getprevious()
     runs = [begin]
@@ -80,7 +80,7 @@ class Lines:
     pages: int = 0  # of the whole file as estimated
 
     def runs(self, element: HtmlElement, looks: Looks = frozenset()) -> list[Element]:
-        """The content of an element as runs, without blanks at its ends."""
+        """Return the content of an element as runs, without blanks at its ends."""
         pieces = self._inside(element, looks)
         texts = [part for piece in pieces for part in piece.iter(*_TEXTS)]
         if texts:
@@ -144,7 +144,7 @@ class Lines:
         return self._inside(child, looks | {"u"} if name == "said" else looks)
 
     def number(self, element: HtmlElement, looks: Looks) -> list[Element]:
-        """The number of a thing as a field, within the bookmark that references show."""
+        """Return the number of a thing as a field, within the bookmark that references show."""
         anchor = next((a.get("id") for a in element.iterancestors() if a.get("id")), "")
         number_text = (element.text or "").strip()
         kind = SEQUENCES.get(anchor.partition("-")[0])
@@ -154,7 +154,7 @@ class Lines:
         return self.bookmarks.around(bookmark_name(anchor), self._counted(kind, match, looks))
 
     def _counted(self, kind: str, match: re.Match[str], looks: Looks) -> Sequence[Element]:
-        """A number within the report, a chapter or an appendix."""
+        """Return a number within the report, a chapter or an appendix."""
         first, last = match[1], match[2]
         if first is None:
             return word_field(f"SEQ {kind} \\* ARABIC", last, looks)

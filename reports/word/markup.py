@@ -42,7 +42,7 @@ _WHITE = '<a:solidFill><a:srgbClr val="FFFFFF"/></a:solidFill><a:ln><a:noFill/><
 
 
 def w(name: str, /, *children: Element, **attributes: object) -> Element:
-    """An element ``w:name`` with attributes of the same namespace."""
+    """Return an element ``w:name`` with attributes of the same namespace."""
     element = etree.Element(f"{{{W}}}{name}", nsmap={"w": W})
     for key, value in attributes.items():
         element.set(f"{{{W}}}{key}", str(value))
@@ -51,17 +51,17 @@ def w(name: str, /, *children: Element, **attributes: object) -> Element:
 
 
 def twips(millimetres: float) -> int:
-    """A length in twentieths of a point."""
+    """Return a length in twentieths of a point."""
     return round(millimetres * TWIPS_MM)
 
 
 def paragraph(style: str, content: Iterable[Element] = (), *more: Element) -> Element:
-    """A paragraph in a named style; ``more`` are further properties in the schema's order."""
+    """Return paragraph in a named style; ``more`` are further properties in the schema's order."""
     return w("p", w("pPr", w("pStyle", val=style), *more), *content)
 
 
 def run(text: str, looks: frozenset[str] = frozenset()) -> Element:
-    """A run of text; tabs and line ends become elements."""
+    """Return a run of text; tabs and line ends become elements."""
     element = w("r", *([_looks(looks)] if looks else []))
     for part in re.split("([\t\n])", text):
         if part == "\t":
@@ -89,7 +89,7 @@ def _looks(looks: frozenset[str]) -> Element:
 
 
 def field(instruction: str, result: str, looks: frozenset[str] = frozenset()) -> list[Element]:
-    """A field that Word renews, with what it shows until then."""
+    """Return a field that Word renews, with what it shows until then."""
     words = w("instrText")
     words.text = f" {instruction} "
     words.set(_SPACE, "preserve")
@@ -109,14 +109,14 @@ class Bookmarks:
         self._count = 0
 
     def around(self, name: str, content: Iterable[Element]) -> list[Element]:
-        """The content as a bookmark."""
+        """Return the content as a bookmark."""
         self._count += 1
         start = w("bookmarkStart", id=self._count, name=name)
         return [start, *content, w("bookmarkEnd", id=self._count)]
 
 
 def bookmark_name(anchor: str) -> str:
-    """A name that Word allows for an anchor of the page."""
+    """Return a name that Word allows for an anchor of the page."""
     name = anchor.replace("-", "_", 1)
     if len(name) <= _LONGEST and re.fullmatch(r"\w+", name):
         return name
@@ -138,7 +138,7 @@ class Rectangle(NamedTuple):
 def rectangle(
     area: Rectangle, number: int, words: str, *, line: bool, inside: bool = False
 ) -> Element:
-    """A rectangle: a line behind the text, or white in front of it.
+    """Return a rectangle: a line behind the text, or white in front of it.
 
     Args:
         area: where it lies.

@@ -40,7 +40,7 @@ _ITALIC, _PLAIN, _TEXT = "", "sty", "nor"  # faces: a variable, a number or a si
 
 
 def omath(tex: str) -> etree._Element:
-    """A line of TeX as ``m:oMath``.
+    """Return a line of TeX as ``m:oMath``.
 
     Raises:
         TexError: the TeX is not well formed.
@@ -66,21 +66,21 @@ def _braced(lines: Math, columns: int) -> etree._Element:
 
 
 def displayed(tex: str, end: str = "") -> etree._Element:
-    """A line of TeX as ``m:oMathPara`` with a comma or a full stop behind it.
+    """Return a line of TeX as ``m:oMathPara`` with a comma or a full stop behind it.
 
     A sign at the end of a broken line, and the same sign at the beginning of the next one, are
     set as text: LibreOffice looks for what they join.
     """
     line = omath(tex)
-    for place in (0, -1):
-        outer = line[place] if len(line) else None
+    for side in (0, -1):
+        outer = line[side] if len(line) else None
         if outer is None or not _is_run(outer) or _face_of(outer) != _PLAIN:
             continue
         text = outer[-1].text or ""
-        if place and text[-1] in _JOINING:
+        if side and text[-1] in _JOINING:
             line.append(_run(_MEDIUM + text[-1], _TEXT))
             outer[-1].text = text[:-1]
-        elif not place and text[0] in _JOINING:
+        elif not side and text[0] in _JOINING:
             line.insert(0, _run(text[0] + _MEDIUM, _TEXT))
             outer[-1].text = text[1:]
         if not outer[-1].text:
@@ -100,7 +100,7 @@ class _Atom:
     big: str = ""
 
     def elements(self) -> Math:
-        """The atom as elements; a text with nothing set to it stays what it is."""
+        """Return the atom as elements; a text with nothing set to it stays what it is."""
         below, above = _element("sub", *self.below), _element("sup", *self.above)
         base = _element("e", *self.base)
         if self.below and self.above:
@@ -136,7 +136,7 @@ def _elements(nodes: Sequence[TexNode], upright: bool) -> Math:
 
 
 def _atom(nodes: Sequence[TexNode], start: int, upright: bool) -> tuple[_Atom, int]:
-    """The atom that begins at a place, and the place behind it."""
+    """Return the atom that begins at a place, and the place behind it."""
     node = nodes[start]
     if node.token == r"\left":
         base, start = _delimited(nodes, start, upright)
@@ -166,7 +166,7 @@ def _atom(nodes: Sequence[TexNode], start: int, upright: bool) -> tuple[_Atom, i
 
 
 def _number(nodes: Sequence[TexNode], start: int) -> tuple[Math, int]:
-    """A number with its decimal comma, the whole of which a power is set to."""
+    """Return a number with its decimal comma, the whole of which a power is set to."""
     text = ""
     while start < len(nodes):
         node = nodes[start]
@@ -216,7 +216,7 @@ def _nary(atom: _Atom, following: Math) -> etree._Element:
 
 
 def _piece(node: TexNode, upright: bool) -> Math:
-    """A node without its indices."""
+    """Return a node without its indices."""
     name, token = node.command, node.token
     if token in FRACTIONS:
         over, under = (_sequence(part, upright=upright) for part in node.parts)

@@ -53,7 +53,7 @@ _INLINE = """<wp:inline {names} distT="0" distB="0" distL="0" distR="0">
 
 
 def outlined(svg: str) -> str:
-    """The SVG with each text as a path."""
+    """Return the SVG with each text as a path."""
     ET.register_namespace("", _SVG[1:-1])
     root = ET.fromstring(svg)
     _outline(root, _USUAL)
@@ -61,7 +61,7 @@ def outlined(svg: str) -> str:
 
 
 def picture(svg: str, width_mm: float) -> bytes:
-    """An SVG without texts as PNG.
+    """Return an SVG without texts as PNG.
 
     Args:
         svg: the outlined SVG.
@@ -153,7 +153,7 @@ class Pictures:
         self._drawings: dict[str, str] = {}  # of each drawing's name, so that none is kept twice
 
     def figure(self, image: HtmlElement, widest_mm: float) -> Element:
-        """A paragraph with the picture of an ``img`` of the page."""
+        """Return a paragraph with the picture of an ``img`` of the page."""
         style = image.get("style", "")
         match = _WIDTH.search(style)
         width = min(float(match[1]) if match else widest_mm, widest_mm)

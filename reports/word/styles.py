@@ -260,7 +260,7 @@ def _table_styles() -> list[Element]:
 
 
 def _lists(style: Style) -> list[Element]:
-    """The dash of lists and the numbers of headings."""
+    """Return the dash of lists and the numbers of headings."""
     indent = twips(10 * style.indent_cm)
     dash = w("lvl", w("start", val=1), w("numFmt", val="bullet"), w("suff", val="space"),
              w("lvlText", val="—"), w("lvlJc", val="left"),

@@ -77,7 +77,7 @@ def framed(section: Section, style: Style, lines: Lines, blocks: list[HtmlElemen
 
 
 def _frame(style: Style, number: int) -> Iterator[Element]:
-    """The frame of a sheet and the boxes left of it."""
+    """Yield the frame of a sheet and the boxes left of it."""
     left, top, width, height = FRAME_MM
     area = Rectangle("page", left, "page", top, width, height)
     yield rectangle(area, number, "Рамка листа", line=True)
@@ -99,13 +99,13 @@ def _put(part: object, content: list[Element]) -> None:
 
 
 def report_docx(report: Report) -> bytes:
-    """The report as a Word file; the same input gives the same bytes."""
+    """Return the report as a Word file; the same input gives the same bytes."""
     # Every cell a cell: the lines of numbers that are fast on paper are no table in Word.
     return from_page(report.page("print", tagged=True), report.style)
 
 
 def from_page(page: str, style: Style) -> bytes:
-    """A page of the report as a Word file."""
+    """Return a page of the report as a Word file."""
     import docx
     import lxml.html
 

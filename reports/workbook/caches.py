@@ -61,7 +61,7 @@ def hoist(root: etree._Element) -> None:
 
 
 def relative(data: bytes, name: str) -> etree._Element:
-    """The relations of a part with paths from its own folder."""
+    """Return the relations of a part with paths from its own folder."""
     root = etree.fromstring(data)
     folder = posixpath.dirname(posixpath.dirname(name))
     for relation in root:
@@ -72,7 +72,7 @@ def relative(data: bytes, name: str) -> etree._Element:
 
 
 def described(archive: Mapping[str, bytes], name: str) -> etree._Element:
-    """A drawing whose charts say in words what they show."""
+    """Return a drawing whose charts say in words what they show."""
     root = etree.fromstring(archive[name])
     folder, file = posixpath.split(name)
     relations = etree.fromstring(archive[f"{folder}/_rels/{file}.rels"])
@@ -109,7 +109,7 @@ class Readable(Protocol):
     """What gives a part of a package by its name."""
 
     def read(self, name: str, /) -> bytes:
-        """The part."""
+        """Return the part."""
 
 
 def sheet_parts(archive: Readable) -> dict[str, str]:
@@ -137,7 +137,7 @@ class _PartStore(dict[str, bytes]):
         self[name] = Path(file).read_bytes()
 
     def read(self, name: str) -> bytes:
-        """A part."""
+        """Return a part."""
         return self[name]
 
     def namelist(self) -> list[str]:
@@ -149,7 +149,7 @@ class _PartStore(dict[str, bytes]):
 
 
 def finish(book: Workbook, caches: CacheValues | None = None) -> bytes:
-    """The bytes of a workbook with the cached value of every formula cell and fixed times.
+    """Return the bytes of a workbook with the cached value of every formula cell and fixed times.
 
     Raises:
         CacheError: a formula without a value, or a value that is not finite.
@@ -216,7 +216,7 @@ def _number(value: float) -> str:
 
 
 def _marked(text: str, marks: list[bytes]) -> etree._Element:
-    """A mark where a text of XML belongs: no elements need be made of it."""
+    """Return a mark where a text of XML belongs: no elements need be made of it."""
     marks.append(text.encode())
     return etree.ProcessingInstruction(_MARK, str(len(marks) - 1))
 
@@ -224,7 +224,7 @@ def _marked(text: str, marks: list[bytes]) -> etree._Element:
 def _mark_columns(
     root: etree._Element, title: str, columns: list[FilledColumn], marks: list[bytes]
 ) -> None:
-    """Marks where the cells of columns belong."""
+    """Mark where the cells of columns belong."""
     if not columns:
         return
     data = root.find(f"{{{_MAIN}}}sheetData")
@@ -263,7 +263,7 @@ def _escaped(text: str) -> str:
 def _mark_symbols(
     root: etree._Element, symbols: Mapping[str, tuple[Runs, bool]], marks: list[bytes]
 ) -> None:
-    """Marks where the pieces of symbols belong, with indices as such."""
+    """Mark where the pieces of symbols belong, with indices as such."""
     for item in root.iter(f"{{{_MAIN}}}is") if symbols else ():
         symbol = symbols.get(item.getparent().get("r"))
         if symbol is not None:
@@ -272,7 +272,7 @@ def _mark_symbols(
 
 @cache
 def _pieces(runs: Runs, bold: bool) -> str:
-    """The first piece looks as its cell does, the others say all of their look."""
+    """Return the first piece looks as its cell does, the others say all of their look."""
     face = f'<rFont val="{FONT}"/>{"<b/>" if bold else ""}'
     pieces = []
     for number, (text, level) in enumerate(runs):

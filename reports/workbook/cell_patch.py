@@ -40,7 +40,7 @@ class SharedFormulaError(ValueError):
 
 
 def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value]) -> bytes:
-    """A workbook with values in cells of one sheet, by row and column.
+    """Return a workbook with values in cells of one sheet, by row and column.
 
     Formulas are calculated when the book is opened.
 
@@ -70,7 +70,7 @@ def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value])
 
 
 def without_caches(data: bytes) -> bytes:
-    """A workbook whose formulas have no saved values: all is calculated when it is opened.
+    """Return a workbook whose formulas have no saved values: all is calculated when it is opened.
 
     Raises:
         UnicodeDecodeError: a part is not in UTF-8.
@@ -91,7 +91,7 @@ class _SheetText:
     lost: list[str] = field(default_factory=list)
 
     def filled(self, values: Mapping[tuple[int, int], Value]) -> str:
-        """The text with the values."""
+        """Return the text with the values."""
         match = _DATA.search(self.text)
         if match is None or not values:
             return self.text
@@ -120,7 +120,7 @@ class _SheetText:
     def _row(
         self, prefix: str, attributes: str, inside: str, row: int, values: dict[int, Value]
     ) -> str:
-        """A row with values in its columns."""
+        """Return a row with values in its columns."""
         left, parts, at, last = dict(values), [], 0, 0
         for match in _CELL.finditer(inside):
             reference = re.match(r"[A-Z]+", _attribute(match[2], "r"))
@@ -146,7 +146,7 @@ class _SheetText:
         return f"<{prefix}row{plain}>{''.join(parts)}</{prefix}row>"
 
     def _new(self, prefix: str, attributes: str, row: int, column: int, value: Value) -> str:
-        """A cell that was not there, in the look of its row or column."""
+        """Return a cell that was not there, in the look of its row or column."""
         style = _attribute(attributes, "s")
         for match in () if style else _COL.finditer(self.text):
             first, last = (int(_attribute(match[1], key) or 0) for key in ("min", "max"))
@@ -156,7 +156,7 @@ class _SheetText:
 
     @staticmethod
     def _spread(head: str, values: Mapping[tuple[int, int], Value]) -> str:
-        """The head of a sheet with the extent of its cells."""
+        """Return the head of a sheet with the extent of its cells."""
         match = _DIMENSION.search(head)
         if match is None:
             return head
@@ -188,12 +188,12 @@ def _attribute(text: str, name: str) -> str:
 
 
 def _unsaved(text: str) -> str:
-    """A sheet whose formulas have no saved values: these belong to other marks."""
+    """Return a sheet whose formulas have no saved values: these belong to other marks."""
     return _SAVED.sub(r"\1", text)
 
 
 def _calculated(text: str) -> str:
-    """The book's own part, so that all is calculated when it is opened."""
+    """Return the book's own part, so that all is calculated when it is opened."""
     match = re.search(r"<((?:\w+:)?)calcPr\b([^>]*?)(/?)>", text)
     if match is None:
         return text

@@ -46,7 +46,7 @@ def contents_for(model: Model) -> Contents:
 
 
 def chapter_of(sheet: str, contents: Contents | None = None) -> SheetChapter:
-    """The chapter of a sheet."""
+    """Return the chapter of a sheet."""
     return (contents or contents_of()).chapters[place_of(sheet, contents)[0]]
 
 
@@ -70,12 +70,12 @@ def ordered(sheets: Iterable[str], contents: Contents | None = None) -> list[str
 
 
 def diagrams_of(chapter: SheetChapter) -> str:
-    """The sheet of the chapter's charts that have no room beside their tables."""
+    """Return the sheet of the chapter's charts that have no room beside their tables."""
     return f"{DIAGRAMS}, {chapter.title[0].lower()}{chapter.title[1:]}"[:31]
 
 
 def heading(sheet: str, contents: Contents | None = None) -> str:
-    """What stands above a sheet and in the contents."""
+    """Return what stands above a sheet and in the contents."""
     chapter, position, regime, number = place_of(sheet, contents)
     entry = (contents or contents_of()).chapters[chapter]
     if position < 0:

@@ -78,5 +78,5 @@ def marks(spec: ChartSpec, layout: Layout, values: Values) -> list[CurveRanges]:
 
 
 def limits(spec: ChartSpec, layout: Layout, values: Values) -> list[float]:
-    """Common limits of both axes of a polar diagram: the run of its corners."""
+    """Return common limits of both axes of a polar diagram: the run of its corners."""
     return [float(values.scalars[key]) for key in layout.keys_of_run(spec.series[-1].x)]

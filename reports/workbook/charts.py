@@ -54,7 +54,7 @@ def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:
 def make_chart(
     spec: ChartSpec, layout: Layout, values: Values, *, oblong: float = 1.0
 ) -> ScatterChart:
-    """A scatter chart with straight lines, its plot square where both axes have one scale.
+    """Return a scatter chart with straight lines, its plot square where both axes have one scale.
 
     ``oblong`` is the width over the height of such a chart.
 
@@ -79,7 +79,7 @@ def make_chart(
 
 
 def _ray(number: int, line: CurveRanges) -> XYSeries:
-    """A thick line for the worn depth, with the number of its ray at the circle."""
+    """Return a thick line for the worn depth, with the number of its ray at the circle."""
     series = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
     label = DataLabel(idx=1, dLblPos="t", showSerName=True)
     label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
@@ -89,7 +89,7 @@ def _ray(number: int, line: CurveRanges) -> XYSeries:
 
 
 def _mark(number: int, point: CurveRanges) -> XYSeries:
-    """A small point with its name beside it."""
+    """Return a small point with its name beside it."""
     series = _curve(number, point, _hidden())
     series.marker = _dot(4, COLOURS[0])
     series.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
@@ -193,7 +193,7 @@ def _legend(chart: ScatterChart, *, visible: bool) -> None:
 
 
 def _title(text: str, size: int) -> Title:
-    """A title of moderate size (hundredths of a point) that leaves the plot its room."""
+    """Return a title of moderate size (hundredths of a point) that leaves the plot its room."""
     look = _font(size)
     paragraph = Paragraph(
         pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)]
@@ -256,7 +256,7 @@ def _axes(
 
 
 def _turn(chart: ScatterChart, last: float) -> None:
-    """An abscissa of crank angles from zero; without a last one it is the program's choice."""
+    """Set an abscissa of crank angles from zero; without a last one it is the program's choice."""
     if last:
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
         chart.x_axis.majorUnit = last / 12

@@ -104,7 +104,7 @@ def write_cockpit(
 
 
 def _people(model: Model) -> str:
-    """The engine, and whose work this is."""
+    """Return the engine, and whose work this is."""
     report = model.input.report
     people = (
         ("студент", report.student),
@@ -201,19 +201,19 @@ def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[B
 
 
 def _charts(sheet: Worksheet, model: Model, writer: BlockWriter, row: int) -> list[Box]:
-    """The four that say most, two to a row and of one size."""
+    """Return the four that say most, two to a row and of one size."""
     left = sum(round(width * 7) for width in _WIDTHS.values()) + GAP
     return _drawn(sheet, model, writer, CHARTS,
                   (left, top_of(sheet, row), left + 2 * WIDE + GAP))  # fmt: skip
 
 
 def _drawn(
-    sheet: Worksheet, model: Model, writer: BlockWriter, wanted: Sequence[str],
+    sheet: Worksheet, model: Model, writer: BlockWriter, names: Sequence[str],
     room: tuple[int, int, int],
 ) -> list[Box]:  # fmt: skip
     """Charts of one size from left to right and down; of several pins the most loaded one's."""
     worst = worst_pin(writer)
-    charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in wanted]
+    charts = [pin_figure(chart, worst) if chart in _PIN_CHARTS else chart for chart in names]
     specs = [model.charts_by_id[chart] for chart in charts if chart in model.charts_by_id]
     boxes = flow([(WIDE, HIGH)] * len(specs), *room)
     for spec, box in zip(specs, boxes, strict=True):

@@ -58,7 +58,7 @@ def conditions(
 
 
 def _rising(fields: Sequence[Field], layout: Layout) -> str:
-    """That each of several cells of a column is greater than the one above it."""
+    """Return that each of several cells of a column is greater than the one above it."""
     first, last = (layout.cells[item.name] for item in (fields[0], fields[-1]))
     above = column_range(first.sheet, first.column, first.row, last.row - 1)
     below = column_range(first.sheet, first.column, first.row + 1, last.row)
@@ -99,7 +99,7 @@ def _side(
     scalars: Mapping[str, float | str],
     suffix: str,
 ) -> _Side | None:
-    """The first term of a side that the book holds, with its cells."""
+    """Return the first term of a side that the book holds, with its cells."""
     for index, term in enumerate(terms_of(side)):
         name = term.key.removeprefix("=") + suffix
         if term.key[0] == "=" and name in layout.model.scalars:

@@ -13,7 +13,7 @@ from reports.workbook.motion import nodes_read
 
 
 def short_model(model: Model) -> Model:
-    """The model of the workbook that the input asks for.
+    """Return the model of the workbook that the input asks for.
 
     Of a sheet beyond the course the blocks keep what formulas and charts of the course refer to;
     such sheets are folded, the others left out.
@@ -71,7 +71,7 @@ def _cells(row: GridRow) -> tuple[str, ...]:
 
 
 def _part(block: Block, needed: set[str]) -> Block | None:
-    """What is needed of a block; None where nothing is."""
+    """Return what is needed of a block; None where nothing is."""
     if isinstance(block, TableSpec):
         columns = tuple(c for c in block.columns if f"{block.id}.{c.key}" in needed)
         return replace(block, columns=columns, note="") if columns else None

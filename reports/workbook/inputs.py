@@ -116,7 +116,7 @@ def options(item: Field) -> list[int | str]:
 
 
 def range_text(item: Field) -> str:
-    """Allowed range in words."""
+    """Return allowed range in words."""
     if item.minimum is None or item.maximum is None:
         return ""
     return f"{short(item.minimum)} … {short(item.maximum)}"
@@ -140,7 +140,7 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
 
 
 def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int) -> None:
-    """A value of a list of records: headers above, the number of the entry on the left."""
+    """Write a value of a list of records: headers above, the number of the entry on the left."""
     number = int(item.path[-2]) + 1
     sheet.cell(header_row, 1, "№").style = styles.HEADER
     sheet.cell(row, 1, number).style = styles.HEADER

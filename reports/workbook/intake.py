@@ -82,7 +82,7 @@ class Package:
         return self._archive.namelist()
 
     def info(self, name: str) -> zipfile.ZipInfo:
-        """What the directory tells of a part.
+        """Return what the directory tells of a part.
 
         Raises:
             KeyError: there is no such part.
@@ -90,7 +90,7 @@ class Package:
         return self._archive.getinfo(name)
 
     def open(self, info: zipfile.ZipInfo) -> zipfile.ZipExtFile:
-        """A part as a stream."""
+        """Return a part as a stream."""
         return self._archive.open(info)  # type: ignore[return-value]
 
     @property
@@ -109,7 +109,7 @@ class Package:
             self._parts[name] = part
 
     def _existing(self, source: str, match: re.Match[bytes]) -> bytes:
-        """A reference between parts with slashes, in the case of the part that it names."""
+        """Return a reference between parts with slashes, in the case of the part that it names."""
         target = match[2].decode("utf-8", "replace").replace("\\", "/")
         folder = "" if source == _TYPES else posixpath.dirname(posixpath.dirname(source))
         whole = posixpath.normpath(posixpath.join("/", folder, target))[1:]
@@ -123,7 +123,7 @@ class Package:
         return match[1] + target.encode() + match[3]
 
     def read(self, name: str) -> bytes:
-        """A part.
+        """Return a part.
 
         Raises:
             KeyError: there is no such part.
@@ -133,7 +133,7 @@ class Package:
 
 
 def _as_named(data: bytes) -> bytes:
-    """A zip with slashes and the usual case in the names of its parts; nothing is unpacked."""
+    """Return zip with slashes and the usual case in the names of its parts; nothing is unpacked."""
     usual = {name.casefold(): name for name in _USUAL_NAMES}
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         names = [info.orig_filename for info in archive.infolist()]
@@ -160,7 +160,7 @@ def _as_named(data: bytes) -> bytes:
 
 
 def repacked(data: bytes, changed: Mapping[str, bytes]) -> bytes:
-    """A zip with some parts changed, the others as they were."""
+    """Return a zip with some parts changed, the others as they were."""
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as source,
@@ -185,7 +185,7 @@ def check_package(path: Path) -> bytes:
 
 
 def check_data(data: bytes, name: str) -> Package:
-    """The parts of a workbook that is safe to hand to a parser; ``name`` stands in messages.
+    """Return the parts of a workbook that is safe to hand to a parser; ``name`` stands in messages.
 
     Raises:
         InputError: what ``check_package`` refuses.
@@ -196,8 +196,8 @@ def check_data(data: bytes, name: str) -> Package:
         _refuse(name, "файл пуст", "сохраните книгу заново")
     kind = kind_of(data)
     if len(data) <= _MAX_LOCK and LOCK in Path(name).name:
-        what = "это временный файл, который Excel держит рядом с открытой книгой"
-        _refuse(name, what, f"закройте книгу и возьмите файл без «{LOCK}» в имени")
+        problem = "это временный файл, который Excel держит рядом с открытой книгой"
+        _refuse(name, problem, f"закройте книгу и возьмите файл без «{LOCK}» в имени")
     if kind == OFFICE:
         _refuse(name, *_old_or_locked(data))
     if kind != ARCHIVE:
@@ -213,7 +213,7 @@ def check_data(data: bytes, name: str) -> Package:
 
 
 def _old_or_locked(data: bytes) -> tuple[str, str]:
-    """What a file of the old Office container is, and what to do."""
+    """Return what a file of the old Office container is, and what to do."""
     if _ENCRYPTED in data:
         return "книга закрыта паролем", "сохраните её без пароля: Файл → Сведения → Защита книги"
     if any(stream in data for stream in _OLD_BOOKS):
@@ -252,7 +252,7 @@ def _check_parts(name: str, package: Package) -> None:
 
 
 def _other_kind(package: Package, names: list[str]) -> tuple[str, str]:
-    """What a package without the usual workbook part is, and what to do."""
+    """Return what a package without the usual workbook part is, and what to do."""
     if "content.xml" in names:
         return "это книга .ods", _SAVE_AS
     if "xl/workbook.bin" in names:

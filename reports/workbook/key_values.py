@@ -75,7 +75,7 @@ def key_values(
 
 
 def _ofworst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
-    """Formula and value of a scalar, of the most loaded pin where each has its own."""
+    """Return the formula and value of a scalar, of the most loaded pin where each has its own."""
     values = writer.values.scalars
     if key not in _OF_PINS or _WORST not in values:
         return f"={key}", values[key]
@@ -85,7 +85,7 @@ def _ofworst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
 
 
 def worst_pin(writer: BlockWriter) -> int:
-    """The number of the most loaded pin; the first where a student is to find it."""
+    """Return the number of the most loaded pin; the first where a student is to find it."""
     worst = float(writer.values.scalars.get(_WORST, 1))
     return round(worst) if isfinite(worst) else 1
 

@@ -216,7 +216,7 @@ class Layout:
         return self.columns[key][1]
 
     def name_of(self, key: str) -> str:
-        """Defined name of a scalar or input, or the absolute address of a grid's cell."""
+        """Return defined name of a scalar or input, or the absolute address of a grid's cell."""
         return key if key in self.named else self.cells[key].absolute
 
     def range_of(self, key: str, *, rows: int | None = None) -> str:
@@ -258,17 +258,17 @@ class Layout:
     def step_formula(self, table: TableSpec, row: int, column: int) -> str:
         """First column of a row from the row above and the step of the table's grid."""
         # A fraction, because 0.1 in a formula would look like an input typed into it.
-        own = f"1/{round(1 / table.step)}" if table.step and table.step < 1 else None
-        step = "calculation_step_deg" if table.step is None else own or number(table.step)
+        fraction = f"1/{round(1 / table.step)}" if table.step and table.step < 1 else None
+        step = "calculation_step_deg" if table.step is None else fraction or number(table.step)
         return f"={Cell('', row - 1, column).coordinate}+{step}"
 
     def defined_names(self) -> Mapping[str, str]:
-        """Defined name → absolute address."""
+        """Return defined name → absolute address."""
         return {name: self.cells[name].absolute for name in sorted(self.named)}
 
 
 def _place(waves: Waves, turn: str, orders: tuple[float, ...]) -> int:
-    """Number of the waves that stand before some orders."""
+    """Return the number of the waves that stand before some orders."""
     names = tuple(waves.orders)
     before = sum(len(waves.orders[name]) for name in names[: names.index(turn)])
     position = place_of(waves.orders[turn], orders)
@@ -355,7 +355,7 @@ class RowReferences:
         return f"{quoted(WAVES_SHEET)}!$B${mark}:${last}${mark}"
 
     def _orders(self, order: float | str) -> tuple[float, ...]:
-        """An order, or those of the table's rows."""
+        """Return an order, or those of the table's rows."""
         if isinstance(order, float):
             return (order,)
         assert self._table is not None
@@ -377,7 +377,7 @@ class RowReferences:
 
 
 def at_row(formula: str, row: int, *, last: bool = False) -> str:
-    """A column's formula in one row; in the last row the following row is the row itself."""
+    """Return a column's formula in one row; in the last row the following row is the row itself."""
     below = str(row if last else row + 1)
     if "\x05" in formula:
         formula = _BELOW.sub(lambda match: str(int(match[1]) + row - FIRST_ROW), formula)

@@ -60,15 +60,15 @@ class _View(RowReferences):
         super().__init__(self.layout, None)
 
     def name(self, key: str) -> str:
-        """A cell of this sheet, or a name of the book."""
+        """Return a cell of this sheet, or a name of the book."""
         return self.own.get(key) or super().name(key)
 
     def column(self, key: str, *, repeat_last: bool) -> str:
-        """A column of this sheet, or of a table."""
+        """Return a column of this sheet, or of a table."""
         return self.own.get(key) or super().column(key, repeat_last=repeat_last)
 
     def value(self, key: str) -> Any:  # noqa: ANN401
-        """What a key stands for."""
+        """Return what a key stands for."""
         return self.values[key] if key in self.values else self.inputs[key]
 
 
@@ -124,14 +124,14 @@ def _put(
 
 
 def _local(address: str) -> str:
-    """An address without its sheet."""
+    """Return an address without its sheet."""
     return address.rpartition("!")[2]
 
 
 def _choices(
     book: Workbook, sheet: Worksheet, model: Model, view: _View, cylinders: Sequence[int]
 ) -> None:
-    """The two cells that a person changes."""
+    """Write the two cells that a person changes."""
     angles = model.tables["P4_1"].rows
     step = angles[1] - angles[0]
     start = step * round(_START / step)
@@ -186,7 +186,7 @@ def _by_cylinder(
 
 
 def _chosen(sheet: Worksheet, writer: BlockWriter, view: _View, shape: Shape, small: int) -> None:
-    """What is known of the chosen cylinder: angles, forces, pressure, torque."""
+    """Write what is known of the chosen cylinder: angles, forces, pressure, torque."""
 
     def at_psi(column: str) -> str:
         before = f"element({column}, view_knot)"
@@ -309,14 +309,14 @@ def _drawings(
 
 
 def _whole(cell: str) -> str:
-    """A cell of the sheet as charts name it."""
+    """Return a cell of the sheet as charts name it."""
     return f"{quoted(SHEET)}!{cell}"
 
 
 def _charts(
     sheet: Worksheet, writer: BlockWriter, drawn: dict[str, tuple[Drawn, list[float], list[float]]]
 ) -> list[Box]:
-    """The mechanism on the left, five diagrams with a moving point beside it."""
+    """Return the mechanism on the left, five diagrams with a moving point beside it."""
     for line, xs, ys in drawn.values():
         writer.caches.ranges |= {line.x: xs, line.y: ys}
     layout, values = writer.layout, writer.values

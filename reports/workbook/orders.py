@@ -22,7 +22,7 @@ class Waves:
 
 
 def grid_of(table: TableSpec) -> Grid:
-    """The grid of a table's angles: tables of one grid sum over the same waves."""
+    """Return the grid of a table's angles: tables of one grid sum over the same waves."""
     return table.rows, table.step
 
 

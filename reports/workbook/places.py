@@ -147,7 +147,7 @@ def flow(sizes: Sequence[tuple[int, int]], x: int, y: int, right: int) -> list[B
 
 
 def anchor(sheet: Worksheet, box: Box) -> OneCellAnchor:
-    """A box as a drawing's anchor: a cell and what is left over within it."""
+    """Return a box as a drawing's anchor: a cell and what is left over within it."""
     column, x = 1, box.x
     while x >= column_px(sheet, column):
         x -= column_px(sheet, column)

@@ -30,7 +30,7 @@ _CM = 96 / 2.54  # px
 
 
 def new_book(*, rows_only: bool = False) -> Workbook:
-    """A workbook without sheets; ``rows_only`` writes rows as they come."""
+    """Return a workbook without sheets; ``rows_only`` writes rows as they come."""
     book = Workbook(write_only=rows_only)
     if not rows_only:
         book.remove(book.active)
@@ -39,7 +39,7 @@ def new_book(*, rows_only: bool = False) -> Workbook:
 
 
 def bold(cell: SheetCell, *, head: bool = False, size: float | None = None) -> SheetCell:
-    """The cell in bold; the head of a column is centred and wraps."""
+    """Return the cell in bold; the head of a column is centred and wraps."""
     cell.font = Font(name=FONT, bold=True, size=size)
     if head:
         cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal="center")

@@ -223,7 +223,7 @@ def _hold_words(sheet: Worksheet, labels: Mapping[int, str]) -> None:
 
 
 def _raise_row(sheet: Worksheet, row: int, labels: Mapping[int, str]) -> None:
-    """A row in which headers have all their lines."""
+    """Write a row in which headers have all their lines."""
     lines = max(_lines(label, column_px(sheet, index) / DIGIT) for index, label in labels.items())
     dimension = sheet.row_dimensions[row]
     if lines > 1:
@@ -310,7 +310,7 @@ def set_margins(sheet: Worksheet) -> None:
 
 
 def _sections(sheet: Worksheet) -> Iterator[Box]:
-    """Lists one below the other, each with its heading, and of each how it begins."""
+    """Yield lists one below the other, each with its heading, and of each how it begins."""
     if sheet.print_title_rows:
         return
     starts = [cell.row for cell in sheet["A"] if cell.style == SUBTITLE]

@@ -48,7 +48,7 @@ _ADDRESS = re.compile(r"\$?([A-Z]{1,3})\$?([0-9]+)")
 
 
 def load_workbook_input(path: Path) -> Loaded:
-    """The checked input of an edited workbook.
+    """Return the checked input of an edited workbook.
 
     Raises:
         InputError: no workbook of ours, or its input cells are wrong; the
@@ -162,7 +162,7 @@ def _input_cells(
 def _sheets(
     data: bytes, source: str
 ) -> tuple[Workbook, str, dict[tuple[int, int], ReadOnlyCell], dict[str, str]]:
-    """A book, the title and cells of its sheet of inputs, own books."""
+    """Return a book, the title and cells of its sheet of inputs, own books."""
     from openpyxl import load_workbook
 
     try:

@@ -85,7 +85,7 @@ class BlockWriter:
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
     ) -> None:
-        """A formula cell with its value for the cache."""
+        """Write a formula cell with its value for the cache."""
         cell = sheet.cell(row, column, text)
         self.caches.values.setdefault(sheet.title, {})[cell.coordinate] = value
 
@@ -93,7 +93,7 @@ class BlockWriter:
         self, sheet: Worksheet, row: int, column: int, named: Quantity | Field,
         look: str = styles.TEXT, *, unit: bool = False,
     ) -> None:  # fmt: skip
-        """A symbol as the report has it, from the same TeX; with its unit as a heading."""
+        """Write a symbol as the report has it, from the same TeX; with its unit as a heading."""
         if isinstance(named, Quantity):
             text, tex, label = named.symbol, "" if named.word else named.tex, named.unit_label
         else:
@@ -107,7 +107,7 @@ class BlockWriter:
             self.caches.symbols.setdefault(sheet.title, {})[cell.coordinate] = about_cell
 
     def table(self, sheet: Worksheet, table: TableSpec) -> None:
-        """An angle table: titles, headers with comments, formulas row by row."""
+        """Write an angle table: titles, headers with comments, formulas row by row."""
         first_cell = self.layout.places[table.id]
         sheet.cell(HEADER_ROW - 1, first_cell.column, f"Таблица {table.number} — {table.title}")
         sheet.cell(HEADER_ROW - 1, first_cell.column).style = styles.SUBTITLE
@@ -184,7 +184,7 @@ class BlockWriter:
         values: Sequence[float],
         look: tuple[str, str],
     ) -> None:
-        """Some cells of a column by their offsets from ``FIRST_ROW``."""
+        """Write some cells of a column by their offsets from ``FIRST_ROW``."""
         styled = None  # openpyxl takes a fifth of its time to look a style up by its name
         for offset, text in texts.items():
             row = FIRST_ROW + offset
@@ -200,7 +200,7 @@ class BlockWriter:
                 cell._style = copy(styled)
 
     def scalar(self, sheet: Worksheet, scalar: Scalar, decimals: int) -> None:
-        """The value cell of a scalar, its point below that of others."""
+        """Write the value cell of a scalar, its point below that of others."""
         at = self.layout.cells[scalar.key]
         text = compile_formula(scalar.expr, RowReferences(self.layout, None, sheet.title))
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
@@ -209,7 +209,7 @@ class BlockWriter:
         cell.number_format = styles.excel_format(scalar.quantity, decimals)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
-        """A list of scalars: title, symbol, value, unit, source."""
+        """Write a list of scalars: title, symbol, value, unit, source."""
         first_cell = self.layout.places[block.id]
         shift = first_cell.column - 1
         sheet.cell(first_cell.row, first_cell.column, block.title).style = styles.SUBTITLE

@@ -99,7 +99,7 @@ def blanks(quantity: Quantity, decimals: int) -> int:
 
 
 def as_text(cell: Cell) -> Cell:
-    """A person's text stays text even where it looks like a formula."""
+    """Return a person's text stays text even where it looks like a formula."""
     if isinstance(cell.value, str):
         cell.data_type = "s"
     return cell

@@ -72,7 +72,7 @@ def write_tiles(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
 
 
 def _first(writer: BlockWriter, keys: Sequence[str]) -> _Number | None:
-    """The first of some numbers that the book has."""
+    """Return the first of some numbers that the book has."""
     for title, measure, formula, value, unit, _ in key_values(writer, keys):
         if isinstance(measure, Quantity) and isinstance(value, float | int):
             look = _few_digits(measure, float(value)) + (f'" {unit}"' if unit else "")
@@ -81,14 +81,14 @@ def _first(writer: BlockWriter, keys: Sequence[str]) -> _Number | None:
 
 
 def _few_digits(quantity: Quantity, value: float) -> str:
-    """Number format with four digits, no more decimals than the quantity has."""
+    """Return the number format with four digits, no more decimals than the quantity has."""
     whole = floor(log10(abs(value))) + 1 if value else 1
     decimals = max(0, min(quantity.digits.decimals, _DIGITS - whole))
     return "0." + "0" * decimals if decimals else "0"
 
 
 def _least_safety(writer: BlockWriter) -> _Number | None:
-    """The least safety of parts and journals, where the book has any."""
+    """Return the least safety of parts and journals, where the book has any."""
     values = writer.values.scalars
     keys = [key for key in _SAFETIES if isfinite(float(values.get(key, float("inf"))))]
     if not keys:

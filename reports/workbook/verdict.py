@@ -107,7 +107,7 @@ _Tests = Mapping[int, Sequence[tuple[Condition, str]]]
 
 
 def judged_lists(writer: BlockWriter) -> list[ScalarTable]:
-    """Lists whose verdicts stand in the book; none of a book to fill in."""
+    """Return lists whose verdicts stand in the book; none of a book to fill in."""
     model, scalars = writer.layout.model, writer.values.scalars
     lists = [block for block in model.blocks if isinstance(block, ScalarTable) and block.held]
     judged = [each.block for each in outcomes(model, scalars)]
@@ -171,7 +171,7 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> BookVerd
 def _sentence(
     sheet: Worksheet, top: int, below: int, counts: Sequence[_Count], writer: BlockWriter
 ) -> BookVerdict:
-    """The gravest of the counts in words, in folded cells beside the heading."""
+    """Return the gravest of the counts in words, in folded cells beside the heading."""
     judged, words = (f"{letter}{top + 1}:{letter}{below}"
                      for letter in (get_column_letter(UNIT_COLUMN), _WORDS))  # fmt: skip
     text, formula = GOOD, f'"{GOOD}"'
@@ -351,7 +351,7 @@ def _counted(
     sheet: Worksheet, row: int, title: str, target: str, formula: str, writer: BlockWriter,
     count: float = 0.0, *, bad: str = NO,
 ) -> str:  # fmt: skip
-    """A count that must be zero, and whether it is; the address of the count."""
+    """Return a count that must be zero, and whether it is; the address of the count."""
     link(sheet, Cell(sheet.title, row, TITLE_COLUMN), title, target)
     at, cell = (Cell(sheet.title, row, column) for column in (VALUE_COLUMN, UNIT_COLUMN))
     writer.formula(sheet, row, at.column, formula, float(count))
@@ -362,7 +362,7 @@ def _counted(
 
 
 def _in_order(sheet: Worksheet, row: int, held: Sequence[Condition], writer: BlockWriter) -> _Tests:
-    """A verdict for each pair that must be in order; by rows of input data what tests it."""
+    """Return a verdict for each pair that must be in order; by rows of input data what tests it."""
     by_row: dict[int, list[tuple[Condition, str]]] = defaultdict(list)
     for at, condition in enumerate(held, row):
         link(sheet, Cell(sheet.title, at, TITLE_COLUMN), condition.title, INPUT_SHEET)
@@ -478,7 +478,7 @@ def _changed(item: Field, layout: Layout) -> str:
 
 
 def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:
-    """What the cells of a row must hold; neighbours of equal limits together."""
+    """Yield what the cells of a row must hold; neighbours of equal limits together."""
     for item in items:
         if words := options(item):
             cell = layout.cells[item.name].coordinate

@@ -101,7 +101,7 @@ def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
 
 
 def _each(waves: Waves) -> Iterator[tuple[str, float]]:
-    """Function and order of each wave."""
+    """Yield function and order of each wave."""
     for turn, orders in waves.orders.items():
         for order in orders:
             yield turn, order
@@ -139,7 +139,7 @@ def _cell(
 
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
-    """The finished workbook as bytes; the same model gives the same bytes."""
+    """Return the finished workbook as bytes; the same model gives the same bytes."""
     layout = Layout.of(model)
     check_names(layout)
     writer = BlockWriter(layout, values or evaluate_model(model))
@@ -150,7 +150,7 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
 
 
 def write_texts(book: Workbook, model: Model) -> None:
-    """The texts of own books, line by line: an edited workbook is calculated by them again."""
+    """Write texts of own books, line by line: an edited workbook is calculated by them again."""
     if not model.input.books:
         return
     sheet = book.create_sheet(OWN_SHEET)
@@ -239,7 +239,7 @@ def _fold(book: Workbook, model: Model) -> None:
 
 
 def saved(book: Workbook, caches: CacheValues) -> bytes:
-    """The bytes of a workbook with the values of its formulas.
+    """Return the bytes of a workbook with the values of its formulas.
 
     Raises:
         OutputError: there is no room for temporary files.
@@ -354,7 +354,7 @@ def _index(book: Workbook, title: str, contents: Contents) -> int:
 
 
 def _note(sheet: Worksheet, text: str) -> None:
-    """A note across the sheet's open columns, as high as its text."""
+    """Write a note across the sheet's open columns, as high as its text."""
     last, width = NOTE_COLUMN, 0
     while width < _NOTE_PX:
         width += column_px(sheet, last)

@@ -15,15 +15,15 @@ def lines() -> Iterator[str]:
     """Names of the package; then tables with their columns, and scalars, with the samples."""
     for package in (kshm, reports):
         yield from (f"{package.__name__}.{name}" for name in package.__all__)
-    found: dict[str, list[str]] = {}
+    collected: dict[str, list[str]] = {}
     for name in sample_names():
         solution = solve(*engine_and_cycle(sample(name)))
         for table, columns in solution.columns.items():
-            found.setdefault(f"table {table}: {' '.join(columns)}", []).append(name)
+            collected.setdefault(f"table {table}: {' '.join(columns)}", []).append(name)
         for key in solution.scalars:
-            found.setdefault(f"scalar {key}", []).append(name)
+            collected.setdefault(f"scalar {key}", []).append(name)
     everywhere = len(sample_names())
-    for line, names in sorted(found.items()):
+    for line, names in sorted(collected.items()):
         yield line if len(names) == everywhere else f"{line} [{' '.join(names)}]"
 
 

@@ -43,9 +43,9 @@ def test_the_examples_of_the_page_give_the_book(ran: tuple[dict, str]) -> None:
     names, said = ran
     assert len(blocks(PAGE, "python")) >= 6
     book = solve(*engine_and_cycle(sample("gots-diesel"))).scalars
-    made = names["solution"].scalars
+    built = names["solution"].scalars
     for key in ("M_mean", "Rpin_max", "Rmain2_max", "c_m", "throw1_RTCL"):
-        assert made[key] == pytest.approx(book[key], rel=1e-12)
+        assert built[key] == pytest.approx(book[key], rel=1e-12)
     assert "N наибольшая" in said
     assert "МПа" in said
 

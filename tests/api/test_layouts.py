@@ -350,9 +350,9 @@ def test_timing_outside_the_cycle_is_refused(
 def test_units_mistaken_are_said(changes: dict[str, Any], said: str) -> None:
     with pytest.warns(UserWarning) as caught:
         one(**changes)
-    told = [str(each.message) for each in caught]
-    assert any(re.search(said, line) for line in told)
-    assert all("\n" not in line for line in told)
+    lines = [str(each.message) for each in caught]
+    assert any(re.search(said, line) for line in lines)
+    assert all("\n" not in line for line in lines)
     assert caught[0].filename == __file__  # where the numbers were given
 
 

@@ -51,10 +51,10 @@ def test_a_right_book_is_right_throughout() -> None:
 
 
 def test_a_wrong_modulus_is_wrong_once_and_carried_on() -> None:
-    found = unlike_right(CLASS.marks({"safe_W2_cm3": 1.5}))
-    assert found.pop("safe_main.safe_W2_cm3") == "wrong"
-    assert found
-    assert set(found.values()) <= {"carried"}
+    actual = unlike_right(CLASS.marks({"safe_W2_cm3": 1.5}))
+    assert actual.pop("safe_main.safe_W2_cm3") == "wrong"
+    assert actual
+    assert set(actual.values()) <= {"carried"}
 
 
 def test_what_a_refused_class_is_told_to_leave_out_makes_it_fit_to_issue() -> None:
@@ -78,6 +78,6 @@ def test_a_study_over_the_clearance(tmp_path: Path) -> None:
     wanted = ("oil_chi2", "oil_K2", "safe_n_pin")
     sweep(base, ("bearings.pin_clearance_max_mm=0.1:0.2:3",), target, quantities=wanted)
     rows = list(csv.DictReader(target.open(encoding="utf-8")))
-    found = [float(row["oil_chi2"]) for row in rows]
-    assert found == sorted(found)
+    collected = [float(row["oil_chi2"]) for row in rows]
+    assert collected == sorted(collected)
     assert len({row["safe_n_pin"] for row in rows}) == 1

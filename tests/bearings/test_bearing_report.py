@@ -45,8 +45,8 @@ def test_the_largest_clearance_of_the_published_bearing_has_too_little_reserve()
 
 
 def test_a_film_by_hand() -> None:
-    found = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
-    assert found == pytest.approx(5.378, abs=5e-4)
+    actual = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
+    assert actual == pytest.approx(5.378, abs=5e-4)
 
 
 def test_torsion_by_hand() -> None:
@@ -63,16 +63,16 @@ def test_bending_and_torsion_together_by_hand() -> None:
 
 
 def test_the_class_rule_by_hand() -> None:
-    found = bearings.class_strength(np.array(600e6), np.array(0.06), np.array(0.004), 1.05)
-    assert float(found) == pytest.approx(287.0e6, abs=5e4)
+    actual = bearings.class_strength(np.array(600e6), np.array(0.06), np.array(0.004), 1.05)
+    assert float(actual) == pytest.approx(287.0e6, abs=5e4)
 
 
 def test_the_heat_is_carried_away() -> None:
-    found = solve(*engine_and_cycle(tractor(30))).scalars
+    actual = solve(*engine_and_cycle(tractor(30))).scalars
     for n in range(1, 13):
-        carried = 850 * 2100 * found[f"oil_through{n}_l_min"] / 6e4 * found[f"oil_hot{n}_C"]
-        assert carried == pytest.approx(found[f"oil_friction{n}_W"], rel=1e-9)
-        assert found[f"oil_temp{n}_C"] == pytest.approx(80 + found[f"oil_hot{n}_C"] / 2, rel=1e-9)
+        carried = 850 * 2100 * actual[f"oil_through{n}_l_min"] / 6e4 * actual[f"oil_hot{n}_C"]
+        assert carried == pytest.approx(actual[f"oil_friction{n}_W"], rel=1e-9)
+        assert actual[f"oil_temp{n}_C"] == pytest.approx(80 + actual[f"oil_hot{n}_C"] / 2, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -85,22 +85,22 @@ def test_every_pin_is_bent_and_turned_by_its_own_moments(
     for web, share in zip(shaft["webs"], webs, strict=False):
         web["mass_kg"] *= share
     model = load_mapping(data, source=maker).model
-    _, found = assert_agree(model)
+    _, actual = assert_agree(model)
     numbers = range(1, count + 1)
     for k in numbers:
-        bent = np.ptp(found.columns["throw_bending"][f"Mbend{k}_Nm"]) / 2
-        turned = np.ptp(found.columns["P4_5"][f"Mpin{k}_Nm"]) / 2
+        bent = np.ptp(actual.columns["throw_bending"][f"Mbend{k}_Nm"]) / 2
+        turned = np.ptp(actual.columns["P4_5"][f"Mpin{k}_Nm"]) / 2
         modulus = polar_modulus(model.crankshaft, k)
-        assert found.scalars[f"safe_pin_bend_a{k}_MPa"] == pytest.approx(2 * bent / modulus)
-        assert found.scalars[f"safe_pin_a{k}_MPa"] == pytest.approx(turned / modulus)
+        assert actual.scalars[f"safe_pin_bend_a{k}_MPa"] == pytest.approx(2 * bent / modulus)
+        assert actual.scalars[f"safe_pin_a{k}_MPa"] == pytest.approx(turned / modulus)
         for where in ("hole", "fillet"):
-            parts = [found.scalars[f"safe_pin_{way}_{where}{k}"] for way in ("bend", "turn")]
+            parts = [actual.scalars[f"safe_pin_{way}_{where}{k}"] for way in ("bend", "turn")]
             both = 1 / np.hypot(*(1 / n for n in parts))
-            assert found.scalars[f"safe_pin_{where}{k}"] == pytest.approx(both)
-    least = {k: found.scalars[f"safe_pin_n{k}"] for k in numbers}
-    weakest = round(found.scalars["safe_pin_weakest"])
-    assert found.scalars["safe_n_pin"] == least[weakest] == min(least.values())
-    assert found.scalars["safe_n_bend_hole"] == found.scalars[f"safe_pin_bend_hole{weakest}"]
+            assert actual.scalars[f"safe_pin_{where}{k}"] == pytest.approx(both)
+    least = {k: actual.scalars[f"safe_pin_n{k}"] for k in numbers}
+    weakest = round(actual.scalars["safe_pin_weakest"])
+    assert actual.scalars["safe_n_pin"] == least[weakest] == min(least.values())
+    assert actual.scalars["safe_n_bend_hole"] == actual.scalars[f"safe_pin_bend_hole{weakest}"]
 
 
 def test_a_groove_with_the_heat_balance() -> None:

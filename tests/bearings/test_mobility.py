@@ -77,8 +77,8 @@ def test_the_velocity_of_a_force_is_the_velocity_that_made_it(width: float) -> N
     )
     force = squeeze_force(e, np.abs(gamma), width)
     force = np.where(gamma < 0, force.conj(), force)
-    found = MobilityMap.of(np.array([width])).velocity(e, 7 * force) / 7
-    off = np.abs(found / np.exp(1j * gamma) - 1)
+    actual = MobilityMap.of(np.array([width])).velocity(e, 7 * force) / 7
+    off = np.abs(actual / np.exp(1j * gamma) - 1)
     assert np.median(off) < 2e-3
     assert off.max() < 0.02
 
@@ -86,12 +86,12 @@ def test_the_velocity_of_a_force_is_the_velocity_that_made_it(width: float) -> N
 def test_bearings_of_several_widths_have_their_own_maps() -> None:
     width, e = np.array([0.5, 0.2, 0.5, 1.0]), np.array([0.3, 0.9, 0.95, 0.6])
     load = np.array([1 + 1j, -2 + 0.1j, 3 - 1j, -1j])
-    found = MobilityMap.of(width).velocity(np.array([e, e]), np.array([load, load]))
+    actual = MobilityMap.of(width).velocity(np.array([e, e]), np.array([load, load]))
     alone = [
         MobilityMap.of(width[k : k + 1]).velocity(e[k : k + 1], load[k : k + 1])[0]
         for k in range(4)
     ]
-    np.testing.assert_allclose(found, [alone, alone], rtol=1e-12)
+    np.testing.assert_allclose(actual, [alone, alone], rtol=1e-12)
 
 
 def test_a_load_that_turns_at_half_the_speed_leads_to_contact() -> None:
@@ -157,6 +157,6 @@ ENGINES = {
 def test_the_orbit_of_an_engine_is_that_of_a_direct_solution(name: str) -> None:
     """Rows of the table stand 5 or 10° apart: the thinnest film may lie between two."""
     model = load_toml(ROOT / name).model
-    found = solve(*engine_and_cycle(model)).columns["oil_orbits"]["oil_orb_h_um"]
+    actual = solve(*engine_and_cycle(model)).columns["oil_orbits"]["oil_orb_h_um"]
     for row, film in ENGINES[name].items():
-        assert found[row] == pytest.approx(film, rel=5e-3)
+        assert actual[row] == pytest.approx(film, rel=5e-3)

@@ -40,8 +40,8 @@ STILL = np.full(PHI.shape, 0.5)
 
 
 def errors(form, table) -> np.ndarray:
-    found = np.array([form(np.full(3, e), WIDTHS) for e in table])
-    return np.abs(found - np.array(list(table.values())))
+    item = np.array([form(np.full(3, e), WIDTHS) for e in table])
+    return np.abs(item - np.array(list(table.values())))
 
 
 def test_the_printed_numbers_are_met_as_the_note_says() -> None:
@@ -61,16 +61,16 @@ def test_other_published_bearings_are_met(width: float) -> None:
         assert bearings.rotation_number(np.array(e), np.array(width)) == pytest.approx(
             load, rel=0.068
         )
-        found = bearings.steady_eccentricity(load, np.array(width))
-        assert found == pytest.approx(e, abs=0.01)
+        actual = bearings.steady_eccentricity(load, np.array(width))
+        assert actual == pytest.approx(e, abs=0.01)
         assert np.degrees(bearings.attitude(np.array(e), np.array(width))) == pytest.approx(
             turn, abs=2.4
         )
 
 
 def test_the_short_bearing_alone_would_be_wrong_near_contact() -> None:
-    found = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
-    assert found == pytest.approx(5.09, rel=0.068)
+    actual = float(bearings.rotation_number(np.array(0.9), np.array(0.5)))
+    assert actual == pytest.approx(5.09, rel=0.068)
 
 
 def run(load, half_speed=None, width=0.5, cycles=12):
@@ -85,28 +85,28 @@ def run(load, half_speed=None, width=0.5, cycles=12):
 def test_a_steady_load_ends_where_the_journal_stands_still(e: float, width: float) -> None:
     """In axes that turn at half the speed a journal at rest moves sideways at ε/2."""
     (force,) = squeeze_force(np.array([e]), np.array([np.pi / 2]), width) * e / 2
-    found = run(abs(force) * np.exp(0.7j), width=width, cycles=20)
-    centre = found.centre[0, -1]
+    actual = run(abs(force) * np.exp(0.7j), width=width, cycles=20)
+    centre = actual.centre[0, -1]
     assert abs(centre) == pytest.approx(e, abs=2e-3)
     assert np.angle(centre) == pytest.approx(0.7 + np.angle(force), abs=5e-3)
-    assert found.closed.all()
+    assert actual.closed.all()
 
 
 def test_a_load_at_half_speed_has_no_wedge() -> None:
-    found = run(0.5 * np.exp(0.5j * PHI), cycles=3)
-    sizes = np.abs(found.centre[0])
+    actual = run(0.5 * np.exp(0.5j * PHI), cycles=3)
+    sizes = np.abs(actual.centre[0])
     assert np.all(np.diff(sizes) > 0)
     slower = run(0.5 * np.exp(0.25j * PHI) * 1.0, cycles=2)
     assert sizes[-1] > np.abs(slower.centre[0]).max()
 
 
 def test_at_rest_the_journal_sinks_in_the_integral_of_so_v() -> None:
-    found = run(0.2, half_speed=np.zeros(PHI.shape), cycles=1)
-    start, end = np.abs(found.centre[0, [0, -1]])
+    actual = run(0.2, half_speed=np.zeros(PHI.shape), cycles=1)
+    start, end = np.abs(actual.centre[0, [0, -1]])
     e = np.linspace(start, end, 101)
     wanted = np.trapezoid(np.abs(squeeze_force(e, 0 * e, 0.5)), e)
     assert 0.2 * (PHI[-1] - PHI[0]) == pytest.approx(wanted, rel=2e-3)
-    assert np.angle(found.centre[0]) == pytest.approx(0, abs=1e-9)
+    assert np.angle(actual.centre[0]) == pytest.approx(0, abs=1e-9)
 
 
 def sinusoid(size: float = 3.0) -> np.ndarray:
@@ -133,10 +133,10 @@ def random_bearings(count: int):
 
 def test_random_bearings_close_within_their_clearance() -> None:
     load, width = random_bearings(examples(30, 200))
-    found = orbits(PHI, load, np.broadcast_to(STILL, load.shape).copy(), width)
-    assert np.isfinite(found.centre).all()
-    assert np.abs(found.centre).max() < 1
-    assert found.closed.mean() > 0.99
+    actual = orbits(PHI, load, np.broadcast_to(STILL, load.shape).copy(), width)
+    assert np.isfinite(actual.centre).all()
+    assert np.abs(actual.centre).max() < 1
+    assert actual.closed.mean() > 0.99
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -154,8 +154,8 @@ def test_widths_without_a_table_are_refused(width: float) -> None:
 def test_the_steady_eccentricity_is_the_inverse() -> None:
     e = np.array([0.05, 0.5, 0.9, 0.99])
     b = np.full(4, 0.5)
-    found = bearings.steady_eccentricity(bearings.rotation_number(e, b), b)
-    np.testing.assert_allclose(found, e, rtol=1e-9)
+    actual = bearings.steady_eccentricity(bearings.rotation_number(e, b), b)
+    np.testing.assert_allclose(actual, e, rtol=1e-9)
 
 
 def test_a_centred_journal_rubs_as_petroff_says() -> None:

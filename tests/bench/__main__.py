@@ -29,25 +29,25 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--history", type=Path, metavar="ФАЙЛ.csv", help="дописать строки в CSV")
     parser.add_argument("--draw", type=Path, metavar="ФАЙЛ.svg",
                         help="нарисовать историю из --history; ЗАМЕР отбирает строки")  # fmt: skip
-    asked = parser.parse_args(arguments)
-    if asked.draw:
-        if not asked.history or not asked.history.exists():
+    options = parser.parse_args(arguments)
+    if options.draw:
+        if not options.history or not options.history.exists():
             print("история не найдена: назовите её файл ключом --history", file=sys.stderr)
             return 2
-        print(f"{asked.draw}: линий {draw(asked.history, asked.draw, asked.names)}")
+        print(f"{options.draw}: линий {draw(options.history, options.draw, options.names)}")
         return 0
-    unknown = [name for name in asked.names if name not in known]
+    unknown = [name for name in options.names if name not in known]
     if unknown:
         print(f"нет замера {unknown[0]}; есть: {', '.join(known)}", file=sys.stderr)
         return 2
-    for name in asked.names or [name for name in known if name not in BY_NAME]:
+    for name in options.names or [name for name in known if name not in BY_NAME]:
         print(f"== {name}", flush=True)
-        found = []
+        collected = []
         for figure in importlib.import_module(f"tests.bench.{name}").figures():
             print(figure, flush=True)
-            found.append(replace(figure, name=f"{name}: {figure.name}"))
-        if asked.history:
-            keep(asked.history, found)
+            collected.append(replace(figure, name=f"{name}: {figure.name}"))
+        if options.history:
+            keep(options.history, collected)
     return 0
 
 

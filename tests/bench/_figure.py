@@ -53,14 +53,14 @@ def interleaved(
 
     Processor time by default, which other work on the machine disturbs less.
     """
-    found: dict[str, list[float]] = {name: [] for name in actions}
+    collected: dict[str, list[float]] = {name: [] for name in actions}
     for number in range(rounds + 1):
         for name, action in actions.items():
             start = clock()
             action()
             if number:
-                found[name].append(clock() - start)
-    return found
+                collected[name].append(clock() - start)
+    return collected
 
 
 def median(times: Iterable[float]) -> float:

@@ -51,7 +51,7 @@ def _map() -> Iterator[Figure]:
 def _again() -> Iterator[Figure]:
     """What a build saves where the door, the sheets and the report ask for the same results."""
     model = load_toml(samples_dir() / "d-240-bearings.toml").model
-    for told in ("впервые", "снова"):
+    for wording in ("впервые", "снова"):
         start = time.process_time()
         solved(model)
-        yield Figure(f"решение с орбитами, {told}", time.process_time() - start, "с")
+        yield Figure(f"решение с орбитами, {wording}", time.process_time() - start, "с")

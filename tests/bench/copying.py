@@ -43,7 +43,7 @@ def figures() -> Iterator[Figure]:
 
 def _honest(class_: DrawnClass) -> Iterator[Figure]:
     """Forty manners, each in one of four programs: columns paid in full."""
-    paid = asked = held = 0
+    paid = requested = held = 0
     chance = random.Random(7)
     for number in range(1, 41):
         angle, rest = manners.MANNERS[number - 1]
@@ -51,30 +51,30 @@ def _honest(class_: DrawnClass) -> Iterator[Figure]:
         data = through(number % 4, class_.book(number, texts))
         result = class_.result(number, data)
         lines = [line for line in result["items"] if line["of"]]
-        asked += len(lines)
+        requested += len(lines)
         paid += sum(line["points"] >= _PAID * line["of"] for line in lines)
         held += bool(result["doubts"])
         for line in lines:
             if line["points"] < _PAID * line["of"]:
                 print("  не оплачено:", class_.base, number, line["id"], line["verdict"],
                       line["reason"])  # fmt: skip
-    note = f"{paid} из {asked}; задержано работ: {held}"
-    yield Figure(f"{class_.base}: честных столбцов оплачено", paid / asked, "", note)
+    note = f"{paid} из {requested}; задержано работ: {held}"
+    yield Figure(f"{class_.base}: честных столбцов оплачено", paid / requested, "", note)
 
 
 def _mistakes(class_: DrawnClass) -> Iterator[Figure]:
     """Mistakes not paid, and causes told."""
-    caught = told = wanted = 0
+    caught = message = wanted = 0
     for number, (node, text, words) in enumerate(manners.MISTAKES, 1):
         lines = class_.result(number, class_.book(number, {node: text}))["items"]
         item = node if "." in node else next(i["id"] for i in lines if i["id"].endswith(f".{node}"))
         line = next(line for line in lines if line["id"] == item)
         caught += line["points"] < _PAID * line["of"]
         wanted += bool(words)
-        told += bool(words) and words in line["cause"]
+        message += bool(words) and words in line["cause"]
         if words not in line["cause"] or line["points"] >= _PAID * line["of"]:
             print("  причина:", class_.base, node, text, "→", line["verdict"], line["cause"])
-    note = f"{caught} из {len(manners.MISTAKES)}; причина названа: {told} из {wanted}"
+    note = f"{caught} из {len(manners.MISTAKES)}; причина названа: {message} из {wanted}"
     yield Figure(f"{class_.base}: ошибок найдено", caught, "", note)
 
 
@@ -103,35 +103,35 @@ def _cheats(class_: DrawnClass) -> Iterator[Figure]:
 
 def _copying(class_: DrawnClass) -> Iterator[Figure]:
     """Rings named and honest people named, over the seeds and over two years."""
-    whole = members = false_held = false_told = told = 0
+    whole = members = false_held = false_told = message = 0
     for seed in range(1, SEEDS + 1):
         honest = class_.drawn(100 * seed, ())
-        found = honest.rings()
-        false_held += len(honest.named(found, held=True))
-        false_told += len(honest.named(found, held=False))
+        actual = honest.rings()
+        false_held += len(honest.named(actual, held=True))
+        false_told += len(honest.named(actual, held=False))
         drawn = class_.drawn(seed, RINGS)
-        found = drawn.rings()
+        actual = drawn.rings()
         copied = frozenset().union(*drawn.members)
-        held, named = (drawn.named(found, held=word) for word in (True, False))
+        held, named = (drawn.named(actual, held=word) for word in (True, False))
         whole += sum(
-            any(ring.held and ring_of <= {work.number for work in ring.works} for ring in found)
+            any(ring.held and ring_of <= {work.number for work in ring.works} for ring in actual)
             for ring_of in drawn.members
         )
-        members, told = members + len(held & copied), told + len(named & copied)
+        members, message = members + len(held & copied), message + len(named & copied)
         false_held, false_told = false_held + len(held - copied), false_told + len(named - copied)
     count = SEEDS * sum(RINGS)
     name = f"{class_.base}: зёрен {SEEDS}"
     yield Figure(f"{name}, кругов задержано целиком", whole, "", f"из {SEEDS * len(RINGS)}")
-    yield Figure(f"{name}, списавших задержано", members, "", f"из {count}; названо {told}")
+    yield Figure(f"{name}, списавших задержано", members, "", f"из {count}; названо {message}")
     yield Figure(f"{name}, честных задержано", false_held, "", f"названо {false_told}")
     past = drawn.as_past("прошлый год")
     texts, helpers = manners.source(random.Random(SEEDS))
     late = [class_.work(n, class_.book(n, manners.copied(random.Random(n), texts), helpers), {})
             for n in (1, 2, 3)]  # fmt: skip
     again = class_.drawn(100 * SEEDS, ()).works[3:]
-    found = rings_of([*late[:1], *again], past)
-    caught = sum(ring.held and bool(ring.past) for ring in found)
-    others = {work.number for ring in found for work in ring.works} - {1}
+    actual = rings_of([*late[:1], *again], past)
+    caught = sum(ring.held and bool(ring.past) for ring in actual)
+    others = {work.number for ring in actual for work in ring.works} - {1}
     name = f"{name}, списавший у прошлого года задержан"
     yield Figure(name, caught, "", f"честных названо: {len(others)}")
 

@@ -40,8 +40,8 @@ def figures() -> Iterator[Figure]:
         if shutil.which("pdfinfo") is None:
             print("страницы не посчитаны: нет pdfinfo (пакет poppler-utils)")
             return
-        told = poppler("pdfinfo", str(folder / "gots-diesel.pdf"))
-        pages = int(re.search(r"Pages:\s+(\d+)", told)[1])
+        message = poppler("pdfinfo", str(folder / "gots-diesel.pdf"))
+        pages = int(re.search(r"Pages:\s+(\d+)", message)[1])
         yield Figure("страниц", pages)
         yield Figure("ячеек таблиц", cells)
         layout = pdf.wall - html.wall

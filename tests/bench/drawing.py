@@ -32,8 +32,8 @@ def figures() -> Iterator[Figure]:
         return among_all
 
     def bounds_anew() -> list[object]:
-        found = vars(canvas.Line)["box"].func
-        with mock.patch.object(canvas.Line, "box", property(found)):
+        actual = vars(canvas.Line)["box"].func
+        with mock.patch.object(canvas.Line, "box", property(actual)):
             return near()
 
     times = interleaved({"near": near, "all": all_lines, "anew": bounds_anew}, rounds=2)

@@ -105,8 +105,8 @@ def _forms(books: list[bytes]) -> Iterator[Figure]:
 
 def _own_formulas(register: Register) -> Iterator[Figure]:
     """What it saves that a column's formulas are read from its first two rows and the last."""
-    made = assignment_for(register.books[0], register.rubric)
-    layout, nodes = Layout.of(made.kept_model), made.fill_nodes | made.live_nodes
+    assignment = assignment_for(register.books[0], register.rubric)
+    layout, nodes = Layout.of(assignment.kept_model), assignment.fill_nodes | assignment.live_nodes
     filled_down = restoring._filled_down
 
     def each(text: str, cells: list[Cell]) -> tuple[Read, ...]:
@@ -115,7 +115,7 @@ def _own_formulas(register: Register) -> Iterator[Figure]:
     def read(way: object) -> None:
         formula_of.cache_clear()
         with mock.patch.object(restoring, "_filled_down", way):
-            restoring.own_formulas(made, layout, nodes)
+            restoring.own_formulas(assignment, layout, nodes)
 
     times = interleaved({"two": lambda: read(filled_down), "each": lambda: read(each)})
     yield Figure("формулы программы, прочитаны строка за строкой", median(times["each"]), "с")
@@ -129,8 +129,8 @@ def _assignments(register: Register) -> Iterator[Figure]:
     for words, known in (("заново", None), ("по образцу первой", like)):
         started = time.process_time()
         for book in register.books:
-            made = assignment_for(book, register.rubric, known)
-            assert made.items and made.points and made.fill_nodes
+            assignment = assignment_for(book, register.rubric, known)
+            assert assignment.items and assignment.points and assignment.fill_nodes
         each = (time.process_time() - started) / len(register.books)
         yield Figure(f"таблицы работы {words}", each, "с")
 
@@ -168,11 +168,11 @@ def _filled(folder: Path, register: Register, changes: Changes | None = None) ->
 
 def _graded(folder: Path, books: list[bytes], count: int, mark: str = "") -> Cost:
     """Cost of the command for so many books; all of them are right where nothing is marked."""
-    place, out = folder / f"submitted{mark}{count}", folder / f"graded{mark}{count}"
-    place.mkdir()
+    path, out = folder / f"submitted{mark}{count}", folder / f"graded{mark}{count}"
+    path.mkdir()
     for i in range(count):
-        (place / f"{i:05d}.xlsx").write_bytes(books[i % len(books)])
-    command = kshm("grade", str(folder / "issued"), str(place), "-o", str(out),
+        (path / f"{i:05d}.xlsx").write_bytes(books[i % len(books)])
+    command = kshm("grade", str(folder / "issued"), str(path), "-o", str(out),
                    "--secret", str(folder / "key"))  # fmt: skip
     cost = run(command)
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))

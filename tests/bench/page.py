@@ -39,8 +39,8 @@ def figures() -> Iterator[Figure]:
             page.evaluate(COUNT)
 
             def now(page=page, inside=inside) -> tuple[float, float, float]:  # type: ignore[no-untyped-def]
-                found = inside.send("Performance.getMetrics")["metrics"]
-                task = next(each["value"] for each in found if each["name"] == "TaskDuration")
+                actual = inside.send("Performance.getMetrics")["metrics"]
+                task = next(each["value"] for each in actual if each["name"] == "TaskDuration")
                 return page.evaluate("performance.now()") / 1000, page.evaluate("count"), task
 
             began = now()

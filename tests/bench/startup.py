@@ -38,11 +38,11 @@ def _uncompiled() -> Iterator[Figure]:
         for room in ("kshm", "reports", "templates"):
             bare = shutil.ignore_patterns("__pycache__")
             shutil.copytree(ROOT / room, Path(name) / room, ignore=bare)
-        for told, never in (("без готовых .pyc", "1"), ("с готовыми .pyc", "")):
+        for wording, never in (("без готовых .pyc", "1"), ("с готовыми .pyc", "")):
             env = {"PYTHONPATH": name, "PYTHONDONTWRITEBYTECODE": never}
             median(check, times=1, env=env)  # where they are kept, they are made here
             cost = median(check, times=5, env=env)
-            yield Figure(f"kshm check {told}: процессор", cost.cpu, "с")
+            yield Figure(f"kshm check {wording}: процессор", cost.cpu, "с")
 
 
 def _pythons() -> Iterator[Figure]:
@@ -58,13 +58,15 @@ def _pythons() -> Iterator[Figure]:
 
 def _same_version() -> set[str]:
     """The Pythons of this one's version, those of environments aside."""
-    asked = "import os, sys; print(os.path.realpath(sys.executable), sys.prefix == sys.base_prefix)"
+    requested = (
+        "import os, sys; print(os.path.realpath(sys.executable), sys.prefix == sys.base_prefix)"
+    )
     folders = ("/usr/bin", *os.environ["PATH"].split(os.pathsep))
-    found = set()
+    collected = set()
     for program in {Path(folder, f"python3.{sys.version_info.minor}") for folder in folders}:
         if program.is_file():
             done = subprocess.run(
-                [program, "-c", asked], capture_output=True, text=True, check=False
+                [program, "-c", requested], capture_output=True, text=True, check=False
             )
-            found |= {done.stdout.split()[0]} if done.stdout.endswith("True\n") else set()
-    return found
+            collected |= {done.stdout.split()[0]} if done.stdout.endswith("True\n") else set()
+    return collected

@@ -22,8 +22,8 @@ def every() -> None:
 
 def all_renamed() -> None:
     """The same, every expression read for names to replace."""
-    made = rename._Expressions
-    with mock.patch.object(rename, "_Expressions", lambda names, only=(): made(names)):
+    built = rename._Expressions
+    with mock.patch.object(rename, "_Expressions", lambda names, only=(): built(names)):
         every()
 
 

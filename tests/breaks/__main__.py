@@ -26,7 +26,7 @@ AT_ONCE = os.cpu_count() or 1
 
 def main(words: list[str]) -> int:
     """Tell of each break whether it was seen; the number of those that were not."""
-    asked = [b for b in breaks() if all(word in f"{b.file} {b.about}" for word in words)]
+    requested = [b for b in breaks() if all(word in f"{b.file} {b.about}" for word in words)]
     with tempfile.TemporaryDirectory(prefix="kshm-breaks-") as folder:
         copies: SimpleQueue[Path] = SimpleQueue()
         for number in range(AT_ONCE):
@@ -42,9 +42,9 @@ def main(words: list[str]) -> int:
             return seen
 
         with ThreadPoolExecutor(AT_ONCE) as pool:
-            found = list(pool.map(tried, asked))
-    print(f"{sum(found)} of {len(found)} breaks seen")
-    return int(not all(found))
+            collected = list(pool.map(tried, requested))
+    print(f"{sum(collected)} of {len(collected)} breaks seen")
+    return int(not all(collected))
 
 
 def _copied(folder: Path) -> Path:

@@ -57,9 +57,9 @@ def opposed(cranks: list[float], axes: list[float]) -> balance.Cylinders:
     return cylinders(phases, places, axes)
 
 
-def largest(found: balance.Cylinders, order: int, *, moment: bool) -> float:
-    weights = found.position if moment else None
-    return balance.ellipse(balance.order_phasors(found, order, weights)).largest
+def largest(actual: balance.Cylinders, order: int, *, moment: bool) -> float:
+    weights = actual.position if moment else None
+    return balance.ellipse(balance.order_phasors(actual, order, weights)).largest
 
 
 # Force and moment of orders 1, 2, 4 in units of one cylinder's amplitude (and of the pitch).
@@ -88,18 +88,18 @@ STANDARD = {
 @pytest.mark.parametrize("name", [name for name in STANDARD if name not in ("five", "V6 at 60")])
 def test_standard_table_of_forces_and_moments(name: str) -> None:
     """Zero where it must be zero to 1e-12; the rest by the text-book factors."""
-    found, forces, moments = STANDARD[name]
+    actual, forces, moments = STANDARD[name]
     for order, force, moment in zip((1, 2, 4), forces, moments, strict=True):
-        assert largest(found, order, moment=False) == pytest.approx(force, abs=1e-12), order
-        assert largest(found, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-12)
+        assert largest(actual, order, moment=False) == pytest.approx(force, abs=1e-12), order
+        assert largest(actual, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-12)
 
 
 def test_five_cylinders_and_v6_have_moments_alone() -> None:
     for name in ("five", "V6 at 60"):
-        found, _, moments = STANDARD[name]
+        actual, _, moments = STANDARD[name]
         for order, moment in zip((1, 2), moments, strict=False):
-            assert largest(found, order, moment=False) < 1e-12
-            assert largest(found, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-6)
+            assert largest(actual, order, moment=False) < 1e-12
+            assert largest(actual, order, moment=True) / PITCH == pytest.approx(moment, abs=1e-6)
 
 
 @settings(max_examples=30)
@@ -108,20 +108,20 @@ def test_orders_add_up_to_the_inertia_of_all_pistons(engine: Engine) -> None:
     """Phasors against the exact accelerations of every piston, force and moment."""
     geometry = engine.geometry
     m_j, _ = point_masses(engine.masses, geometry.rod_length)
-    found = balance.cylinders_of(engine)
+    actual = balance.cylinders_of(engine)
     phi = np.radians(np.arange(0, 360, 7.0))
     lam = np.array(geometry.lam)
-    local = phi[None, :] - found.phase[:, None]
+    local = phi[None, :] - actual.phase[:, None]
     unit = m_j * geometry.crank_radius * engine.omega**2
     thrown = unit * dimensionless.exact(local, lam).j
     force, moment = np.zeros_like(phi), np.zeros_like(phi)
     for order in (1, *range(2, 41, 2)):
-        one, two = balance.reciprocating(engine, found, order)
+        one, two = balance.reciprocating(engine, actual, order)
         force += np.real(one[0] * np.exp(1j * order * phi))
         moment += np.real(two[0] * np.exp(1j * order * phi))
     scale = unit * engine.cylinders
     np.testing.assert_allclose(force, thrown.sum(axis=0), atol=1e-8 * scale)
-    arms = thrown * found.position[:, None]
+    arms = thrown * actual.position[:, None]
     np.testing.assert_allclose(moment, arms.sum(axis=0), atol=1e-8 * scale)
 
 
@@ -215,7 +215,7 @@ def test_table_over_a_turn_holds_the_orders() -> None:
 def test_firing_orders_of_four_cylinders() -> None:
     ranked = firing_orders.rank_firing_orders(solution("d-240").engine)
     assert len(ranked) == 8
-    assert {found.order for found in ranked[:2]} == {(1, 3, 4, 2), (1, 2, 4, 3)}
+    assert {collected.order for collected in ranked[:2]} == {(1, 3, 4, 2), (1, 2, 4, 3)}
     assert ranked[0].unevenness == pytest.approx(0, abs=1e-12)
     assert ranked[2].unevenness > 0.9
     assert ranked[0].half_order == pytest.approx(0, abs=1e-12)
@@ -226,11 +226,11 @@ def test_own_order_is_among_the_ranked_and_has_its_own_load() -> None:
     solved = solution("d-240")
     own = tuple(np.degrees(solved.engine.firing_offsets).round(6))
     ranked = firing_orders.rank_firing_orders(solved.engine)
-    (found,) = [f for f in ranked if tuple(np.degrees(f.offsets).round(6)) == own]
+    (collected,) = [f for f in ranked if tuple(np.degrees(f.offsets).round(6)) == own]
     coarse = solve(replace(solved.engine, step_deg=10))
     load = max(value for key, value in coarse.scalars.items() if key.endswith("_max_kN")
                and key.startswith("Rmain"))  # fmt: skip
-    assert found.journal_load == pytest.approx(1000 * load, rel=1e-9)
+    assert collected.journal_load == pytest.approx(1000 * load, rel=1e-9)
 
 
 def test_six_cylinders_have_even_orders_known_from_practice() -> None:
@@ -262,15 +262,17 @@ def test_orders_add_up_to_the_inertia_forces_of_all_pistons(name: str) -> None:
     phi = np.radians(np.arange(0.0, 360.0, 7.0))
     r, lam = np.array(engine.geometry.crank_radius), np.array(engine.geometry.lam)
     m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
-    found = balance.cylinders_of(engine)
+    actual = balance.cylinders_of(engine)
     waves = {order: np.exp(1j * order * phi) for order in ORDERS}
-    parts = [balance.reciprocating(engine, found, order) for order in ORDERS]
+    parts = [balance.reciprocating(engine, actual, order) for order in ORDERS]
     force, moment = np.zeros((2, len(phi))), np.zeros((2, len(phi)))
-    for theta, place, axis in zip(engine.firing_offsets, found.position, found.axis, strict=True):
+    for theta, position, axis in zip(
+        engine.firing_offsets, actual.position, actual.axis, strict=True
+    ):
         thrown = m_j * kinematics.acceleration_exact(phi - theta, r, lam, np.array(engine.omega))
         direction = np.array([[np.cos(axis)], [np.sin(axis)]])
         force += direction * thrown
-        moment += place * direction * thrown
+        moment += position * direction * thrown
     scale = m_j * float(r) * engine.omega**2
     for which, direct in enumerate((force, moment)):
         for side in (0, 1):
@@ -303,8 +305,8 @@ def test_rotating_masses_stand_where_the_throws_and_pins_are(name: str) -> None:
 def test_a_v_of_90_degrees_is_balanced_in_the_first_order_by_counterweights() -> None:
     """The resultant of a pair turns with the crank: masses m_j opposite it take it away."""
     engine = to_engine(made("two_stroke_v"))
-    found = balance.cylinders_of(engine)
-    force, _ = balance.reciprocating(engine, found, 1)
+    actual = balance.cylinders_of(engine)
+    force, _ = balance.reciprocating(engine, actual, 1)
     against = balance.turning_parts(force)[1]
     scale = abs(balance.turning_parts(force)[0]) + 1.0
     assert abs(against) < 1e-9 * scale

@@ -87,32 +87,32 @@ def test_partial_balance_is_the_worst_at_an_end():
 
 
 def test_scan_of_one_cylinder_is_partial_balance():
-    found = solved("one", goal="residue")
-    engine = found.engine
+    actual = solved("one", goal="residue")
+    engine = actual.engine
     m_j, _ = point_masses(engine.masses, engine.geometry.rod_length)
-    m_r = found.scalar("m_r")
+    m_r = actual.scalar("m_r")
     crank = Crank(m_r, m_j, engine.geometry.crank_radius, engine.omega)
     angles = np.linspace(0, 2 * np.pi, 721)
-    scan = found.columns["counterweight_scan"]
+    scan = actual.columns["counterweight_scan"]
     for k, left in zip(scan["cw_k"][::4], scan["cw_F_kN"][::4], strict=True):
         share = (k - 1) * m_r / m_j
         most = max(crank.residue(share, angle) for angle in angles)
         assert 1000 * left == pytest.approx(most, rel=1e-5)
     # Half of the reciprocating mass leaves the least.
-    assert abs(found.scalar("cw_best") - 1 - m_j / m_r / 2) <= 0.025 + 1e-9
+    assert abs(actual.scalar("cw_best") - 1 - m_j / m_r / 2) <= 0.025 + 1e-9
 
 
 @pytest.mark.parametrize("goal", ["loads", "residue"])
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])
 def test_both_statements_agree(name: str, goal: str):
     model = model_of(name, goal=goal)
-    values, found = evaluate_model(model), solve(to_engine(model.input))
-    numbers = {key: each for key, each in found.scalars.items() if key.startswith("cw_")}
+    values, actual = evaluate_model(model), solve(to_engine(model.input))
+    numbers = {key: each for key, each in actual.scalars.items() if key.startswith("cw_")}
     assert len(numbers) > 20
     for key, each in numbers.items():
         assert values.scalars[key] == pytest.approx(each, rel=RELATIVE, abs=1e-9), key
     for table in ("counterweight_scan", "counterweight_turn"):
-        for key, column in found.columns[table].items():
+        for key, column in actual.columns[table].items():
             scale = np.abs(column).max() + 1e-3
             assert np.abs(values.columns[table][key] - column).max() < 1e-7 * scale, key
 
@@ -120,34 +120,34 @@ def test_both_statements_agree(name: str, goal: str):
 @pytest.mark.parametrize("share", [0.0, 0.65, 1.3])
 def test_scan_is_the_engine_with_these_counterweights(share: float):
     """The chain of forces itself, run for an engine with the counterweights of a row."""
-    found = solved("yamz-236")
-    engine = with_counterweights(found.engine, share)
+    actual = solved("yamz-236")
+    engine = with_counterweights(actual.engine, share)
     again = solve(engine)
     area = engine.geometry.piston_area
     loads = again.raw.journal_load[0][:, :-1] * area / 1000
     row = round(share / 0.05)
-    scan = found.columns["counterweight_scan"]
+    scan = actual.columns["counterweight_scan"]
     assert scan["cw_k"][row] == pytest.approx(share)
     assert scan["cw_sum_kN"][row] == pytest.approx(np.sqrt((loads**2).mean(axis=1)).sum())
 
 
 def test_chosen_share_is_the_least_of_the_scan_or_all_there_is_room_for():
     for name in (*SAMPLES, *NEW):
-        found = solved(name)
-        scan = found.columns["counterweight_scan"]
-        assert found.scalar("cw_best") == scan["cw_k"][np.argmin(scan["cw_sum_kN"])]
-        room = found.scalar("cw_limit")
-        taken = found.scalar("cw_taken")
-        assert taken <= room and taken in (found.scalar("cw_best"), np.floor(100 * room) / 100)
-        assert found.scalar("cw_new_sum_kN") < found.scalar("cw_bare_sum_kN")
+        actual = solved(name)
+        scan = actual.columns["counterweight_scan"]
+        assert actual.scalar("cw_best") == scan["cw_k"][np.argmin(scan["cw_sum_kN"])]
+        room = actual.scalar("cw_limit")
+        taken = actual.scalar("cw_taken")
+        assert taken <= room and taken in (actual.scalar("cw_best"), np.floor(100 * room) / 100)
+        assert actual.scalar("cw_new_sum_kN") < actual.scalar("cw_bare_sum_kN")
 
 
 def test_new_engine_has_the_counterweights_that_are_proposed():
     raw = generate_engine(6, layout="v", kind="petrol").data
     model = load_mapping(raw, source="").model
-    found: Engine = to_engine(model)
-    numbers = solve(found).scalars
-    weights = {web.counterweight_mass for t in found.crankshaft.throws
+    actual: Engine = to_engine(model)
+    numbers = solve(actual).scalars
+    weights = {web.counterweight_mass for t in actual.crankshaft.throws
                for web in (t.left_web, t.right_web)}  # fmt: skip
     assert list(weights) == [pytest.approx(numbers["cw_reduced"], rel=5e-4)]
     assert numbers["cw_now_sum_kN"] == pytest.approx(numbers["cw_new_sum_kN"], rel=1e-3)
@@ -167,6 +167,6 @@ def test_workbook_is_live():
 
 
 def test_case_without_the_section_has_none():
-    found = solve(to_engine(sample("gots-diesel")))
-    assert isinstance(found._case, Case)
-    assert not [key for key in found.scalars if key.startswith("cw_")]
+    actual = solve(to_engine(sample("gots-diesel")))
+    assert isinstance(actual._case, Case)
+    assert not [key for key in actual.scalars if key.startswith("cw_")]

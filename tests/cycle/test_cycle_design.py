@@ -20,17 +20,17 @@ def test_sizes_survive_the_round_trip(engine, friction):
     if friction == "law":
         engine = replace(engine, mechanical=LAWS[engine.kind])
     power = cycle(engine).effective.power_e
-    found = design(engine, power, engine.stroke / engine.bore)
-    assert found.bore_exact == pytest.approx(engine.bore, rel=1e-12)
-    assert found.stroke_exact == pytest.approx(engine.stroke, rel=1e-12)
-    assert (found.bore, found.stroke) == (engine.bore, engine.stroke)
-    assert found.power_error == pytest.approx(0, abs=1e-12)
+    actual = design(engine, power, engine.stroke / engine.bore)
+    assert actual.bore_exact == pytest.approx(engine.bore, rel=1e-12)
+    assert actual.stroke_exact == pytest.approx(engine.stroke, rel=1e-12)
+    assert (actual.bore, actual.stroke) == (engine.bore, engine.stroke)
+    assert actual.power_error == pytest.approx(0, abs=1e-12)
 
 
 def test_listing_mode_survives_it_too(diesel):
     power = cycle(diesel, Listing()).effective.power_e
-    found = design(diesel, power, diesel.stroke / diesel.bore, listing=Listing())
-    assert found.bore_exact == pytest.approx(0.088, rel=1e-12)
+    actual = design(diesel, power, diesel.stroke / diesel.bore, listing=Listing())
+    assert actual.bore_exact == pytest.approx(0.088, rel=1e-12)
 
 
 def test_given_bore_and_stroke_do_not_matter(engine):

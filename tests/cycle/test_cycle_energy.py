@@ -153,5 +153,5 @@ TABLE = {
 
 @pytest.mark.parametrize("name", sorted(SPECIES))
 def test_heat_capacities_of_the_species(name):
-    found = [SPECIES[name].mean(t) for t in (1000.0, 2000.0)]
-    assert found == pytest.approx(TABLE[name], abs=5e-4)
+    collected = [SPECIES[name].mean(t) for t in (1000.0, 2000.0)]
+    assert collected == pytest.approx(TABLE[name], abs=5e-4)

@@ -40,11 +40,11 @@ def test_much_air_leaves_air_and_no_rise(engines, name):
 
 def test_much_air_at_constant_pressure(diesel):
     """The rise falls as 1/α, at ρ → 1."""
-    found = [burnt(diesel, alpha) for alpha in (25.0, 50.0, 100.0)]
-    rises = [combustion.t_z - compression.t_c for compression, combustion in found]
+    collected = [burnt(diesel, alpha) for alpha in (25.0, 50.0, 100.0)]
+    rises = [combustion.t_z - compression.t_c for compression, combustion in collected]
     assert rises[0] / rises[1] == pytest.approx(2, rel=0.1)
     assert rises[1] / rises[2] == pytest.approx(2, rel=0.15)
-    assert found[-1][1].rho == pytest.approx(1, abs=0.03)
+    assert collected[-1][1].rho == pytest.approx(1, abs=0.03)
 
 
 def test_products_of_much_air_are_air():

@@ -98,9 +98,9 @@ def test_design_returns_the_sizes(engine, ratio):
         power = cycle(replace(engine, stroke=engine.bore * ratio)).effective.power_e
     except CycleError:
         return
-    found = design(engine, power, ratio)
-    assert math.isclose(found.bore_exact, engine.bore, rel_tol=1e-11)
-    assert abs(found.power_error) < 0.05
+    actual = design(engine, power, ratio)
+    assert math.isclose(actual.bore_exact, engine.bore, rel_tol=1e-11)
+    assert abs(actual.power_error) < 0.05
 
 
 @settings(max_examples=60, deadline=None)

@@ -23,22 +23,22 @@ POWER, G_E = 70e3, 263 / 3.6e9
 @pytest.mark.parametrize("name", sorted(LEIDERMAN))
 def test_rated_point_is_met(name):
     law = LEIDERMAN[name]
-    found = curve(POWER, RATED, G_E, law, np.array([RATED]))
-    assert found.power[0] == pytest.approx(POWER, rel=1e-12)
-    assert found.torque[0] == pytest.approx(POWER / RATED, rel=1e-12)
-    assert found.consumption[0] == pytest.approx(G_E, rel=1e-12)
-    assert found.fuel_flow[0] == pytest.approx(G_E * POWER, rel=1e-12)
+    actual = curve(POWER, RATED, G_E, law, np.array([RATED]))
+    assert actual.power[0] == pytest.approx(POWER, rel=1e-12)
+    assert actual.torque[0] == pytest.approx(POWER / RATED, rel=1e-12)
+    assert actual.consumption[0] == pytest.approx(G_E, rel=1e-12)
+    assert actual.fuel_flow[0] == pytest.approx(G_E * POWER, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", sorted(LEIDERMAN))
 def test_torque_peaks_at_k_c_with_k(name):
     law = LEIDERMAN[name]
-    found = curve(POWER, RATED, G_E, law, np.linspace(0.2, 1.0, 8001) * RATED)
-    best = int(np.argmax(found.torque))
-    assert found.omega[best] / RATED == pytest.approx(found.speed_ratio, abs=2e-4)
-    assert found.torque[best] * RATED / POWER == pytest.approx(found.adaptability, rel=1e-7)
-    assert np.allclose(found.power, found.torque * found.omega)
-    assert np.all(found.consumption > 0)
+    actual = curve(POWER, RATED, G_E, law, np.linspace(0.2, 1.0, 8001) * RATED)
+    best = int(np.argmax(actual.torque))
+    assert actual.omega[best] / RATED == pytest.approx(actual.speed_ratio, abs=2e-4)
+    assert actual.torque[best] * RATED / POWER == pytest.approx(actual.adaptability, rel=1e-7)
+    assert np.allclose(actual.power, actual.torque * actual.omega)
+    assert np.all(actual.consumption > 0)
 
 
 def test_k_and_k_c_of_the_textbook():
@@ -99,9 +99,9 @@ def test_regimes_out_of_order():
 
 
 def test_curves_are_read_only():
-    found = curve(POWER, RATED, G_E, LEIDERMAN["petrol"], np.array([100.0, 200.0]))
+    actual = curve(POWER, RATED, G_E, LEIDERMAN["petrol"], np.array([100.0, 200.0]))
     with pytest.raises(ValueError, match="read-only"):
-        found.torque[0] = 0
+        actual.torque[0] = 0
 
 
 @pytest.mark.parametrize(
@@ -109,10 +109,10 @@ def test_curves_are_read_only():
     [("petrol", 1.25, 0.85), ("diesel", 1.185, 1.025), ("diesel_swirl", 1.10, 1.025)],
 )
 def test_half_speed(name, torque, consumption):
-    found = curve(POWER, RATED, G_E, LEIDERMAN[name], np.array([RATED / 2]))
-    assert found.torque[0] * RATED / POWER == pytest.approx(torque, rel=1e-12)
-    assert found.consumption[0] / G_E == pytest.approx(consumption, rel=1e-12)
-    assert found.fuel_flow[0] / G_E / POWER == pytest.approx(torque * consumption / 2, rel=1e-12)
+    actual = curve(POWER, RATED, G_E, LEIDERMAN[name], np.array([RATED / 2]))
+    assert actual.torque[0] * RATED / POWER == pytest.approx(torque, rel=1e-12)
+    assert actual.consumption[0] / G_E == pytest.approx(consumption, rel=1e-12)
+    assert actual.fuel_flow[0] / G_E / POWER == pytest.approx(torque * consumption / 2, rel=1e-12)
 
 
 def test_torque_that_still_rises_at_the_rated_speed():

@@ -35,7 +35,7 @@ def bare_page(model: InputFile, drawn: Drawn | None = None) -> str:
     Needs the fixture ``nothing_is_drawn``.
     """
     one, several = chapters.chart_figure, chapters.panels_figure
-    made = build_model(model)
+    built = build_model(model)
 
     def note(terms: Terms, specs: list[ChartSpec]) -> None:
         for spec in specs if drawn is not None else ():
@@ -57,7 +57,7 @@ def bare_page(model: InputFile, drawn: Drawn | None = None) -> str:
         mock.patch.object(chapters, "chart_figure", chart),
         mock.patch.object(chapters, "panels_figure", panels),
     ):
-        page = Report(made, evaluate_model(made)).page("screen")
+        page = Report(built, evaluate_model(built)).page("screen")
     return page[page.index("<body") :]
 
 

@@ -15,11 +15,11 @@ from tests.document.report_samples import BOX
 @cache
 def _without_formulas(media, style):
     """The environment of the templates, which are compiled once for all tests of a process."""
-    made = render._environment(None, media, style)
-    made.globals["formula_lines"] = lambda tex, room: (
+    page = render._environment(None, media, style)
+    page.globals["formula_lines"] = lambda tex, room: (
         FormulaImage("<svg></svg>", 1.0, 1.0, 0.0, str(tex)),
     )
-    return made
+    return page
 
 
 @pytest.fixture

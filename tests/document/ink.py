@@ -47,10 +47,10 @@ def sheets(pdf: Path) -> list[NDArray[np.bool_]]:
     folder = pdf.parent / f"{pdf.stem}-ink"
     folder.mkdir(exist_ok=True)
     poppler("pdftoppm", "-gray", "-r", str(DPI), str(pdf), str(folder / "p"))
-    found = [_pgm(path.read_bytes()) < 200 for path in sorted(folder.glob("*.pgm"))]
+    collected = [_pgm(path.read_bytes()) < 200 for path in sorted(folder.glob("*.pgm"))]
     for path in folder.glob("*.pgm"):
         path.unlink()
-    return found
+    return collected
 
 
 def _pgm(data: bytes) -> NDArray[np.uint8]:

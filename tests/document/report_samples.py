@@ -106,9 +106,9 @@ def print_page(name: str) -> str:
 @kept
 def pdf(name: str) -> bytes:
     """The finished PDF of a sample, without attachments and without a warning."""
-    made = render(print_page(name))
-    assert made.warnings == ()
-    return made.pdf
+    page = render(print_page(name))
+    assert page.warnings == ()
+    return page.pdf
 
 
 @kept

@@ -53,10 +53,10 @@ def test_room_and_labels():
     room.curves.append(dense(np.array([[0.0, 50.0], [100.0, 50.0]])))
     assert not room.free((10, 45, 20, 55))
     assert room.free((10, 60, 20, 70))
-    place = label_point(room, (50, 50), (10, 6), first=(0, 1))
-    assert place is not None and place[1] > 53
+    position = label_point(room, (50, 50), (10, 6), first=(0, 1))
+    assert position is not None and position[1] > 53
     again = label_point(room, (50, 50), (10, 6), first=(0, 1))
-    assert again != place
+    assert again != position
     assert label_point(LabelField((0, 0, 5, 5)), (2, 2), (10, 6)) is None
     assert box_at((0, 0), (10, 4), (1, 0), 2) == pytest.approx((2, -2, 12, 2))
 

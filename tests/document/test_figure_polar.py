@@ -44,8 +44,8 @@ def test_polar_angle_labels_do_not_collide():
     assert any(box[4].startswith("0,") for box in boxes)
     for i, a in enumerate(boxes):
         for b in boxes[i + 1 :]:
-            apart = a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
-            assert apart, (a, b)
+            separate = a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+            assert separate, (a, b)
 
 
 def test_bad_components_are_refused():
@@ -60,9 +60,9 @@ def test_numbers_of_an_axis_do_not_touch():
     svg = polar_path(11000 * np.cos(turn), 11000 * np.sin(turn), np.degrees(turn), ("$x$", "$y$"),
                      most=80.0)  # fmt: skip
     nodes = [node for node in ET.fromstring(svg).iter() if node.tag.endswith("}text")]
-    found = [("".join(n.itertext()), float(n.attrib["x"]), float(n.attrib["y"])) for n in nodes]
-    lowest = max(y for _, _, y in found)
-    row = sorted((x, text) for text, x, y in found if y == lowest)
+    collected = [("".join(n.itertext()), float(n.attrib["x"]), float(n.attrib["y"])) for n in nodes]
+    lowest = max(y for _, _, y in collected)
+    row = sorted((x, text) for text, x, y in collected if y == lowest)
     assert any(text == "0" for _, text in row)
     for (left, before), (right, after) in pairwise(row):
         assert right - left > (text_size(before, SMALL)[0] + text_size(after, SMALL)[0]) / 2 + 2

@@ -48,7 +48,7 @@ class Case:
     @property
     def block(self) -> TableBlock:
         if self.wide:  # two parts one below the other
-            heads = [TableColumn(f"M{place}") for place in range(20)]
+            heads = [TableColumn(f"M{index}") for index in range(20)]
             return table_block(heads, [[self.mark(i), *["−1234,5"] * 19] for i in range(self.rows)])
         rows = [[self.mark(i), "1,5", "−2,5", "0,25"] for i in range(self.rows)]
         columns = SIMPLE
@@ -95,12 +95,12 @@ def pages(tmp_path_factory):
 
 def places(texts: list[str], case: Case) -> dict[int, list[int]]:
     """Rows of the table on each page."""
-    found: dict[int, list[int]] = {}
+    collected: dict[int, list[int]] = {}
     for number, text in enumerate(texts):
         rows = [int(row) for row in re.findall(rf"\b{10 + case.number}(\d\d\d)\b", text)]
         if rows:
-            found[number] = rows
-    return found
+            collected[number] = rows
+    return collected
 
 
 def lines_of(block: TableBlock, size: str):
@@ -120,10 +120,10 @@ def test_enough_layouts_break():
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.number}-{case.rows}r")
 def test_layout(pages, case):
     texts, _ = pages
-    found = places(texts, case)
-    assert [row for rows in found.values() for row in rows] == list(range(case.rows))
-    *_, last = found
-    for order, (page, rows) in enumerate(found.items()):
+    actual = places(texts, case)
+    assert [row for rows in actual.values() for row in rows] == list(range(case.rows))
+    *_, last = actual
+    for order, (page, rows) in enumerate(actual.items()):
         text = texts[page]
         first_line = text.strip().splitlines()[0].strip()
         started = re.search(rf"Таблица\s+П{case.number}\b", text)
@@ -140,7 +140,7 @@ def test_layout(pages, case):
         if case.rows >= 6:
             assert len(rows) >= 3, "no lonely rows"
     for page, text in enumerate(texts):
-        if page not in found:
+        if page not in actual:
             assert f"таблицы П{case.number}\n" not in text
 
 

@@ -83,11 +83,11 @@ def test_alternative_text_tells_the_extremes():
 
 @pytest.mark.parametrize("name", ["gots-diesel", "ecoboost-10"])
 def test_what_sums_leave_of_zero_is_told_as_zero(name):
-    made = terms(name)
-    told = [chart_figure(made, c).alt for c in made.model.charts_by_id.values()
+    built = terms(name)
+    lines = [chart_figure(built, c).alt for c in built.model.charts_by_id.values()
             if c.x_is_angle and c.drawn_by("report")]  # fmt: skip
-    assert len(told) > 10
-    assert [words for words in told if "0,0000000" in words] == []
+    assert len(lines) > 10
+    assert [words for words in lines if "0,0000000" in words] == []
 
 
 def test_a_group_shares_a_figure():

@@ -39,8 +39,8 @@ def test_every_cell_has_the_room_it_needs(columns, value, style, size):
     for part in parts:
         shares = [float(width.rstrip("%")) / 100 for width in part.widths]
         assert sum(shares) <= 1.001
-        for place, share in enumerate(shares):
-            widest = max(text_em(row[place]) for row in part.rows) * em
+        for index, share in enumerate(shares):
+            widest = max(text_em(row[index]) for row in part.rows) * em
             assert widest + 4 <= share * style.width_mm * PX
     shown = [number for part in parts for number in part.numbered[1:]]
     assert shown == list(range(2, columns + 1))
@@ -49,7 +49,7 @@ def test_every_cell_has_the_room_it_needs(columns, value, style, size):
 
 def test_type_shrinks_before_the_columns_part():
     parts = {count: fitted(block(count, 10.0), "", USUAL) for count in (6, 11, 13, 20)}
-    assert [(len(found), size) for found, size in parts.values()] == [
+    assert [(len(collected), size) for collected, size in parts.values()] == [
         (1, ""), (1, "dense"), (1, "tiny"), (2, "dense")
     ]  # fmt: skip
 

@@ -83,11 +83,11 @@ blocks = st.lists(
 
 def numbered(drawn):
     """The same blocks, each with a name of its own; a chapter ends with text."""
-    made = [*drawn, text("t")]
+    values = [*drawn, text("t")]
     return [
-        Block(block.html.replace(">" + block.html.split(">")[1][0], f">{kind}{place} ", 1),
+        Block(block.html.replace(">" + block.html.split(">")[1][0], f">{kind}{index} ", 1),
               *(getattr(block, key) for key in Block.__slots__[1:]))
-        for place, block in enumerate(made)
+        for index, block in enumerate(values)
         for kind in [block.html.split(">")[1][0]]
     ]  # fmt: skip
 
@@ -95,37 +95,37 @@ def numbered(drawn):
 @settings(max_examples=30, deadline=None)
 @given(blocks)
 def test_everything_stands_once_and_each_series_in_its_order(drawn):
-    made = numbered(drawn)
-    before, (placed, spot) = names(b.html for b in made), filled(made, Spot(0.0), ROOM, LINE)
+    built = numbered(drawn)
+    before, (placed, spot) = names(b.html for b in built), filled(built, Spot(0.0), ROOM, LINE)
     shown = names(placed)
     assert sorted(shown) == sorted(before)
     for series in ("f", "b", "the"):
         assert [n for n in shown if n[0] in series] == [n for n in before if n[0] in series]
-    places = {name: place for place, name in enumerate(before)}
-    for place, name in enumerate(shown[1:], 1):
-        above = shown[place - 1]
+    places = {name: index for index, name in enumerate(before)}
+    for index, name in enumerate(shown[1:], 1):
+        above = shown[index - 1]
         if above[0] == "h" and places[name] < places[above]:
             raise AssertionError(f"{name} of the section before stands below {above}")
         if name[0] == "e":  # a formula stays with its sentence
             assert places[above] == places[name] - 1 or before[places[name] - 1][0] in "fb"
-    assert spot.cost <= in_order(made) + 0.1
+    assert spot.cost <= in_order(built) + 0.1
 
 
 def test_a_table_does_not_wait_for_a_tall_figure():
-    made = [text("a", 12), figure("tall", 850.0), table("long", 40), text("b", 6)]
-    placed, spot = filled(made, Spot(0.0), ROOM, LINE)
+    values = [text("a", 12), figure("tall", 850.0), table("long", 40), text("b", 6)]
+    placed, spot = filled(values, Spot(0.0), ROOM, LINE)
     assert names(placed)[:2] == ["a", "long"] and spot.page == 3
 
 
 def test_text_goes_on_where_a_figure_has_no_room():
-    made = [text("a", 20), figure("f", 500.0), *(text(f"t{n}", 4) for n in range(5))]
-    shown = names(filled(made, Spot(0.0), ROOM, LINE)[0])
+    values = [text("a", 20), figure("f", 500.0), *(text(f"t{n}", 4) for n in range(5))]
+    shown = names(filled(values, Spot(0.0), ROOM, LINE)[0])
     assert 2 <= shown.index("f") <= 5
 
 
 def test_a_figure_that_misses_by_little_is_made_smaller():
-    made = [text("a", 20), figure("f", 330.0), heading("h"), text("b", 20)]
-    placed, spot = filled(made, Spot(0.0), ROOM, LINE)
+    values = [text("a", 20), figure("f", 330.0), heading("h"), text("b", 20)]
+    placed, spot = filled(values, Spot(0.0), ROOM, LINE)
     width = float(re.search(r"width:([\d.]+)mm", placed[1])[1])
     assert 70.0 <= width < 100.0 and spot.page == 2
 
@@ -156,10 +156,10 @@ def test_three_rows_of_a_table_stand_together_at_both_ends(rows, fit, here):
 
 @pytest.mark.parametrize("lines", range(24, 33))
 def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
-    made = [text("a", lines), text("При φ = 30°", 1), formula("x = 1"), text("b", 3)]
-    placed, _ = filled(made, Spot(0.0), ROOM, LINE)
+    values = [text("a", lines), text("При φ = 30°", 1), formula("x = 1"), text("b", 3)]
+    placed, _ = filled(values, Spot(0.0), ROOM, LINE)
     assert '<p class="lead">' in placed[1]
-    first = after(made[0], Spot(0.0), ROOM)
+    first = after(values[0], Spot(0.0), ROOM)
     fits = first.used + LINE + 48.0 <= ROOM
     lead = after(Block("", "text", LINE, line=LINE, tail=48.0), first, ROOM)
     assert (lead.page == first.page) == fits
@@ -168,9 +168,9 @@ def test_a_line_that_leads_to_a_formula_stands_with_it(lines):
 @pytest.mark.parametrize("lines", [1, 2, 3, 4, 7])
 def test_a_paragraph_of_any_length_leads_to_its_formula(lines):
     """A short one stood at the foot of a page, its formula on the next."""
-    made = [text("силы складывают:", lines), formula("x = 1")]
-    assert '<p class="lead">' in filled(made, Spot(0.0), ROOM, LINE)[0][0]
-    spot = after(replace(made[0], tail=48.0), Spot(ROOM - lines * LINE - 40.0), ROOM)
+    values = [text("силы складывают:", lines), formula("x = 1")]
+    assert '<p class="lead">' in filled(values, Spot(0.0), ROOM, LINE)[0][0]
+    spot = after(replace(values[0], tail=48.0), Spot(ROOM - lines * LINE - 40.0), ROOM)
     assert spot.page == 2
 
 
@@ -178,20 +178,20 @@ def test_a_paragraph_of_any_length_leads_to_its_formula(lines):
 def test_the_last_lines_of_a_paragraph_stand_with_their_formula(fill):
     """As WeasyPrint divides it, so it is reckoned: two lines go over with the formula."""
     lead = Block('<p class="lead">a<br>b<br>c<br>d<br>e</p>', "text", 100.0, line=20.0)
-    made = [lead, Block('<div class="eq">x</div>', "tied", 50.0, 8.0, 8.0), text("z", 1)]
+    values = [lead, Block('<div class="eq">x</div>', "tied", 50.0, 8.0, 8.0), text("z", 1)]
     style = (
         "@page{size:400px 300px;margin:0}body{margin:0;font:16px/20px STIXGeneral}"
         "p{margin:0;orphans:2;widows:2}p.lead{break-after:avoid}"
         ".eq{height:50px;margin:8px 0;break-inside:avoid}"
     )
-    body = f'<div style="height:{fill}px"></div>{lead.html}{made[1].html}'
+    body = f'<div style="height:{fill}px"></div>{lead.html}{values[1].html}'
     document = weasyprint.HTML(string=f"<style>{style}</style>{body}").render()
     first = document.pages[0]._page_box
     here = sum(box.element_tag == "p" and type(box).__name__ == "LineBox"
                for box in first.descendants())  # fmt: skip
-    placed = filled(made, Spot(float(fill)), 300.0, 20.0)[0]
-    told = replace(lead, html=placed[0], tail=58.0)
-    spot = after(told, Spot(float(fill)), 300.0)
+    placed = filled(values, Spot(float(fill)), 300.0, 20.0)[0]
+    message = replace(lead, html=placed[0], tail=58.0)
+    spot = after(message, Spot(float(fill)), 300.0)
     assert (spot.used, spot.page) == ((fill + 100, 1) if here == 5 else (40.0, 2))
     assert here in (3, 5)
 
@@ -200,18 +200,18 @@ def lines_of(page):
     """Lines of each paragraph or heading that has a number as WeasyPrint sets it."""
     html = weasyprint.HTML(string=page, base_url=None, url_fetcher=render._fetcher())
     document = html.render(font_config=FontConfiguration())
-    found = {}
+    collected = {}
     waiting = [sheet._page_box for sheet in document.pages]
     while waiting:
         box = waiting.pop()
         children = getattr(box, "children", None) or ()
-        told = getattr(box, "element_tag", "") in ("p", "h1", "h2", "h3")
-        if told and type(box).__name__ == "BlockBox":
+        message = getattr(box, "element_tag", "") in ("p", "h1", "h2", "h3")
+        if message and type(box).__name__ == "BlockBox":
             number = int(box.element.get("id"))
-            found[number] = found.get(number, 0) + len(children)
+            collected[number] = collected.get(number, 0) + len(children)
             continue
         waiting += children
-    return found
+    return collected
 
 
 def set_alone(parts):
@@ -225,42 +225,42 @@ def set_alone(parts):
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_headings_have_the_lines_that_were_counted():
     """Bold and beside the indent; a title that misses a line by little takes two."""
-    told = bare_page(sample("ecoboost-10")).partition("Введение</h1>")[2]
-    parts = re.findall(r'<h([123])(?! [^>]*class="plain)([^>]*)>(.*?)</h', told, re.DOTALL)
+    message = bare_page(sample("ecoboost-10")).partition("Введение</h1>")[2]
+    parts = re.findall(r'<h([123])(?! [^>]*class="plain)([^>]*)>(.*?)</h', message, re.DOTALL)
     longer = [(level, look, f"{title} {more}") for level, look, title in parts
               for more in ("", "механизма", "двигателя внутреннего сгорания")]  # fmt: skip
     headings = [f"<h{level}{look}>{title}</h{level}>" for level, look, title in longer]
-    found = set_alone(headings)
+    actual = set_alone(headings)
     em, width = USUAL.em_px, USUAL.width_px - USUAL.indent_cm * 96 / 2.54
     counted = [_title_lines(heading, width / (em * (1.15 if heading[2] == "1" else 1)), bold=True)
                for heading in headings]  # fmt: skip
     assert len(headings) > 30 and len(set(counted)) > 1
-    assert [headings[n] for n, lines in enumerate(counted) if lines != found[n]] == []
+    assert [headings[n] for n, lines in enumerate(counted) if lines != actual[n]] == []
 
 
 def test_words_divide_before_two_letters_as_russian_books_do():
     """Whole words of four to eight letters went over and left a line twice as wide apart."""
     said = "нагрузка шейки и толщина плёнки " * 9
     widths = [5.5, 6.5, 8.5, 10.0]
-    found = set_alone([f'<p class="flush" style="width:{w}em">{said}</p>' for w in widths])
-    assert [found[n] for n in range(4)] == [line_count(said, w) for w in widths] == [32, 24, 18, 15]
+    item = set_alone([f'<p class="flush" style="width:{w}em">{said}</p>' for w in widths])
+    assert [item[n] for n in range(4)] == [line_count(said, w) for w in widths] == [32, 24, 18, 15]
 
 
 @pytest.mark.usefixtures("nothing_is_drawn")
 def test_paragraphs_have_the_lines_that_were_counted():
     """All but one or two in a hundred: letters are not set closer here as they are there."""
-    told = bare_page(terms("one").model.input).partition("Введение</h1>")[2]
-    paragraphs = re.findall(r"<p>(?:(?!<svg).)*?</p>", told, re.DOTALL)
-    found = set_alone(paragraphs)
+    message = bare_page(terms("one").model.input).partition("Введение</h1>")[2]
+    paragraphs = re.findall(r"<p>(?:(?!<svg).)*?</p>", message, re.DOTALL)
+    actual = set_alone(paragraphs)
     em = USUAL.em_px
     counted = [
         line_count(p, USUAL.width_px / em, indent=USUAL.indent_cm * 96 / 2.54 / em)
         for p in paragraphs
     ]
-    wrong = [n for n, lines in enumerate(counted) if lines != found[n]]
+    wrong = [n for n, lines in enumerate(counted) if lines != actual[n]]
     assert len(paragraphs) > 60 and sum(counted) > 150
     assert len(wrong) <= 0.03 * len(paragraphs)
-    assert all(abs(counted[n] - found[n]) == 1 for n in wrong)
+    assert all(abs(counted[n] - actual[n]) == 1 for n in wrong)
 
 
 @pytest.mark.parametrize(("lines", "runs_on"), [(10, True), (16, False), (60, True)])
@@ -308,22 +308,22 @@ def height(svg: str) -> float:
 def test_no_type_of_a_printed_figure_is_small(name: str) -> None:
     model = build_model(sample(name))
     page = Report(model, evaluate_model(model)).page("print")
-    found = {
+    collected = {
         alt[:60]: min(sizes(base64.b64decode(data).decode(), float(width)), default=LEAST_PT)
         for width, alt, data in IMAGE.findall(page)
     }
-    assert len(found) > 15
-    assert {words: least for words, least in found.items() if least < LEAST_PT} == {}
+    assert len(collected) > 15
+    assert {words: least for words, least in collected.items() if least < LEAST_PT} == {}
 
 
 @settings(max_examples=15)
 @given(draw=st.sampled_from(DRAWS), share=st.floats(0.7, 0.99))
 def test_a_figure_keeps_its_type_and_fits_its_height(draw: partial[str], share: float) -> None:
     whole = draw()
-    found = smaller(draw, share * height(whole))
-    assert found is not None
-    assert 0.9 * share * height(whole) <= height(found) <= share * height(whole)
-    assert min(sizes(found)) >= min(sizes(whole)) - 0.05
+    actual = smaller(draw, share * height(whole))
+    assert actual is not None
+    assert 0.9 * share * height(whole) <= height(actual) <= share * height(whole)
+    assert min(sizes(actual)) >= min(sizes(whole)) - 0.05
 
 
 def test_a_drawing_without_a_size_is_left() -> None:

@@ -42,10 +42,10 @@ EVERYTHING = (
 def test_only_stix_and_no_warning(tmp_path):
     result = render(page(EVERYTHING))
     assert result.warnings == ()
-    found = fonts_of(result.pdf, tmp_path)
+    actual = fonts_of(result.pdf, tmp_path)
     faces = {"", "-Italic", "-Bold", "-Bold-Italic"}
-    assert {f"STIXGeneral{face}" for face in faces} <= found
-    assert all(name.startswith("STIX") for name in found), found
+    assert {f"STIXGeneral{face}" for face in faces} <= actual
+    assert all(name.startswith("STIX") for name in actual), actual
 
 
 def test_no_fonts_stay_in_the_temporary_folder(tmp_path, monkeypatch):

@@ -130,10 +130,10 @@ def test_the_amplitude_of_a_resonance_follows_from_its_substitution():
     page = page_of("mwm-6", "course")
     tex = next(each for each in formulas_of(page) if each.startswith("A_{1} = "))
     tex = tex.replace(r"\,", "")
-    found = re.fullmatch(r"A_\{1\} = \\dfrac\{(\S+) \\cdot (\S+)\}\{(\S+)\} \\cdot \\dfrac\{180\}\{"
+    match = re.fullmatch(r"A_\{1\} = \\dfrac\{(\S+) \\cdot (\S+)\}\{(\S+)\} \\cdot \\dfrac\{180\}\{"
                          r"\\pi\} = ([\d{},]+)\^\{\\circ\}", tex)  # fmt: skip
-    assert found, tex
-    moment, phases, loss, shown = map(number, found.groups())
+    assert match, tex
+    moment, phases, loss, shown = map(number, match.groups())
     assert shown == pytest.approx(math.degrees(moment * phases / loss), rel=2e-4)
 
 
@@ -149,8 +149,8 @@ def test_masses_about_a_node_have_names():
     text = words_of("mwm-6", "course")
     train = printed_rows(page_of("mwm-6", "course"), "Собственные частоты и формы")
     names = [row[0].replace("\xa0", " ") for row in train]
-    found = re.findall(r"между массами (.*?)\. ", text)
-    named = re.findall(r"(\d+) и \d+ \(([^)]*?) и ([^)]*?)\)", " ".join(found))
+    matches = re.findall(r"между массами (.*?)\. ", text)
+    named = re.findall(r"(\d+) и \d+ \(([^)]*?) и ([^)]*?)\)", " ".join(matches))
     assert named
     for k, first, second in named:
         assert (first, second) == (names[int(k) - 1], names[int(k)])
@@ -319,8 +319,8 @@ def test_the_flywheel_of_the_train_is_held_against_the_required_one(inertia, wor
     model = engine(report__detail="course", **{k: v for k, v in given.items() if v is not None})
     text = text_of(model)
     assert ("Маховик, принятый для крутильной схемы" in text) == bool(words)
-    found = re.search(r"— (не меньше|меньше) требуемого\.", text)
-    assert (found[1] if found else "") == words
+    match = re.search(r"— (не меньше|меньше) требуемого\.", text)
+    assert (match[1] if match else "") == words
     assert ("требуемого" in end_of(text)) == bool(words)
 
 

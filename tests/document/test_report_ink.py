@@ -49,12 +49,12 @@ MOST_BLANK = (0.30, 0.06)
 
 
 def faults(pages: list[list[ink.Word]], sheets: list) -> list[tuple[int, list[str]]]:
-    found = []
+    collected = []
     for number, (words, sheet) in enumerate(zip(pages, sheets, strict=True), 1):
         wrong = ink.outside(sheet, FIELD) + ink.struck_numbers(words, FIELD)
         if wrong:
-            found.append((number, wrong))
-    return found
+            collected.append((number, wrong))
+    return collected
 
 
 def rows_of(page: str) -> list[list[str]]:
@@ -180,8 +180,8 @@ def test_ink_off_the_page_is_noticed(html, wrong, tmp_path):
     source = '{% extends "report/base.html.j2" %}{% block body %}' + html + "{% endblock %}"
     path = tmp_path / "r.pdf"
     path.write_bytes(render(environment().from_string(source).render(doc=DocumentInfo("x"))).pdf)
-    found = [fault for _, page in faults(ink.words(path), ink.sheets(path)) for fault in page]
-    assert (wrong in found) if wrong else found == []
+    collected = [fault for _, page in faults(ink.words(path), ink.sheets(path)) for fault in page]
+    assert (wrong in collected) if wrong else collected == []
 
 
 def test_a_broken_number_is_noticed():

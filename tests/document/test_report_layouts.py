@@ -25,8 +25,8 @@ def of_layout(change) -> Terms:
     return Terms(model, evaluate_model(model))
 
 
-def page(made: Terms) -> str:
-    return Report(made.model, made.values).page("screen")
+def page(page: Terms) -> str:
+    return Report(page.model, page.values).page("screen")
 
 
 @pytest.mark.parametrize(

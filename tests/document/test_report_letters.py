@@ -112,8 +112,8 @@ def test_figures_and_drawings_have_the_letters(tmp_path: Path) -> None:
         assert text_size(letters, 10.0)[0] > 3 * len(letters)
         assert width_of(letters, 3.5) > len(letters)
     # A letter of its own for each, none the box of a missing one.
-    made = {outlined(svg.format(char)) for char in "ӘҚҒө"}
-    assert len(made) == 4
+    values = {outlined(svg.format(char)) for char in "ӘҚҒө"}
+    assert len(values) == 4
 
 
 def test_grading_pages_and_the_register_have_the_letters() -> None:
@@ -144,8 +144,8 @@ def meanings(monkeypatch: pytest.MonkeyPatch, nothing_is_drawn: None) -> Meaning
         return written
 
     monkeypatch.setattr(Terms, "tex", tex)
-    for found in pkgutil.iter_modules(chapters.__path__):
-        module = importlib.import_module(f"{chapters.__name__}.{found.name}")
+    for item in pkgutil.iter_modules(chapters.__path__):
+        module = importlib.import_module(f"{chapters.__name__}.{item.name}")
         if hasattr(module, "angle_table"):
             monkeypatch.setattr(module, "angle_table", _noted_columns(seen, module.angle_table))
         if hasattr(module, "grid_table"):
@@ -188,11 +188,11 @@ def bare(symbol: str) -> str:
 
 def told(page: str) -> Meanings:
     """What the sentences say that symbols mean: «α — угол …»."""
-    found: Meanings = defaultdict(set)
+    collected: Meanings = defaultdict(set)
     for text in re.findall(r"<p[^>]*>(.*?)</p>", page, re.DOTALL):
         for symbol, meaning in re.findall(rf"({SYMBOL})\s—\s([^,;.(<]+)", text):
-            found[bare(symbol)].add(meaning.strip())
-    return found
+            collected[bare(symbol)].add(meaning.strip())
+    return collected
 
 
 @pytest.mark.parametrize("name", samples_with(quantities))

@@ -47,11 +47,11 @@ def test_what_is_put_in_gives_what_is_printed(name: str):
 @pytest.mark.parametrize("name", ["yamz-236", "two-stroke", "one"])
 def test_a_symbol_stands_for_one_quantity(name: str):
     """Of all that a note prints: scalars, columns, input data."""
-    asked: dict[str, Terms] = {}
+    requested: dict[str, Terms] = {}
     tex = Terms.tex
 
     def noted(self: Terms, key: str) -> str:
-        asked[key] = self
+        requested[key] = self
         return tex(self, key)
 
     with (
@@ -59,9 +59,9 @@ def test_a_symbol_stands_for_one_quantity(name: str):
         mock.patch.object(opening, "_of_subjects", lambda _: []),
     ):
         bare_page(with_every_part(name))
-    (terms,) = {id(each): each for each in asked.values()}.values()
+    (terms,) = {id(each): each for each in requested.values()}.values()
     meanings: dict[str, dict[str, str]] = defaultdict(dict)
-    for key in {*asked, *terms.model.fields}:
+    for key in {*requested, *terms.model.fields}:
         try:
             symbol = str(inline_html(tex(terms, key)))
         except SymbolError:

@@ -24,13 +24,13 @@ ALLOWED_POINTS = [
 
 @pytest.fixture(scope="session")
 def texts(tmp_path_factory):
-    found = {}
+    collected = {}
 
     def text(name):
-        if name not in found:
+        if name not in collected:
             folder = tmp_path_factory.mktemp(name)
-            found[name] = pages_of(pdf(name), folder)
-        return found[name]
+            collected[name] = pages_of(pdf(name), folder)
+        return collected[name]
 
     return text
 
@@ -74,7 +74,7 @@ def test_every_table_and_figure_stands_in_order(texts, name):
     assert own == list(range(1, len(own) + 1))
     for letter in "АБ":
         there = [number for number in tables if number.startswith(letter)]
-        assert there == [f"{letter}.{place}" for place in range(1, len(there) + 1)]
+        assert there == [f"{letter}.{index}" for index in range(1, len(there) + 1)]
     books = re.findall(r"Таблица\s[АБ]\.\d+\s—[^()]*\((П[^)]*)\)", text)
     assert expected_tables(name) == {number.replace("\n", "") for number in books}
 
@@ -185,8 +185,8 @@ MAY_HOLD = {
 
 def tree(text: str) -> list[tuple[int, str]]:
     """Depth and name of each tag, in order."""
-    found = re.findall(r"(?m)^( *)([A-Z][A-Za-z0-9]*)(?:\s\((?:block|inline)\)|:)?$", text)
-    return [(len(blanks) // 2, name) for blanks, name in found]
+    matches = re.findall(r"(?m)^( *)([A-Z][A-Za-z0-9]*)(?:\s\((?:block|inline)\)|:)?$", text)
+    return [(len(blanks) // 2, name) for blanks, name in matches]
 
 
 def misplaced(tags: list[tuple[int, str]]) -> list[tuple[str, str]]:
@@ -209,7 +209,7 @@ def skipped(tags: list[tuple[int, str]]) -> list[int]:
 def objects(pdf: bytes) -> bytes:
     """The file with its object streams laid open."""
     packed = [STREAM.search(part) for part in re.split(rb"endobj", pdf) if b"/ObjStm" in part]
-    return pdf + b"\n".join(zlib.decompress(found[1]) for found in packed if found)
+    return pdf + b"\n".join(zlib.decompress(item[1]) for item in packed if item)
 
 
 def test_tags_follow_the_rules_of_pdf_ua(tmp_path):
@@ -234,19 +234,19 @@ def test_a_wrong_tag_is_noticed():
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_the_page_does_not_scroll_sideways(width, tmp_path):
-    found = measure(html_page("one"), width, tmp_path / "w", boxes=".tbox, .eq")
-    assert found["width"] == width
-    assert found["scroll"] <= width and found["wide"] == []
-    assert found["scripts"] == 0
-    assert "STIXGeneral" in found["fonts"]
-    assert len(found["images"]) > 100 and min(found["images"]) > 0
-    scrolled = [box for box in found["boxes"] if box[1] > box[0]]
+    measured = measure(html_page("one"), width, tmp_path / "w", boxes=".tbox, .eq")
+    assert measured["width"] == width
+    assert measured["scroll"] <= width and measured["wide"] == []
+    assert measured["scripts"] == 0
+    assert "STIXGeneral" in measured["fonts"]
+    assert len(measured["images"]) > 100 and min(measured["images"]) > 0
+    scrolled = [box for box in measured["boxes"] if box[1] > box[0]]
     assert bool(scrolled) == (width == 390)  # wide tables scroll in their own box
 
 
 def test_a_page_that_is_too_wide_is_noticed(tmp_path):
-    found = measure('<main><div style="width:900px">x</div></main>', 390, tmp_path / "w")
-    assert found["scroll"] > 390 and found["wide"]
+    measured = measure('<main><div style="width:900px">x</div></main>', 390, tmp_path / "w")
+    assert measured["scroll"] > 390 and measured["wide"]
 
 
 def test_the_page_can_be_photographed(tmp_path):

@@ -67,10 +67,10 @@ def words_of(source="gots-diesel", detail="full"):
 
 def printed_rows(page, caption):
     """Rows of the table with that caption, as texts of cells."""
-    found = re.search(re.escape(caption) + r"</div>.*?<tbody>(.*?)</tbody>", page, re.DOTALL)
-    if found is None:
+    match = re.search(re.escape(caption) + r"</div>.*?<tbody>(.*?)</tbody>", page, re.DOTALL)
+    if match is None:
         return None
-    rows = re.findall(r"<tr.*?</tr>", found.group(1), re.DOTALL)
+    rows = re.findall(r"<tr.*?</tr>", match.group(1), re.DOTALL)
     return [
         [
             html.unescape(re.sub("<[^>]+>", "", cell)).strip()
@@ -149,9 +149,9 @@ def assert_pins_agree(model, text):
             else []
         ),
     ):
-        found = re.search(said + r"([\d,]+)", text)
-        assert found, said
-        shown = float(found.group(1).replace(",", "."))
+        match = re.search(said + r"([\d,]+)", text)
+        assert match, said
+        shown = float(match.group(1).replace(",", "."))
         assert shown == pytest.approx(scalars[key], abs=0.6 * 10**-digits), key
 
 
@@ -160,8 +160,8 @@ def test_the_chapter_is_of_the_most_loaded_pin(detail):
     text = text_of(light_first(report__detail=detail))
     assert_pins_agree(light_first(), text)
     assert "Ниже рассмотрена шейка 2, одна из наиболее нагруженных." in text
-    told = re.search(r"Среднее давление на шатунный подшипник, МПа\s*qср2\s*([\d]+,\d\d)", text)
-    assert told and f"среднее {told[1]} МПа" in text  # in the conclusion
+    match = re.search(r"Среднее давление на шатунный подшипник, МПа\s*qср2\s*([\d]+,\d\d)", text)
+    assert match and f"среднее {match[1]} МПа" in text  # in the conclusion
     assert "Развёрнутая диаграмма нагрузки на шатунную шейку 2" in text
 
 
@@ -176,19 +176,19 @@ def test_the_greatest_pressure_of_another_pin_is_told():
 
 def claimed(text, before):
     """Numbers of journals after the words of a claim."""
-    found = re.search(before + r" ([0-9][0-9, и]*)", text)
-    assert found, before
-    return [int(n) for n in re.findall("[0-9]+", found.group(1))]
+    match = re.search(before + r" ([0-9][0-9, и]*)", text)
+    assert match, before
+    return [int(n) for n in re.findall("[0-9]+", match.group(1))]
 
 
 def leaders(scalars, pattern, digits):
-    found = {}
+    collected = {}
     for key, value in scalars.items():
         match = re.fullmatch(pattern, key)
         if match:
-            found[int(match.group(1))] = value
-    most = f"{max(found.values()):.{digits}f}"
-    return sorted(n for n, value in found.items() if f"{value:.{digits}f}" == most)
+            collected[int(match.group(1))] = value
+    most = f"{max(collected.values()):.{digits}f}"
+    return sorted(n for n, value in collected.items() if f"{value:.{digits}f}" == most)
 
 
 def assert_claims_hold(model, page):
@@ -239,7 +239,7 @@ def assert_symbols_mean_one_number(page):
     for symbol, value in re.findall(r'<span class="nb">(.*?)\xa0=\xa0(.*?)</span>', page):
         unit = re.sub(r"[−\d,\xa0·]+", "", html.unescape(re.sub("<[^>]+>", "", value)))
         said[symbol, unit].add(value)
-    assert not {key: found for key, found in said.items() if len(found) > 1}
+    assert not {key: item for key, item in said.items() if len(item) > 1}
 
 
 UNIT = r"%|°C|с\.|(?:мин|м|мм|мкм|кг|л|Гц|Дж|кДж|Вт|кВт|Н|кН|Н·м|МПа|мПа)(?![а-яё])"
@@ -371,8 +371,8 @@ def test_a_rod_is_modelled_only_if_its_mass_is_not_given():
 
 def test_shafts_are_told_only_if_asked_for():
     assert "Балансирные валы" not in words_of()
-    asked = text_of(engine(source="vw-1600", balance__first_shafts_share=0.5))
-    assert "Балансирные валы снимают долю 0,5 сил и моментов первого порядка." in asked
+    requested = text_of(engine(source="vw-1600", balance__first_shafts_share=0.5))
+    assert "Балансирные валы снимают долю 0,5 сил и моментов первого порядка." in requested
 
 
 def test_a_department_is_called_so_once():

@@ -48,8 +48,8 @@ def test_one_flywheel_in_the_whole_note(kind: str) -> None:
     if wanted > 0:
         balance = re.search(rf"требуемый момент инерции маховика \S+ = {_VALUE} кг", text)
         train = re.search(rf"принят по требуемой неравномерности хода: \S+ = {_VALUE} кг", text)
-        for told in (balance, train):
-            assert number(told[1]) == pytest.approx(wanted, rel=0.01)
+        for wording in (balance, train):
+            assert number(wording[1]) == pytest.approx(wanted, rel=0.01)
     else:
         assert "дополнительный маховик не требуется" in text and "даёт и без него" in text
 
@@ -79,11 +79,11 @@ def test_the_end_of_the_range_is_no_resonance(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["V6", "two-stroke", "five"])
 def test_the_peak_of_the_pressure_stands_where_it_is(kind: str) -> None:
-    told = re.search(rf"наибольшее давление газов {_VALUE} МПа ([^,;]*)", words(kind))
-    assert number(told[1]) == pytest.approx(drawn(kind).gas.max_pressure_mpa, abs=0.006)
-    assert told[2] == "в ВМТ после скачка"
+    match = re.search(rf"наибольшее давление газов {_VALUE} МПа ([^,;]*)", words(kind))
+    assert number(match[1]) == pytest.approx(drawn(kind).gas.max_pressure_mpa, abs=0.006)
+    assert match[2] == "в ВМТ после скачка"
     table = solved(drawn(kind)).columns["gas"]
-    assert table["p_MPa"][list(table["phi_deg"]).index(360)] < 0.95 * number(told[1])
+    assert table["p_MPa"][list(table["phi_deg"]).index(360)] < 0.95 * number(match[1])
 
 
 def test_the_exhaust_of_two_strokes_closes() -> None:
@@ -96,14 +96,14 @@ def test_the_exhaust_of_two_strokes_closes() -> None:
 def test_the_range_of_the_torque_is_told_as_its_ends(kind: str) -> None:
     coarse, fine = (solved(each).scalars for each in (drawn(kind), refined(drawn(kind))))
     spans = [each["M_max"] - each["M_min"] for each in (coarse, fine)]
-    told = re.search(
+    match = re.search(
         rf"размах составляет {_VALUE} Н·м(?: \(при шаге 1° — {_VALUE} Н·м\))?", words(kind)
     )
-    assert number(told[1]) == pytest.approx(spans[0], abs=1)
+    assert number(match[1]) == pytest.approx(spans[0], abs=1)
     ends = re.search(r"Наибольший момент (.*?) размах", words(kind))[1]
-    assert (told[2] is not None) == ("при шаге 1°" in ends)
-    if told[2]:
-        assert number(told[2]) == pytest.approx(spans[1], abs=0.02 * spans[1])
+    assert (match[2] is not None) == ("при шаге 1°" in ends)
+    if match[2]:
+        assert number(match[2]) == pytest.approx(spans[1], abs=0.02 * spans[1])
 
 
 def test_the_root_alone_does_not_give_the_angular_acceleration() -> None:
@@ -117,5 +117,5 @@ def test_the_pressures_of_the_note_are_those_of_the_own_rod(name: str) -> None:
     pressure = solved(sample(name)).scalars["q_pin_max"]
     row = re.search(r"Наибольшее давление на шатунный подшипник, МПа\s*qmax\s*([\d]+,\d\d)", text)
     end = re.search(rf"давление на подшипник каждого шатуна {_VALUE} МПа", text)
-    for told in (row, end):
-        assert number(told[1]) == pytest.approx(pressure, abs=0.006)
+    for wording in (row, end):
+        assert number(wording[1]) == pytest.approx(pressure, abs=0.006)

@@ -200,8 +200,8 @@ def unpacked(pdf: bytes) -> bytes:
     """The PDF with the streams of its objects open to read."""
     out = [pdf]
     for piece in pdf.split(b"endstream")[:-1]:
-        _, found, data = piece.rpartition(b"stream\n")
-        if found and b"/ObjStm" in piece[-len(data) - 400 :]:
+        _, actual, data = piece.rpartition(b"stream\n")
+        if actual and b"/ObjStm" in piece[-len(data) - 400 :]:
             out.append(zlib.decompress(data))
     return b"".join(out)
 

@@ -25,9 +25,9 @@ def test_a_short_report_names_the_workbook_once():
 
 
 def test_conclusions_are_of_the_chapters_that_stand():
-    for detail, told in (("short", False), ("course", True)):
+    for detail, message in (("short", False), ("course", True)):
         text = words_of(detail=detail)
-        assert ("набегающего момента" in text[text.rindex("Основные результаты") :]) == told
+        assert ("набегающего момента" in text[text.rindex("Основные результаты") :]) == message
     text = text_of(engine(report__chapters=["kinematics"]))
     end = text[text.rindex("Основные результаты") :]
     assert re.search(r"наибольшая скорость поршня [^;]*; ускорение [^;]*с2\. +Проверок", end)

@@ -68,11 +68,11 @@ def test_profiles_hold_one_another():
 def test_every_course_note_has_balance_and_flywheel():
     """Whoever fills in the section or not; the short report ends before."""
     for detail, more in (("short", set()), ("course", set()), ("full", set())):
-        plain, asked = (
+        plain, requested = (
             chosen(CHAPTERS, load_text(with_detail(ONE, detail) + keys, source="f").model)
             for keys in ("\n[balance]\n", "\n[balance]\nirregularity = 0.01\n")
         )
-        assert asked - plain == more
+        assert requested - plain == more
         assert ("balance" in plain) == (detail != "short")
     picked = ONE.replace('detail = "full"', 'chapters = ["companions"]')
     # They were one chapter under that name.

@@ -126,10 +126,10 @@ _WRITTEN = {"{,}": ".", r"\,[": "*(", r"\,": "", r"\left|": "abs(", r"\right|": 
 def _argument(tex, start):
     """The text within the braces that open at ``start`` and the place after them."""
     depth = 0
-    for place in range(start, len(tex)):
-        depth += {"{": 1, "}": -1}.get(tex[place], 0)
+    for position in range(start, len(tex)):
+        depth += {"{": 1, "}": -1}.get(tex[position], 0)
         if depth == 0:
-            return tex[start + 1 : place], place + 1
+            return tex[start + 1 : position], position + 1
     raise ValueError(tex)
 
 
@@ -162,9 +162,9 @@ def recomputed(tex):
     power = 10.0 ** int(shown[2] or 0)
     whole, _, decimals = number.lstrip("-").partition(".")
     zeros = len(whole) - len(whole.rstrip("0")) if len(whole) > 4 else 0  # of five digits
-    place = 10.0 ** -len(decimals) if decimals else 10.0**zeros
+    position = 10.0 ** -len(decimals) if decimals else 10.0**zeros
     value = eval(_python(given), {"__builtins__": {}}, _FUNCTIONS | arcs)
-    return float(number) * power, value, place * power
+    return float(number) * power, value, position * power
 
 
 _UNREADABLE = r"arctg|mathrm\{mod|\\sum|\\exp|\\ln|\\mathrm\{[а-я]"
@@ -187,7 +187,7 @@ def test_the_numbers_of_a_formula_give_its_result(name, least, monkeypatch):
     read = {key: tex for key, tex in formulas
             if not re.search(_UNREADABLE, tex.rsplit(" = ", 2)[-2])}  # fmt: skip
     results = [(tex, *recomputed(tex)) for tex in read.values()]
-    wrong = [tex for tex, shown, value, place in results if abs(value - shown) > 0.51 * place]
+    wrong = [tex for tex, shown, value, position in results if abs(value - shown) > 0.51 * position]
     assert not wrong
     assert len(read) >= least
 

@@ -117,7 +117,7 @@ def test_a_symbol_of_a_split_pin_is_defined():
 
 def page_of_defined_symbols(model):
     """A note whose formulas have no unknown symbol and whose first table has no idle row."""
-    placed, told, listed = [], set(), []
+    placed, lines, listed = [], set(), []
 
     def noting(known):
         def noted(self, key, *more, **named):
@@ -129,13 +129,13 @@ def page_of_defined_symbols(model):
 
     def telling(known):
         def noted(self, name, *more, **named):
-            told.add(name)
+            lines.add(name)
             return known(self, name, *more, **named)
 
         return noted
 
     def beginning(self, **named):  # what other chapters would tell is known by now
-        told.clear()
+        lines.clear()
         return numbering(self, **named)
 
     def listing(field, of):
@@ -152,7 +152,7 @@ def page_of_defined_symbols(model):
             patched.enter_context(mock.patch.object(of, way, new))
         page = bare_page(model)
     graph = graph_of(built := build_model(model))
-    used = told.union(*map(graph.ancestors, told & built.nodes.keys()))
+    used = lines.union(*map(graph.ancestors, lines & built.nodes.keys()))
     idle = {f.name for f in listed if f.name not in used and not f.structural}
     assert not idle, idle
     text = _bare(re.sub(r'<div class="eq.*?</div>', "", page, flags=re.DOTALL))
@@ -186,9 +186,9 @@ def test_symbols_of_the_cycle_are_those_of_its_tables(name):
 
 def assert_substitutions_hold(page):
     """Numbers that are put in have as many digits as give the printed result."""
-    found = list(substitutions(formulas_of(page)))
-    assert len(found) > 40
-    for tex, value, shown, half in found:
+    collected = list(substitutions(formulas_of(page)))
+    assert len(collected) > 40
+    for tex, value, shown, half in collected:
         turned = {value, value + 180, value - 180} if r"\arctg" in tex else {value}
         near = 1.001 * half
         assert any(abs(each - shown) <= near for each in turned), (tex, value)

@@ -101,9 +101,9 @@ def test_the_pressure_is_told_by_symbols_that_are_known(name):
     own = [t.tex(f"gas.p_{part}_MPa") for part in ("compression", "burning", "exhaust")]
     assert [formula for formula, _ in branches if formula.strip(", ") in own] == []
     for at in (30.0, 300.0, 390.0, 500.0):
-        told = _pressure_at(t, at)
-        assert told.startswith(t.tex("gas.p_MPa") + " = ") and told.endswith("МПа}")
-        assert not any(symbol in told for symbol in own)
+        message = _pressure_at(t, at)
+        assert message.startswith(t.tex("gas.p_MPa") + " = ") and message.endswith("МПа}")
+        assert not any(symbol in message for symbol in own)
 
 
 OWN = ("P3_", "P4_", "gas", "crankpin")

@@ -184,9 +184,9 @@ def oiled(*, well):
 def test_a_film_below_the_allowed_reserve_is_not_called_enough(well, said):
     """Above one too: 1.08 of an allowed 1.5 was."""
     text = oiled(well=well)
-    found = re.search(f"Запас плёнки за цикл {said}", text)
-    assert found and float(found[1].replace(",", ".")) > 1
-    assert f"её запас {found[0].removeprefix('Запас плёнки за цикл ').partition(':')[0]}" in text
+    match = re.search(f"Запас плёнки за цикл {said}", text)
+    assert match and float(match[1].replace(",", ".")) > 1
+    assert f"её запас {match[0].removeprefix('Запас плёнки за цикл ').partition(':')[0]}" in text
 
 
 @pytest.mark.parametrize("well", [True, False])
@@ -345,9 +345,9 @@ def test_the_title_page_has_lines_for_signatures(review):
 
 def test_the_assignment_lists_the_sheet_when_it_is_made():
     model = build_model(engine(report__detail="short"))
-    for made in (True, False):
-        page = Report(model, evaluate_model(model), with_sheet=made).page("print")
-        assert ("лист «Динамический расчёт двигателя» формата A1" in plain(page)) == made
+    for built in (True, False):
+        page = Report(model, evaluate_model(model), with_sheet=built).page("print")
+        assert ("лист «Динамический расчёт двигателя» формата A1" in plain(page)) == built
 
 
 @pytest.mark.parametrize(("name", "inside"), [("gots-diesel", False), ("d-240-bearings", True)])

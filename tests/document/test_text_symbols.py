@@ -165,9 +165,9 @@ def test_a_formula_is_read_as_a_person_reads_it(tex: str, said: str) -> None:
 
 
 def test_a_formula_on_the_page_is_called_so() -> None:
-    made = mathsvg.formula(r"\sin^2 \varphi")
-    assert "<title>синус в квадрате фи</title>" in made.svg
-    assert "синус в квадрате фи" in made.image
+    built = mathsvg.formula(r"\sin^2 \varphi")
+    assert "<title>синус в квадрате фи</title>" in built.svg
+    assert "синус в квадрате фи" in built.image
 
 
 def names() -> tuple[str, ...]:

@@ -328,8 +328,8 @@ def test_a_slip_of_the_keys_is_told_with_what_was_meant(words: str, told: str) -
 
 
 def test_a_folder_of_the_page_that_is_a_file_is_told(tmp_path: Path) -> None:
-    place = tmp_path / "engine.toml"
-    place.touch()
-    (line,) = refused(kshm("serve", "--data", place))
-    assert line.startswith(f"{place}: не удаётся записать")
+    path = tmp_path / "engine.toml"
+    path.touch()
+    (line,) = refused(kshm("serve", "--data", path))
+    assert line.startswith(f"{path}: не удаётся записать")
     assert "--secret" not in line

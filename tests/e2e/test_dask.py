@@ -43,8 +43,8 @@ def cluster() -> Iterator[Any]:
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
         silence_logs=50,
-    ) as made:  # fmt: skip
-        yield made
+    ) as built:  # fmt: skip
+        yield built
 
 
 def killer(cluster: Any) -> tuple[Callable[..., Iterator[Any]], list[int]]:
@@ -137,7 +137,7 @@ def told(book: bytes) -> tuple[str, list[float]]:
     archive = zipfile.ZipFile(io.BytesIO(book))
     text = "".join(archive.read(name).decode() for name in archive.namelist() if "xml" in name)
     value = re.compile(r"<(v|c:v)>(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)</\1>")
-    return value.sub("", text), [float(found) for _, found in value.findall(text)]
+    return value.sub("", text), [float(matches) for _, matches in value.findall(text)]
 
 
 def test_the_page_s_files_are_built_on_the_cluster(cluster: Any, tmp_path: Path) -> None:

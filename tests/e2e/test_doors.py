@@ -62,7 +62,7 @@ def test_solve_spares_the_diagram_beside_its_input(tmp_path: Path) -> None:
     done = kshm("solve", path, "--csv", tmp_path)
     assert done.returncode == 2 and OWN in done.stderr.splitlines()[-1]
     assert (tmp_path / "gas.csv").read_text(encoding="utf-8") == DIAGRAM
-    assert sorted(place.name for place in tmp_path.iterdir()) == ["engine.toml", "gas.csv"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["engine.toml", "gas.csv"]
 
 
 def test_sweep_spares_its_own_input(tmp_path: Path) -> None:

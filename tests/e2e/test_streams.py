@@ -33,7 +33,7 @@ def run(
 def with_engine(words: str, folder: Path) -> list[object]:
     engine = small_input(folder)
     places = {"ENGINE": str(engine), "OUT": str(folder / "out")}
-    return [re.sub("ENGINE|OUT", lambda found: places[found[0]], word) for word in words.split()]
+    return [re.sub("ENGINE|OUT", lambda match: places[match[0]], word) for word in words.split()]
 
 
 COMMANDS = [
@@ -84,10 +84,10 @@ def test_an_error_is_told_in_utf_8(tmp_path: Path) -> None:
 
 
 def test_a_name_that_is_no_text_is_told_with_marks(tmp_path: Path) -> None:
-    place = os.fsencode(tmp_path) + b"/\xff.toml"
-    done = run(["new", "-o", os.fsdecode(place)])
+    path = os.fsencode(tmp_path) + b"/\xff.toml"
+    done = run(["new", "-o", os.fsdecode(path)])
     assert done.returncode == 0, done.stderr.decode()
-    assert Path(os.fsdecode(place)).is_file()
+    assert Path(os.fsdecode(path)).is_file()
     assert done.stdout.decode().endswith("/?.toml\n")
 
 

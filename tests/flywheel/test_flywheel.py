@@ -29,14 +29,14 @@ def test_ring_by_summing_thin_ones():
 def test_both_statements_agree(name: str, section: dict[str, object]):
     raw = to_mapping(sample(name)) | {"flywheel": section}
     model = load_mapping(raw, source="").model
-    values, found = evaluate_model(build_model(model)).scalars, solve(to_engine(model)).scalars
-    numbers = {key: each for key, each in found.items() if key.startswith("fw_")}
+    values, actual = evaluate_model(build_model(model)).scalars, solve(to_engine(model)).scalars
+    numbers = {key: each for key, each in actual.items() if key.startswith("fw_")}
     assert len(numbers) == 13
     for key, each in numbers.items():
         assert values[key] == pytest.approx(each, rel=1e-9), key
     # The rim is as narrow as the needed inertia lets it be.
     wide = numbers["fw_rim_mm"] > numbers["fw_disc_mm"] + 1e-9
-    assert numbers["fw_I"] == pytest.approx(found["I_flywheel"]) if wide else True
+    assert numbers["fw_I"] == pytest.approx(actual["I_flywheel"]) if wide else True
     assert numbers["fw_outer_most_mm"] / numbers["fw_outer_mm"] == pytest.approx(
         numbers["fw_limit"] / numbers["fw_speed"]
     )

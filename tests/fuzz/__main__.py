@@ -26,23 +26,23 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("seconds", nargs="?", type=int, default=60, metavar="СЕКУНДЫ")
     parser.add_argument("--keep", type=Path, metavar="ПАПКА", help="куда складывать новые входы")
     parser.add_argument("--blind", action="store_true", help="не пользоваться atheris")
-    asked = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     try:
         import atheris
     except ImportError:
-        asked.blind = True
-    if asked.blind:
+        options.blind = True
+    if options.blind:
         from tests.fuzz.doors import DOORS
 
-        return _blind(DOORS[asked.door], CORPUS / asked.door, asked.seconds)
+        return _blind(DOORS[options.door], CORPUS / options.door, options.seconds)
     with atheris.instrument_imports(include=["reports", "kshm", "tomllib"]):
         from tests.fuzz.doors import DOORS
-    door = DOORS[asked.door]
-    folders = [str(asked.keep)] if asked.keep else []
-    folders.append(str(CORPUS / asked.door))
+    door = DOORS[options.door]
+    folders = [str(options.keep)] if options.keep else []
+    folders.append(str(CORPUS / options.door))
     atheris.Setup(
-        [sys.argv[0], f"-max_total_time={asked.seconds}", "-timeout=30", "-rss_limit_mb=4096",
-         "-max_len=4096", f"-artifact_prefix={CORPUS / asked.door}/", *folders],
+        [sys.argv[0], f"-max_total_time={options.seconds}", "-timeout=30", "-rss_limit_mb=4096",
+         "-max_len=4096", f"-artifact_prefix={CORPUS / options.door}/", *folders],
         lambda data: door(data) and None,
     )  # fmt: skip
     atheris.Fuzz()

@@ -129,18 +129,18 @@ def _light(parts: dict[str, bytes]) -> dict[str, bytes]:
 @lru_cache(maxsize=1)
 def _marker() -> Marker:
     """A class of one, with the same identifier in every process."""
-    place = folder() / "class"
-    place.mkdir()
+    path = folder() / "class"
+    path.mkdir()
     text = (samples_dir() / "gots-diesel.toml").read_text(encoding="utf-8")
-    (place / "base.toml").write_text(
+    (path / "base.toml").write_text(
         text.replace("step_deg = 10", "step_deg = 30") + _RANGES, encoding="utf-8"
     )
-    (place / "group.csv").write_text("Фамилия;Имя\nИванов;Имя\n", encoding="utf-8")
-    (place / "rubric.toml").write_text(_RUBRIC, encoding="utf-8")
-    (place / "key").write_text("5a" * 32 + "\n", encoding="ascii")
+    (path / "group.csv").write_text("Фамилия;Имя\nИванов;Имя\n", encoding="utf-8")
+    (path / "rubric.toml").write_text(_RUBRIC, encoding="utf-8")
+    (path / "key").write_text("5a" * 32 + "\n", encoding="ascii")
     done = issue(
-        place / "base.toml", place / "group.csv", place / "issued", seed=1,
-        rubric_file=place / "rubric.toml", secret_file=place / "key",
+        path / "base.toml", path / "group.csv", path / "issued", seed=1,
+        rubric_file=path / "rubric.toml", secret_file=path / "key",
     )  # fmt: skip
     return Marker(done.register)
 

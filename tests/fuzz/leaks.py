@@ -77,30 +77,30 @@ def genuine(book: bytes, leaks: Sequence[Leak], assignment: Assignment) -> set[s
     run = Evaluation(assignment.model)
     items = {item.id: item for item in assignment.items}
     sheets = load_workbook(io.BytesIO(book))
-    found = set()
+    collected = set()
     for leak in leaks:
         item = items[leak.item.split(" ")[0]]
-        if leak.item in found:
+        if leak.item in collected:
             continue
-        asked = (np.ravel(np.asarray(run.value(n), dtype=float)) for n in item.nodes)
-        if _shown(np.concatenate(list(asked)).tolist()) & _shown(
+        requested = (np.ravel(np.asarray(run.value(n), dtype=float)) for n in item.nodes)
+        if _shown(np.concatenate(list(requested)).tolist()) & _shown(
             _numbers(book, sheets, leak.place)
         ):
-            found.add(leak.item)
-    return found
+            collected.add(leak.item)
+    return collected
 
 
 def _shown(values: Sequence[float]) -> set[str]:
     return {f"{abs(v):.5e}"[:7] for v in values if np.isfinite(v) and v}
 
 
-def _numbers(book: bytes, sheets: Workbook, place: str) -> list[float]:
+def _numbers(book: bytes, sheets: Workbook, position: str) -> list[float]:
     """Numbers of a place of a book, read without the check's own reader."""
-    if "!" not in place:
+    if "!" not in position:
         with zipfile.ZipFile(io.BytesIO(book)) as archive:
-            text = archive.read(place.split(",")[0]).decode()
+            text = archive.read(position.split(",")[0]).decode()
         return [float(v) for v in re.findall(r">(-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)<", text)]
-    title, _, where = place.rpartition("!")
+    title, _, where = position.rpartition("!")
     cells = sheets[title][where]
     return [float(cell.value) for cell in cells if isinstance(cell.value, (int, float))]
 

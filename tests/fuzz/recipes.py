@@ -68,7 +68,7 @@ def parts_of(book: bytes) -> dict[str, bytes]:
 def changed_book(parts: Mapping[str, bytes], recipe: bytes) -> bytes:
     """A workbook with the changes of a recipe; the same recipe makes the same workbook."""
     source = _Bytes(recipe)
-    made = dict(parts)
+    values = dict(parts)
     raw: list[tuple[int, bytes]] = []
     for _ in range(MAX_STEPS):
         if not source:
@@ -77,41 +77,41 @@ def changed_book(parts: Mapping[str, bytes], recipe: bytes) -> bytes:
         if kind == 15:
             raw.append((source.number(2**24), source.bytes()))
             continue
-        names = sorted(made, key=lambda name: (not _INTERESTING.match(name), name))
+        names = sorted(values, key=lambda name: (not _INTERESTING.match(name), name))
         # Half of the changes go to the parts that are read at all.
         near = [name for name in names if _INTERESTING.match(name)] or names
         name = near[source.number(len(near))] if kind % 2 else names[source.number(len(names))]
-        _step(made, name, kind, source)
-        if not made:
+        _step(values, name, kind, source)
+        if not values:
             break
-    data = _packed(made)
+    data = _packed(values)
     for at, patch in raw:
-        place = at % max(1, len(data))
-        data = data[:place] + patch + data[place + len(patch) :]
+        position = at % max(1, len(data))
+        data = data[:position] + patch + data[position + len(patch) :]
     return data
 
 
-def _step(made: dict[str, bytes], name: str, kind: int, source: _Bytes) -> None:
-    data = made[name]
+def _step(built: dict[str, bytes], name: str, kind: int, source: _Bytes) -> None:
+    data = built[name]
     if kind in (0, 1, 2, 3):
-        made[name] = _replaced(data, _TEXT, source, TOKENS[source.number(len(TOKENS))])
+        built[name] = _replaced(data, _TEXT, source, TOKENS[source.number(len(TOKENS))])
     elif kind in (4, 5):
-        made[name] = _replaced(data, _ATTRIBUTE, source, TOKENS[source.number(len(TOKENS))])
+        built[name] = _replaced(data, _ATTRIBUTE, source, TOKENS[source.number(len(TOKENS))])
     elif kind in (6, 7):
-        made[name] = _replaced(data, _TEXT, source, source.bytes())
+        built[name] = _replaced(data, _TEXT, source, source.bytes())
     elif kind in (8, 9):
         at = source.number(2**24) % max(1, len(data))
-        made[name] = data[:at] + TOKENS[source.number(len(TOKENS))] + data[at:]
+        built[name] = data[:at] + TOKENS[source.number(len(TOKENS))] + data[at:]
     elif kind == 10:
         at = source.number(2**24) % max(1, len(data))
-        made[name] = data[:at] + data[at + source.number(4096) :]
+        built[name] = data[:at] + data[at + source.number(4096) :]
     elif kind in (11, 13):
-        made[name] = _doubled(data, source)
+        built[name] = _doubled(data, source)
     elif kind == 12:
-        del made[name]
+        del built[name]
     else:
-        others = sorted(made)
-        made[others[source.number(len(others))]] = data
+        others = sorted(built)
+        built[others[source.number(len(others))]] = data
 
 
 def _replaced(data: bytes, what: re.Pattern[bytes], source: _Bytes, by: bytes) -> bytes:
@@ -133,8 +133,8 @@ def _doubled(data: bytes, source: _Bytes) -> bytes:
         tag = re.match(rb"<(\w+)", data[start:])
         assert tag is not None
         closing = b"</" + tag[1] + b">"
-        found = data.find(closing, end)
-        end = found + len(closing) if found >= 0 else end
+        actual = data.find(closing, end)
+        end = actual + len(closing) if actual >= 0 else end
     at = places[source.number(len(places))]
     return data[:at] + data[start:end] + data[at:]
 

@@ -37,13 +37,13 @@ def test_what_is_no_workbook_is_refused(door):
 def test_a_recipe_makes_the_same_book_again():
     rng = random.Random(3)
     parts = {"xl/workbook.xml": b'<a b="1">2</a>', "xl/worksheets/sheet1.xml": b"<c><v>5</v></c>"}
-    made = set()
+    values = set()
     for _ in range(200):
         recipe = rng.randbytes(rng.randrange(40))
         book = changed_book(parts, recipe)
         assert changed_book(parts, recipe) == book
-        made.add(book)
-    assert len(made) > 100
+        values.add(book)
+    assert len(values) > 100
     assert len(set(TOKENS)) == len(TOKENS)
 
 

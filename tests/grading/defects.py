@@ -45,10 +45,10 @@ def both(*changes: Change) -> Change:
     """Several changes in one book."""
 
     def change(formulas: Formulas, values: Values, assignment: Assignment) -> Formulas:
-        found: Formulas = {}
+        collected: Formulas = {}
         for part in changes:
-            found |= part(formulas, values, assignment)
-        return found
+            collected |= part(formulas, values, assignment)
+        return collected
 
     return change
 
@@ -58,9 +58,9 @@ def typed(table: str, key: str, rows: slice = slice(None)) -> Change:
 
     def change(formulas: Formulas, values: Values, assignment: Assignment) -> Formulas:
         node = f"{table}.{key}"
-        made = list(formulas[node])
-        made[rows] = [round(float(v), 4) for v in values.columns[table][key][rows]]
-        return {node: made}
+        items = list(formulas[node])
+        items[rows] = [round(float(v), 4) for v in values.columns[table][key][rows]]
+        return {node: items}
 
     return change
 
@@ -69,9 +69,9 @@ def blank(node: str, rows: slice = slice(None)) -> Change:
     """Cells left empty."""
 
     def change(formulas: Formulas, values: Values, assignment: Assignment) -> Formulas:
-        made = list(formulas[node])
-        made[rows] = [None] * len(made[rows])
-        return {node: made}
+        items = list(formulas[node])
+        items[rows] = [None] * len(items[rows])
+        return {node: items}
 
     return change
 

@@ -33,21 +33,21 @@ def solved_formulas(
     """Node → what a student types, or the solved book has in its cells."""
     compiled = _typed if typed else _as_solved
     model = assignment.model
-    found: dict[str, list[Formula]] = {}
+    collected: dict[str, list[Formula]] = {}
     for block in assignment.fill:
         if isinstance(block, TableSpec):
             rows = layout.rows_of(block)
             for column in block.columns:
                 if column.expr is not None:
                     text = compiled(column.expr, layout, block)
-                    found[f"{block.id}.{column.key}"] = [
+                    collected[f"{block.id}.{column.key}"] = [
                         at_row(text, row, last=row == rows[-1]) for row in rows
                     ]
         else:
             for node in fill_cells(block, layout):
                 expr = model.scalars[node].expr
-                found[node] = [compiled(expr, layout, None)]
-    return found
+                collected[node] = [compiled(expr, layout, None)]
+    return collected
 
 
 def _typed(expr: str, layout: Layout, block: TableSpec | None) -> str:
@@ -155,9 +155,9 @@ def with_values(data: bytes, values: Mapping[str, Value]) -> bytes:
         left.discard(at)
         return match[1] + _spelled(values[at]).encode("ascii", "xmlcharrefreplace")
 
-    made = _CELL.sub(replaced, data)
+    built = _CELL.sub(replaced, data)
     assert not left, left  # all that is filled in has a look of its own
-    return made
+    return built
 
 
 def _spelled(value: Value) -> str:

@@ -63,8 +63,8 @@ def as_excel(book: bytes) -> bytes:
             etree.SubElement(root, f"{{{PACKAGE}/content-types}}Override", about)
         return data if root is None else _written(root)
 
-    made = rewritten(book, change)
-    stream = io.BytesIO(made)
+    built = rewritten(book, change)
+    stream = io.BytesIO(built)
     with zipfile.ZipFile(stream, "a", zipfile.ZIP_DEFLATED) as archive:
         root = etree.Element(f"{MAIN}sst", nsmap={None: MAIN[1:-1]})
         for text in strings:
@@ -138,8 +138,8 @@ def tampered(book: bytes, sheet: str, cell: str) -> bytes:
         if name != part:
             return data
         root = etree.fromstring(data)
-        (found,) = root.iterfind(f".//{MAIN}c[@r='{cell}']")
-        value = found.find(f"{MAIN}v")
+        (actual,) = root.iterfind(f".//{MAIN}c[@r='{cell}']")
+        value = actual.find(f"{MAIN}v")
         value.text = repr(float(value.text) * 2 + 1)
         return _written(root)
 
@@ -182,8 +182,8 @@ def _moved(text: str, own: str, sheet: str, row: int, column: int) -> str:
             if row and number >= row:
                 number += 1
             if column and column_number(letters) >= column:
-                place = pattern(f"{letters}1", 1, 1)
-                letters = render(place, 1, 2)[1:-1]
+                position = pattern(f"{letters}1", 1, 1)
+                letters = render(position, 1, 2)[1:-1]
         return f"{match[1] or ''}{match[2]}{letters}{match[4]}{number}{match[6] or ''}"
 
     return _REFERENCE.sub(move, text)

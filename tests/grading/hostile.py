@@ -35,7 +35,7 @@ def more(book: bytes, parts: dict[str, bytes]) -> bytes:
 
 def part(book: bytes, name: str, change: Callable[[bytes], bytes]) -> bytes:
     """A package with one part changed."""
-    return rewritten(book, lambda found, data: change(data) if found == name else data)
+    return rewritten(book, lambda match, data: change(data) if match == name else data)
 
 
 def bare(data: bytes) -> bytes:
@@ -59,9 +59,9 @@ def answer(formula: str) -> Callable[[bytes], bytes]:
     text = formula.replace("&", "&amp;").replace("<", "&lt;")
 
     def change(data: bytes) -> bytes:
-        made, count = re.subn(rb"<f>[^<]*</f>", f"<f>{text}</f>".encode(), data, count=1)
+        built, count = re.subn(rb"<f>[^<]*</f>", f"<f>{text}</f>".encode(), data, count=1)
         assert count == 1
-        return made
+        return built
 
     return change
 

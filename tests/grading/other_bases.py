@@ -60,10 +60,10 @@ class Base:
         (folder / "rubric.toml").write_text(rubric, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(handout, "_charts", lambda assignment: ())  # most of the time
-            made = issue(folder / "base.toml", folder / "group.csv", folder / "issued", seed=3,
+            built = issue(folder / "base.toml", folder / "group.csv", folder / "issued", seed=3,
                          rubric_file=folder / "rubric.toml",
                          secret_file=folder / "key")  # fmt: skip
-        return made.register, folder, Marker(made.register)
+        return built.register, folder, Marker(built.register)
 
     @cached_property
     def assignment(self) -> Assignment:
@@ -83,8 +83,8 @@ class Base:
 
         def numbers(node: str) -> list[float | str]:
             table, _, key = node.partition(".")
-            found = values.columns[table][key] if key else [values.scalars[node]]
-            return [v if isinstance(v, str) else float(v) for v in found]
+            actual = values.columns[table][key] if key else [values.scalars[node]]
+            return [v if isinstance(v, str) else float(v) for v in actual]
 
         changes: dict[str, list[Formula]] = {}
         for node, text in texts.items():

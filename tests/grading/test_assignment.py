@@ -20,8 +20,8 @@ def asked(name: str, *fill: str, **more: object) -> Assignment:
 
 
 def test_marks_of_the_bearings_are_not_asked():
-    made = asked("d-240-bearings", "oil*", "material*", "checks", "specific_masses")
-    items = {item.id for item in made.items}
+    built = asked("d-240-bearings", "oil*", "material*", "checks", "specific_masses")
+    items = {item.id for item in built.items}
     # Reports of the program on itself, constants of a catalogue, a circle for a drawing.
     assert not items & {
         "oil_orbits.oil_changed", "oil_fresh.oil_fresh", "oil_grades.oil_grade_40",
@@ -31,32 +31,32 @@ def test_marks_of_the_bearings_are_not_asked():
     assert items >= {"oil_cases.oil_gap1_mm", "oil_holes.oil_load_deg", "oil_list.oil_vogel",
                      "checks.value_lam", "specific_masses.area_piston"}  # fmt: skip
     # None is worth more than a formula from which a whole sheet follows.
-    assert max(made.points.values()) < 8
+    assert max(built.points.values()) < 8
     # A value picked from what is given is a copy, not a formula.
-    assert made.points["oil_holes.oil_film1_deg"] < made.points["oil_holes.oil_load_deg"] / 3
+    assert built.points["oil_holes.oil_film1_deg"] < built.points["oil_holes.oil_load_deg"] / 3
     # What is not asked stands in the book: a number, or a formula of the student's own.
-    layout = Layout.of(made.model)
-    nodes = {node for block in made.fill for node in fill_cells(block, layout)}
-    for node in nodes - made.fill_nodes:
-        assert made.states[node] != "hidden", node
+    layout = Layout.of(built.model)
+    nodes = {node for block in built.fill for node in fill_cells(block, layout)}
+    for node in nodes - built.fill_nodes:
+        assert built.states[node] != "hidden", node
 
 
 def test_constants_of_materials_are_not_asked():
     """Of a steel that the input data name, a table tells them: they stand in the book."""
-    made = asked(
+    built = asked(
         "two-stroke", "geometry", "masses", "P4_1", "strength*", strength={"kind": "petrol"}
     )
-    blocks = {item.block for item in made.items}
+    blocks = {item.block for item in built.items}
     assert "strength_materials" not in blocks and "strength_eye" in blocks
-    assert made.states["rod_tensile"] == made.states["bolt_expansion"] == "number"
+    assert built.states["rod_tensile"] == built.states["bolt_expansion"] == "number"
     # What is calculated of such constants alone is a formula all the same.
     fuel = asked("cycle-petrol", "cycle_fuel")
     assert "cycle_fuel.cyc_L0" in {item.id for item in fuel.items}
 
 
 def test_columns_of_the_textbook_stay_asked():
-    made = asked("gots-diesel", "geometry", "masses", "P3_*", "P4_*")
-    assert len(made.items) == 131
+    built = asked("gots-diesel", "geometry", "masses", "P3_*", "P4_*")
+    assert len(built.items) == 131
     # Helpers from which asked columns follow, and one that only closes the table.
-    assert {"P4_1.beta_rad", "P4_1.j_m_s2", "P4_1.Mopr_Nm"} <= {item.id for item in made.items}
-    assert 2.3 < made.points["geometry.omega"] < 2.5
+    assert {"P4_1.beta_rad", "P4_1.j_m_s2", "P4_1.Mopr_Nm"} <= {item.id for item in built.items}
+    assert 2.3 < built.points["geometry.omega"] < 2.5

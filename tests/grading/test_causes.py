@@ -201,9 +201,9 @@ def test_a_mistake_upon_mistakes_is_named():
                for node, text in turned.items()}  # fmt: skip
     data = filled_book(classroom.handout(), classroom.assignment(), changes)
     lines = classroom.marks(data)["items"]
-    told = {line["id"]: line["cause"] for line in lines if line["verdict"] == "wrong"}
-    assert told["P4_2.M2_Nm"] == "обратный знак"
-    assert told.keys() == turned.keys()
+    messages = {line["id"]: line["cause"] for line in lines if line["verdict"] == "wrong"}
+    assert messages["P4_2.M2_Nm"] == "обратный знак"
+    assert messages.keys() == turned.keys()
 
 
 def test_degrees_in_a_sine_are_named():
@@ -217,9 +217,9 @@ def test_another_students_parameter_and_another_method_are_named():
     speed = float(other.drawn["regime.speed_rpm"])
     assert speed != classroom.book().drawn["regime.speed_rpm"]
     theirs = right("geometry.omega", {"regime_speed_rpm": speed})
-    found = cause("geometry.omega", theirs, typed=(0,))
-    assert "из варианта 2" in found
-    assert f"{speed:g}" in found
+    actual = cause("geometry.omega", theirs, typed=(0,))
+    assert "из варианта 2" in actual
+    assert f"{speed:g}" in actual
     # A formula in which no number of theirs stands accuses nobody.
     assert cause("geometry.omega", theirs) == ""
     model = student().assignment.model

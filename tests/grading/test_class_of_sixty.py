@@ -39,12 +39,12 @@ COUNT = FORMS_OF_EACH * len(DEFECTS)
 
 def plan() -> list[tuple[int, Defect, str]]:
     """Each defect is a student's, who hands it in in one of the three forms, or in two."""
-    found = []
+    collected = []
     for index, defect in enumerate(DEFECTS):
         at = (index + 1) % 6  # the right book as another program saves it
         forms = [form for form in dict.fromkeys(ORDER[at:] + FORMS) if form in defect.forms]
-        found += [(index + 1, defect, form) for form in forms[:FORMS_OF_EACH]]
-    return found
+        collected += [(index + 1, defect, form) for form in forms[:FORMS_OF_EACH]]
+    return collected
 
 
 @lru_cache(maxsize=1)
@@ -79,12 +79,12 @@ def substituted(
     """Cells and numbers put into the formulas of the defects."""
     model = assignment.model
     radius = layout.cells["geometry_crank_radius_mm"].absolute
-    made = {}
+    items = {}
     for node, texts in formulas.items():
         table = model.tables.get(node.split(".")[0]) if "." in node else None
         rows = layout.rows_of(table) if isinstance(table, TableSpec) else [layout.cells[node].row]
         column = layout.column_of(node) if table is not None else layout.cells[node].column
-        made[node] = [
+        items[node] = [
             text
             if not isinstance(text, str)
             else text.replace("{a}", Cell("", row, 1).coordinate)
@@ -96,7 +96,7 @@ def substituted(
             .replace("{value}", str(values.scalars.get(node)))
             for row, text in zip(rows, texts, strict=True)
         ]
-    return made
+    return items
 
 
 def book_of(number: int, defect: Defect) -> bytes:
@@ -132,13 +132,13 @@ def graded_class(libreoffice: LibreOffice):
         zip(office, libreoffice.converted([books[number] for number in office]), strict=True)
     )
     marker = Marker(register)
-    found = {}
+    collected = {}
     for number, defect, form in works:
         data = as_excel(books[number]) if form == "excel" else books[number]
         data = saved[number] if form == "office" else data
         submission = Submission(f"работа {number}.xlsx", Path("x"), None, None)
-        found[number, form] = defect, marker.mark(submission, data), data
-    return found
+        collected[number, form] = defect, marker.mark(submission, data), data
+    return collected
 
 
 def test_a_class_of_sixty(libreoffice: LibreOffice):
@@ -158,9 +158,11 @@ def check_the_table_of_verdicts_holds_exactly(results):
             wrong.append((where, result["status"], result.get("reason"), result["manual"]))
             continue
         lines = {line["id"]: line for line in result["items"]}
-        found = {id_: line["verdict"] for id_, line in lines.items() if line["verdict"] != "right"}
-        carried = {id_ for id_, verdict in found.items() if verdict == "carried"}
-        judged = {id_: verdict for id_, verdict in found.items() if verdict != "carried"}
+        collected = {
+            id_: line["verdict"] for id_, line in lines.items() if line["verdict"] != "right"
+        }
+        carried = {id_ for id_, verdict in collected.items() if verdict == "carried"}
+        judged = {id_: verdict for id_, verdict in collected.items() if verdict != "carried"}
         if judged != defect.verdicts:
             wrong.append((where, judged, defect.verdicts))
         # Only what depends on a wrong value is carried forward.
@@ -189,9 +191,9 @@ def check_a_wrong_omega_costs_one_item(results):
 
 def check_what_was_moved_or_changed_is_told(results):
     for (_, form), (defect, result, _) in results.items():
-        told = " ".join([*result["moved"], *result["notes"]])
+        message = " ".join([*result["moved"], *result["notes"]])
         if defect.note:
-            assert defect.note in told, (defect.name, form, told)
+            assert defect.note in message, (defect.name, form, message)
         else:
             assert not result["changed"], (defect.name, form, result["changed"])
             assert not result["altered"], (defect.name, form, result["altered"])

@@ -180,9 +180,9 @@ def test_the_manual_tells_what_is_held_and_what_is_told():
              NAME: "своё имя ячейки — до"}  # fmt: skip
     assert f"от {collusion._WHOLE_FORMS} редких" in text
     share = f"не меньше {work_digest.VERBATIM} формул и не меньше {work_digest.NEARLY_ALL:.0%}"
-    held, told = text.split("**Только сообщает:**")
+    held, message = text.split("**Только сообщает:**")
     assert share.replace("%", " %") in held
-    assert f"те же {work_digest.VERBATIM} формул" in told
+    assert f"те же {work_digest.VERBATIM} формул" in message
     assert f"от {traits._PASTED} зелёных столбцов" in held
     assert f"от {similarity._SHARED} столбцов" in held
     for kind, said in words.items():
@@ -203,9 +203,9 @@ def drawn() -> Drawn:
 
 
 def test_the_rings_of_a_drawn_class_are_named_and_nobody_honest():
-    found = drawn().rings()
-    assert drawn().named(found, held=True) == {1, 2, 3, 4, 5, 6, 7}
-    assert drawn().named(found, held=False) == {1, 2, 3, 4, 5, 6, 7}
+    actual = drawn().rings()
+    assert drawn().named(actual, held=True) == {1, 2, 3, 4, 5, 6, 7}
+    assert drawn().named(actual, held=False) == {1, 2, 3, 4, 5, 6, 7}
 
 
 @pytest.mark.parametrize(
@@ -219,8 +219,8 @@ def test_the_rings_of_a_drawn_class_are_named_and_nobody_honest():
 )  # fmt: skip
 def test_looks_let_no_ring_pass(looks):
     ring = cosmetics.ring(drawn_class(), **looks)
-    (found,) = rings_of([*ring, *drawn().works[7:]])
-    assert found.held and [work.number for work in found.works] == [1, 2, 3, 4]
+    (actual,) = rings_of([*ring, *drawn().works[7:]])
+    assert actual.held and [work.number for work in actual.works] == [1, 2, 3, 4]
 
 
 @pytest.mark.parametrize(
@@ -274,8 +274,10 @@ def test_a_pasted_sheet_of_the_solved_book_is_held():
             source[f"{column}{row}"].value = f"=Черновик!{column}{row}"
     stream = io.BytesIO()
     book.save(stream)
-    told = classroom.marks(stream.getvalue())["doubts"]
-    assert told == ["зелёные ячейки только ссылаются на лист «Черновик» с формулами решённой книги"]
+    message = classroom.marks(stream.getvalue())["doubts"]
+    assert message == [
+        "зелёные ячейки только ссылаются на лист «Черновик» с формулами решённой книги"
+    ]
 
 
 def test_a_solved_book_with_ones_own_identifier_is_held():
@@ -284,6 +286,6 @@ def test_a_solved_book_with_ones_own_identifier_is_held():
         del book.defined_names[name]  # the solved book has no such names
     stream = io.BytesIO()
     book.save(stream)
-    (told,) = classroom.marks(stream.getvalue())["doubts"]
-    assert told.startswith("это книга, решённая программой: слово в слово")
+    (message,) = classroom.marks(stream.getvalue())["doubts"]
+    assert message.startswith("это книга, решённая программой: слово в слово")
     assert classroom.marks(filled_book(classroom.handout(), classroom.assignment()))["doubts"] == []

@@ -128,9 +128,9 @@ def test_another_remark_with_the_same_points_is_taken_over(tmp_path, remark):
     book.active.append([2, "55.5", remark, "sha"])
     book.save(path)
     kept = [Decision(2, WHOLE, 55.5, "болел", "Петрова", "2026-01-01T00:00", "sha")]
-    (found,) = from_gradebook(path, kept, {}, Rubric())
-    assert (found.points, found.remark, found.file) == (55.5, remark, "sha")
-    assert (found == kept[0]) == (remark == "болел")
+    (actual,) = from_gradebook(path, kept, {}, Rubric())
+    assert (actual.points, actual.remark, actual.file) == (55.5, remark, "sha")
+    assert (actual == kept[0]) == (remark == "болел")
 
 
 def test_a_doubtful_work_is_accepted_by_a_person(tmp_path):
@@ -229,8 +229,8 @@ def test_the_best_of_several_files_does_not_pass_by_a_decision(tmp_path):
         return {row["number"]: row for row in done.summary["rows"]}
 
     assert rows()[2]["points"] == 100
-    for found in (rows(("2", "всё", "0", "списано")), rows()):
-        assert found[2]["points"] is None and "решите о нём заново" in found[2]["remark"]
+    for item in (rows(("2", "всё", "0", "списано")), rows()):
+        assert item[2]["points"] is None and "решите о нём заново" in item[2]["remark"]
 
 
 @pytest.mark.parametrize("word", [950, "8O", "сто", "nan", -1])
@@ -336,9 +336,9 @@ def test_what_is_no_decision_is_refused(tmp_path):
 
 def test_the_best_attempt_counts_where_the_rubric_says_so():
     def result(points: float, time: str, submitter: int | None = None) -> Work:
-        made = {"number": 1, "status": "graded", "points": points, "time": time, "key": time,
+        values = {"number": 1, "status": "graded", "points": points, "time": time, "key": time,
                 "file": time, "submitter": submitter, "items": [], "manual": []}  # fmt: skip
-        return work_of(made, {})
+        return work_of(values, {})
 
     first, second = result(90.0, "2026-01-01"), result(60.0, "2026-01-02")
     assert choose([first, second])[1] is second

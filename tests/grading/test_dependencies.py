@@ -56,10 +56,10 @@ def saved_otherwise(data, sheet, column, change):
         if name != part:
             return text
         cell = rf'(<c r="{letter}[1-2]?[0-9]"[^>]*><f[^>]*(?:/>|>[^<]*</f>)<v>)([^<]+)'
-        made, count = re.subn(
+        built, count = re.subn(
             cell.encode(), lambda m: m[1] + repr(change(float(m[2]))).encode(), text
         )
         assert count > 10
-        return made
+        return built
 
     return rewritten(data, replaced)

@@ -79,8 +79,8 @@ def test_moodles_zip_is_read_as_it_is(tmp_path):
         # The file of another student under a foreign name.
         archive.writestr("Петров Имя_102_assignsubmission_file_/x.xlsx", right(3))
         archive.writestr("__MACOSX/junk.xlsx", b"x")
-    found = collect(path)
-    assert [item.moodle_id for item in found] == ["101", "102"]
+    actual = collect(path)
+    assert [item.moodle_id for item in actual] == ["101", "102"]
     summary = run(path, tmp_path / "out")
     rows = {row["student"]: row for row in summary["rows"]}
     assert rows["Иванов Имя"]["points"] == 100
@@ -121,13 +121,15 @@ def test_zips_of_students_are_opened(tmp_path):
     (where / "пусто.zip").write_bytes(zipped())
     (where / "много.zip").write_bytes(zipped(**{f"{i}.xlsx": b"" for i in range(201)}))
     (where / "битый.zip").write_bytes(odd[:200])
-    found = {item.key: item for item in collect(where)}
-    assert list(found) == [
+    collected = {item.key: item for item in collect(where)}
+    assert list(collected) == [
         "Иванов.zip/моя/работа.xlsx", "битый.zip", "все.zip/Петров.zip/работа.xlsx",
         f"все.zip/три.zip/{name}", "много.zip", "пусто.zip",
     ]  # fmt: skip
-    assert found["все.zip/Петров.zip/работа.xlsx"].read() == second
-    assert all(item.time.year > 2001 for item in found.values())  # not what the student's zip says
+    assert collected["все.zip/Петров.zip/работа.xlsx"].read() == second
+    assert all(
+        item.time.year > 2001 for item in collected.values()
+    )  # not what the student's zip says
     rows = run(where, tmp_path / "out")["rows"]
     assert [row["points"] for row in rows[:4]] == [100, 100, 100, None]
     assert sum(row["manual"] for row in rows) == 3
@@ -137,9 +139,9 @@ def test_a_moodle_zip_in_a_folder_keeps_its_times(tmp_path):
     name = "Иванов Имя_101_assignsubmission_file_"
     data = zipped(**{f"{name}/a.zip": zipped(**{"a.xlsx": b"1"}), f"{name}/b.xlsx": b"2"})
     (tmp_path / "moodle.zip").write_bytes(data)
-    found = collect(tmp_path)
-    assert [(item.time.year, item.moodle_id) for item in found] == [(2001, "101")] * 2
-    assert [item.read() for item in found] == [b"1", b"2"]
+    actual = collect(tmp_path)
+    assert [(item.time.year, item.moodle_id) for item in actual] == [(2001, "101")] * 2
+    assert [item.read() for item in actual] == [b"1", b"2"]
 
 
 def test_the_last_of_several_files_counts_and_copies_are_noticed(tmp_path):

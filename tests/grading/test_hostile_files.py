@@ -60,8 +60,8 @@ def test_every_hostile_file_is_one_row_with_a_reason(tmp_path):
     for name, data in files.items():
         (submitted / name).write_bytes(data)
     for number, data in good.items():
-        for place in (submitted, alone):
-            path = place / classroom.book(number).file
+        for position in (submitted, alone):
+            path = position / classroom.book(number).file
             path.write_bytes(data)
             os.utime(path, (1_700_000_000, 1_700_000_000))
     started = time.monotonic()
@@ -86,11 +86,11 @@ def test_every_hostile_file_is_one_row_with_a_reason(tmp_path):
         assert "<script" not in page.lower()
         if result["status"] == "graded":
             lines = {line["id"]: line for line in result["items"]}
-            told = [line for line in lines.values() if line["verdict"] != "right"]
-            if not (result["manual"] or told or result["notes"]):
+            messages = [line for line in lines.values() if line["verdict"] != "right"]
+            if not (result["manual"] or messages or result["notes"]):
                 quiet.append(name)
             # A formula that could not be calculated never earns points.
-            for line in told:
+            for line in messages:
                 assert line["verdict"] != "unknown" or line["points"] == 0
         else:
             assert result["manual"], name
@@ -126,9 +126,11 @@ def test_files_that_exhaust_the_memory_do_not_end_the_batch(tmp_path):
         path.write_bytes(right_book(1) if index == 0 else (tmp_path / "0.xlsx").read_bytes())
         submissions += collect(path)
     tight = grade_all(submissions, classroom.folder() / "issued", workers=2, memory=2**20)
-    found = list(tight)
-    assert sorted(outcome.submission.key for outcome in found) == [f"{i}.xlsx" for i in range(6)]
-    assert all(outcome.result is None and outcome.problem == DIED for outcome in found)
+    collected = list(tight)
+    assert sorted(outcome.submission.key for outcome in collected) == [
+        f"{i}.xlsx" for i in range(6)
+    ]
+    assert all(outcome.result is None and outcome.problem == DIED for outcome in collected)
 
 
 def test_the_worker_refuses_network_and_programs():

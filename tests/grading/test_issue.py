@@ -276,11 +276,11 @@ def test_a_handout_gives_nothing_away():
                     assert cell.value is None, (sheet.title, cell.coordinate)
                     unlocked.add(Cell(sheet.title, cell.row, cell.column))
     assert unlocked == {  # and nothing that is asked stays closed
-        place
+        position
         for block in assignment.fill
         for node, places in fill_cells(block, layout).items()
         if node in assignment.fill_nodes
-        for place in places
+        for position in places
     }
     with zipfile.ZipFile(io.BytesIO(classroom.handout())) as archive:
         for name in archive.namelist():

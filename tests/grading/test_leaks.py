@@ -107,10 +107,10 @@ PLANTS = {
 @pytest.mark.parametrize("name", PLANTS)
 def test_planted_answers_are_found(name):
     book = planted(PLANTS[name])
-    found = leaks_of(book, classroom.assignment())
-    assert found, name
+    actual = leaks_of(book, classroom.assignment())
+    assert actual, name
     wanted = "geometry." if name == "scalars" else "P4_1.T_MPa"
-    assert any(wanted in leak.item for leak in found)
+    assert any(wanted in leak.item for leak in actual)
     with pytest.raises(InputError, match="книга содержала бы ответы"):
         check_for_leaks(book, classroom.assignment(), "рубрика")
 
@@ -125,8 +125,8 @@ def test_answers_in_the_cache_of_a_chart_are_found():
         plain = cache if b"</c:ser>" in data else cache.replace("c:", "")
         return data[:at] + plain.encode() + data[at:]
 
-    found = leaks_of(rewritten(classroom.handout(), change), classroom.assignment())
-    assert any("chart1" in leak.place for leak in found)
+    actual = leaks_of(rewritten(classroom.handout(), change), classroom.assignment())
+    assert any("chart1" in leak.place for leak in actual)
 
 
 def test_saved_values_of_given_formulas_are_found():

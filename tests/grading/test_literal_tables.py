@@ -65,8 +65,8 @@ def test_ready_numbers_times_an_exact_ratio_are_for_a_person(node: str, form: st
         formula = "VLOOKUP(A{r},Числа!B:C,2,0)" if form == "look-up" else "Числа!A{r}"
         cell = "={v}*1" if form == "formulas" else "{v}"
         result = graded(edit=on_a_sheet(node, values, f"={formula}{ratio(node)}", cell))
-    found = line(result, node)
-    assert (found["verdict"], found["points"]) == ("unknown", 0)
+    actual = line(result, node)
+    assert (actual["verdict"], actual["points"]) == ("unknown", 0)
     assert result["manual"]
 
 
@@ -82,11 +82,11 @@ def test_ready_numbers_times_an_exact_ratio_are_for_a_person(node: str, form: st
 def test_sines_of_a_table_of_sines_are_honest(node, function, formula, digits) -> None:
     values = [round(function(math.radians(angle)), digits) for angle in ANGLES]
     result = graded(edit=on_a_sheet(node, values, "=" + formula.replace("{v}", "Числа!A{r}")))
-    found = line(result, node)
+    actual = line(result, node)
     if digits > 3:  # with three they do not reach the digits that the book prints
-        assert (found["verdict"], found["points"]) == ("right", found["of"])
+        assert (actual["verdict"], actual["points"]) == ("right", actual["of"])
     else:
-        assert found["points"] == found["of"] or found["verdict"] != "right"
+        assert actual["points"] == actual["of"] or actual["verdict"] != "right"
 
 
 def written(case: str) -> list[str]:
@@ -110,7 +110,7 @@ def written(case: str) -> list[str]:
 )  # fmt: skip
 def test_cases_with_formulas_in_them_are_no_list_of_numbers(case: str, share: float) -> None:
     """Of five cases one is wrong: the column was called ready numbers, and earned nothing."""
-    found = line(graded({V1: written(case)}), V1)
-    assert found["verdict"] == ("right" if share == 1 else "wrong")
-    assert found["points"] == pytest.approx(found["of"] * share, abs=1e-5)
-    assert found["reason"] == ""
+    actual = line(graded({V1: written(case)}), V1)
+    assert actual["verdict"] == ("right" if share == 1 else "wrong")
+    assert actual["points"] == pytest.approx(actual["of"] * share, abs=1e-5)
+    assert actual["reason"] == ""

@@ -29,8 +29,8 @@ from reports.grading.judging.rewriting import (
     ],
 )
 def test_the_sign_of_one_sum_is_turned(number: int, wanted: str) -> None:
-    found = Flipped(number, ast.Add, ast.Sub).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
-    assert ast.unparse(found) == wanted
+    actual = Flipped(number, ast.Add, ast.Sub).visit(ast.parse("-a - b - (c + d) * e", mode="eval"))
+    assert ast.unparse(actual) == wanted
 
 
 def test_the_arguments_are_swapped_with_the_conditions_or_without() -> None:
@@ -50,9 +50,9 @@ def test_exponents_are_one_more_or_less_and_brackets_lose_theirs() -> None:
 
 def test_a_summand_is_left_out_where_there_is_one() -> None:
     """Formulas of one item may have more of them or fewer."""
-    found = [ast.unparse(WithoutSummand(1).changed(ast.parse(text, mode="eval").body))
+    collected = [ast.unparse(WithoutSummand(1).changed(ast.parse(text, mode="eval").body))
              for text in ("a - b + c", "a", "a / (b - 1) ** (n - 1)")]  # fmt: skip
-    assert found == ["a - 0 + c", "a", "a / (b - 0) ** (n - 1)"]
+    assert collected == ["a - 0 + c", "a", "a / (b - 0) ** (n - 1)"]
 
 
 @pytest.mark.parametrize(
@@ -60,8 +60,8 @@ def test_a_summand_is_left_out_where_there_is_one() -> None:
     [(None, "sin(a) / cos(sin(b))"), (0, "sin(a) / sin(cos(b))"), (2, "cos(a) / cos(cos(b))")],
 )
 def test_sine_and_cosine_are_taken_for_each_other(number: int | None, wanted: str) -> None:
-    found = OtherRatio(number).visit(ast.parse("cos(a) / sin(cos(b))", mode="eval"))
-    assert ast.unparse(found) == wanted
+    actual = OtherRatio(number).visit(ast.parse("cos(a) / sin(cos(b))", mode="eval"))
+    assert ast.unparse(actual) == wanted
 
 
 def test_an_angle_is_doubled_again_and_a_name_is_divided() -> None:

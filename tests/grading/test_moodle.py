@@ -43,8 +43,8 @@ def worksheet(head: tuple[str, ...], most: str = "100,00") -> str:
 def unformat_float(text: str, comma: str) -> float | None:
     """``unformat_float`` of ``moodlelib.php``: nothing is null, what is no number is cut off."""
     text = text.strip().replace(" ", "").replace(comma, ".")
-    found = re.match(r"-?\d*\.?\d*", text)
-    return float(found[0] or 0) if text and found else None
+    match = re.match(r"-?\d*\.?\d*", text)
+    return float(match[0] or 0) if text and match else None
 
 
 def imported(text: str, head: tuple[str, ...]) -> dict[int, tuple[float | None, str]]:
@@ -57,7 +57,7 @@ def imported(text: str, head: tuple[str, ...]) -> dict[int, tuple[float | None, 
     id_, grade, modified = (columns[head[i]] for i in (0, 4, 8))  # else it refuses the file
     comment = columns.get(head[9])
     hidden, _, never = WORDS[head]
-    found = {}
+    collected = {}
     for line in lines[1:]:
         assert len(line) == len(lines[0])  # csv_import_reader: csvweirdcolumns
         participant = int(line[id_][len(hidden) :])
@@ -65,8 +65,8 @@ def imported(text: str, head: tuple[str, ...]) -> dict[int, tuple[float | None, 
         assert line[modified] == never  # a time that cannot be read is older than any grade
         most = unformat_float(line[columns[head[5]]], "," if head is RUSSIAN else ".")
         taken = value if value is not None and 0 <= value <= (most or 0) else None
-        found[participant] = taken, line[comment] if comment else ""
-    return found
+        collected[participant] = taken, line[comment] if comment else ""
+    return collected
 
 
 def feedback_goes_to(path: str) -> tuple[int, str]:
@@ -107,10 +107,10 @@ def graded(tmp_path_factory) -> Path:
 @pytest.mark.parametrize(("head", "name"), [(ENGLISH, "en"), (RUSSIAN, "ru")])
 def test_the_worksheet_is_filled_and_nothing_else_is_changed(graded, head, name):
     text = (graded / name / "moodle-worksheet.csv").read_text("utf-8")
-    found = imported(text, head)
-    assert found[101] == (100.0, "")
-    assert 90 < found[102][0] < 99
-    assert found[999] == (None, "")
+    actual = imported(text, head)
+    assert actual[101] == (100.0, "")
+    assert 90 < actual[102][0] < 99
+    assert actual[999] == (None, "")
     before = list(csv.reader(io.StringIO(worksheet(head))))
     after = list(csv.reader(io.StringIO(text.lstrip("\ufeff"))))
     for old, new in zip(before, after, strict=True):
@@ -125,28 +125,28 @@ def test_online_texts_are_left_in_peace(graded):
 
 def test_feedback_files_reach_their_participants(graded):
     with zipfile.ZipFile(graded / "en" / "moodle-feedback.zip") as archive:
-        found = {feedback_goes_to(name): archive.read(name) for name in archive.namelist()}
-    assert set(found) == {(101, "feedback.html"), (102, "feedback.html")}
-    assert "Иванов Имя" in found[101, "feedback.html"].decode()
+        collected = {feedback_goes_to(name): archive.read(name) for name in archive.namelist()}
+    assert set(collected) == {(101, "feedback.html"), (102, "feedback.html")}
+    assert "Иванов Имя" in collected[101, "feedback.html"].decode()
 
 
 def row(points: float | None, **more) -> dict:
-    made = {"number": 1, "student": "Иванов Имя", "email": "", "points": points, "manual": False,
+    values = {"number": 1, "student": "Иванов Имя", "email": "", "points": points, "manual": False,
             "status": "проверено", "remark": "", "moodle_id": "101"}  # fmt: skip
-    return made | more
+    return values | more
 
 
 def test_grades_fit_the_maximum_of_the_assignment():
-    made = filled(worksheet(ENGLISH, "20,00"), [row(75.0)], 100, "w.csv")
-    assert imported(made.text, ENGLISH)[101][0] == 15
-    assert made.graded == 1
+    built = filled(worksheet(ENGLISH, "20,00"), [row(75.0)], 100, "w.csv")
+    assert imported(built.text, ENGLISH)[101][0] == 15
+    assert built.graded == 1
 
 
 def test_who_waits_for_a_person_gets_no_grade():
     for waiting in (row(None), row(80.0, manual=True)):
-        made = filled(worksheet(RUSSIAN), [waiting], 100, "w.csv")
-        assert imported(made.text, RUSSIAN)[101][0] is None
-        assert made.left
+        built = filled(worksheet(RUSSIAN), [waiting], 100, "w.csv")
+        assert imported(built.text, RUSSIAN)[101][0] is None
+        assert built.left
 
 
 def test_a_closed_grade_is_not_written():
@@ -160,13 +160,13 @@ def test_a_namesake_gets_no_grade_of_another():
     rows = [row(80.0), row(90.0, number=2, student="Петров Имя", moodle_id="102")]
     assert imported(filled(namesake, rows, 100, "w.csv").text, ENGLISH)[999][0] is None
     left_out = namesake.replace("Participant 101,", "Participant 555,").replace("s1@", "x@")
-    found = imported(filled(left_out, rows, 100, "w.csv").text, ENGLISH)
-    assert (found[102][0], found[555][0], found[999][0]) == (90.0, None, None)
+    actual = imported(filled(left_out, rows, 100, "w.csv").text, ENGLISH)
+    assert (actual[102][0], actual[555][0], actual[999][0]) == (90.0, None, None)
     nameless = [row(80.0, moodle_id="")]  # works out of a folder: by mail, else by name
     assert imported(filled(namesake, nameless, 100, "w.csv").text, ENGLISH)[101][0] is None
     mailed = [row(80.0, moodle_id="", email="S1@example.org")]
-    found = imported(filled(namesake, mailed, 100, "w.csv").text, ENGLISH)
-    assert (found[101][0], found[999][0]) == (80.0, None)
+    actual = imported(filled(namesake, mailed, 100, "w.csv").text, ENGLISH)
+    assert (actual[101][0], actual[999][0]) == (80.0, None)
 
 
 def test_a_work_handed_in_by_another_is_not_told_to_him(tmp_path):
@@ -183,9 +183,9 @@ def test_a_work_handed_in_by_another_is_not_told_to_him(tmp_path):
 
 def test_a_scale_is_left_to_a_person():
     text = worksheet(RUSSIAN).replace("Максимальная оценка", "Шкала").replace("100,00", "зачтено")
-    made = filled(text, [row(80.0)], 100, "w.csv")
-    assert made.graded == 0
-    assert made.left == ("Имя Иванов: в задании шкала, а не баллы",)
+    built = filled(text, [row(80.0)], 100, "w.csv")
+    assert built.graded == 0
+    assert built.left == ("Имя Иванов: в задании шкала, а не баллы",)
 
 
 def test_a_remark_is_html_and_a_persons_comment_is_not_wiped_out():
@@ -203,8 +203,8 @@ def test_folders_of_all_versions_are_read(tmp_path, folder):
     """Since 4.1 the folder has no last ``_``; with groups their name stands first."""
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
         archive.writestr(f"{folder}/работа.xlsx", b"x")
-    (found,) = collect(tmp_path / "a.zip")
-    assert found.moodle_id == "101"
+    (actual,) = collect(tmp_path / "a.zip")
+    assert actual.moodle_id == "101"
 
 
 def test_an_endless_field_is_no_worksheet(tmp_path):

@@ -163,9 +163,11 @@ def test_any_number_of_processes_says_the_same(workers: int, tmp_path: Path) -> 
         (tmp_path / f"{name}.xlsx").write_bytes(work(name))
     folder = classroom.folder() / "issued"
     outcomes = grade_all(collect(tmp_path), folder, workers=workers)
-    found = {outcome.submission.key.removesuffix(".xlsx"): outcome.result for outcome in outcomes}
+    collected = {
+        outcome.submission.key.removesuffix(".xlsx"): outcome.result for outcome in outcomes
+    }
     for name in names:
-        mine = {key: found[name][key] for key in ("number", "items", "points", "manual")
-                if key in found[name]}  # fmt: skip
+        mine = {key: collected[name][key] for key in ("number", "items", "points", "manual")
+                if key in collected[name]}  # fmt: skip
         wanted = json.loads(alone(name))
         assert mine == {key: wanted[key] for key in mine}, name

@@ -289,8 +289,8 @@ def test_mistakes_are_told_and_cost_no_other_column(base):
     lines = base.marks({node: text for node, (text, _) in base.mistakes.items()})
     for node, (_, cause) in base.mistakes.items():
         assert lines[node]["verdict"] == "wrong", node
-        told = lines[node]["cause"]
-        assert told == "" if cause is None else cause in told, (node, told)
+        message = lines[node]["cause"]
+        assert message == "" if cause is None else cause in message, (node, message)
     items = {lines[node]["id"] for node in base.mistakes}
     others = {x["id"]: x["verdict"] for x in lines.values() if x["id"] not in items}
     assert set(others.values()) <= {"right", "carried"}, others

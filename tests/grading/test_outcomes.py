@@ -161,15 +161,17 @@ def test_symbols_of_a_marked_copy_keep_their_indices(handed):
 
 def test_questions_are_about_the_students_own_numbers():
     assignment = classroom.assignment()
-    asked = questions_for(assignment, "seed", ["P3_1.v1_m_s"])
-    assert len(asked) == 5 and len({question.item for question in asked}) == 5
-    assert asked == questions_for(assignment, "seed", ["P3_1.v1_m_s"])
-    assert asked != questions_for(assignment, "other")
-    assert "П3.1" not in asked[0].text and "скорость поршня первого порядка" in asked[0].text
-    kinds = {question.kind for question in asked}
+    requested = questions_for(assignment, "seed", ["P3_1.v1_m_s"])
+    assert len(requested) == 5 and len({question.item for question in requested}) == 5
+    assert requested == questions_for(assignment, "seed", ["P3_1.v1_m_s"])
+    assert requested != questions_for(assignment, "other")
+    assert (
+        "П3.1" not in requested[0].text and "скорость поршня первого порядка" in requested[0].text
+    )
+    kinds = {question.kind for question in requested}
     assert {"largest", "change", "sign"} <= kinds
     run = Evaluation(assignment.model)
-    largest = next(question for question in asked if question.kind == "largest")
+    largest = next(question for question in requested if question.kind == "largest")
     column = run.value(largest.item)
     shown = f"{abs(column).max():.2f}".replace(".", ",")
     assert shown in largest.answer
@@ -178,10 +180,12 @@ def test_questions_are_about_the_students_own_numbers():
 def test_questions_have_reasons_and_numbers_that_give_the_answer():
     assignment = classroom.assignment(1)
     model, graph = assignment.model, assignment.graph
-    asked = [one for seed in range(40) for one in questions_for(assignment, str(seed))]
-    assert {one.kind for one in asked} == {"largest", "change", "sign", "substitution"}
-    assert not any("° ), а остальное" in one.text or "°), а остальное" in one.text for one in asked)
-    for one in asked:
+    requested = [one for seed in range(40) for one in questions_for(assignment, str(seed))]
+    assert {one.kind for one in requested} == {"largest", "change", "sign", "substitution"}
+    assert not any(
+        "° ), а остальное" in one.text or "°), а остальное" in one.text for one in requested
+    )
+    for one in requested:
         item = next(item for item in assignment.items if item.id == one.item)
         if one.kind == "largest":
             assert re.search(r"Решает .+: .+ против .+\.", one.answer), one.answer
@@ -194,7 +198,7 @@ def test_questions_have_reasons_and_numbers_that_give_the_answer():
         value = float(evaluate_tree(parse(expression), known.__getitem__))
         assert one.answer.startswith(printed(value + 0.0, item.quantity.digits)), one.answer
     twins = Counter(item.symbol for item in assignment.items)
-    for one in asked:
+    for one in requested:
         item = next(item for item in assignment.items if item.id == one.item)
         if twins[item.symbol] > 1 and one.item.partition(".")[0] in model.tables:
             blocks = {other.block for other in assignment.items if other.symbol == item.symbol}
@@ -220,9 +224,9 @@ def test_pages_without_names_tell_none(handed, tmp_path):
     word = handed.register.books[2].student.full, "всё", "+", ""
     decide(out, GradeSetup(decisions=(word,), author="Гоц", form=path))  # and keeps it so
     assert load_workbook(out / "ведомость.xlsx").active["D7"].value == 5
-    told = [*out.glob("*.html"), *out.glob("pages/*"), *out.glob("questions/*")]
-    assert len(told) == 10
-    for page in told:
+    lines = [*out.glob("*.html"), *out.glob("pages/*"), *out.glob("questions/*")]
+    assert len(lines) == 10
+    for page in lines:
         text = page.read_text(encoding="utf-8") + page.name
         for book in handed.register.books:
             for name in (book.student.surname, book.folder, book.file):

@@ -53,8 +53,8 @@ def test_what_a_person_must_look_at_is_not_counted_as_wrong():
     assert (omega["wrong"], omega["unknown"]) == (1, 0)
     typed = work_of(graded({ITEM: [1.0] * 13}), {})
     counts = summarise(classroom.register(), [replace(typed, number=2), work])["hardest"]
-    (found,) = [entry for entry in counts if "vп1" in entry["title"]]
-    assert (found["wrong"], found["unknown"]) == (1, 1)
+    (collected,) = [entry for entry in counts if "vп1" in entry["title"]]
+    assert (collected["wrong"], collected["unknown"]) == (1, 1)
 
 
 def test_what_is_begun_is_to_be_mended_and_what_is_not_stands_apart():

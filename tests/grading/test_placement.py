@@ -41,27 +41,27 @@ def move_down(grid: CellGrid, sheet: str, begin: int) -> None:
 
 
 def test_every_node_is_found_by_its_name(grid):
-    found = placed(grid)
-    assert found.moved == []
+    actual = placed(grid)
+    assert actual.moved == []
     assignment = classroom.assignment()
     for block in (*assignment.fill, *assignment.given):
         for node in assignment.nodes(block):
-            assert found.places[node].by == "name"
-            assert None not in found.places[node].rows
-    assert found.places[f"{TABLE}.s_mm"].rows[0] == FIRST_ROW
+            assert actual.places[node].by == "name"
+            assert None not in actual.places[node].rows
+    assert actual.places[f"{TABLE}.s_mm"].rows[0] == FIRST_ROW
 
 
 def test_without_names_headers_and_captions_decide(grid):
     before = placed(grid).places
     grid.names = {n: at for n, at in grid.names.items() if not n.startswith(("col_", "cell_"))}
-    found = placed(grid)
-    assert set(found.places) == set(before)
-    for node, place in before.items():  # shares of the throws too, cells beside each other
-        other = found.places[node]
-        assert (node, other.sheet, other.column) == (node, place.sheet, place.column)
-        assert other.rows == place.rows
-    assert found.places[f"{TABLE}.v1_m_s"].by == "header"
-    assert any("столбцы найдены по заголовкам" in text for text in found.moved)
+    actual = placed(grid)
+    assert set(actual.places) == set(before)
+    for node, position in before.items():  # shares of the throws too, cells beside each other
+        other = actual.places[node]
+        assert (node, other.sheet, other.column) == (node, position.sheet, position.column)
+        assert other.rows == position.rows
+    assert actual.places[f"{TABLE}.v1_m_s"].by == "header"
+    assert any("столбцы найдены по заголовкам" in text for text in actual.moved)
 
 
 def test_an_inserted_row_and_a_new_title_are_told(grid):
@@ -69,12 +69,12 @@ def test_an_inserted_row_and_a_new_title_are_told(grid):
     move_down(grid, sheet, FIRST_ROW + 3)
     grid.sheets = {("Моя" if t == sheet else t): c for t, c in grid.sheets.items()}
     grid.names = {n: ("Моя" if at[0] == sheet else at[0], *at[1:]) for n, at in grid.names.items()}
-    found = placed(grid)
-    rows = found.places[f"{TABLE}.s_mm"].rows
+    actual = placed(grid)
+    rows = actual.places[f"{TABLE}.s_mm"].rows
     assert rows[2:4] == (FIRST_ROW + 2, FIRST_ROW + 4)
-    assert found.places[f"{TABLE}.s_mm"].sheet == "Моя"
-    assert any("строки сдвинуты" in text for text in found.moved)
-    assert f"лист «{sheet}» теперь «Моя»" in found.moved
+    assert actual.places[f"{TABLE}.s_mm"].sheet == "Моя"
+    assert any("строки сдвинуты" in text for text in actual.moved)
+    assert f"лист «{sheet}» теперь «Моя»" in actual.moved
 
 
 def test_a_lost_angle_is_a_lost_row(grid):
@@ -93,13 +93,13 @@ def test_angles_that_are_calculated_are_angles(grid):
     angles = grid.sheets[sheet][column]
     wanted = classroom.assignment().model.tables[TABLE].rows
     step = wanted[1] - wanted[0]
-    made = engine_of({f"A{FIRST_ROW}": 0.0} | {
+    built = engine_of({f"A{FIRST_ROW}": 0.0} | {
         f"A{FIRST_ROW + i}": f"=A{FIRST_ROW + i - 1}+{step:g}" for i in range(1, len(wanted))
     }).grid.sheets["Sheet"][1]  # fmt: skip
-    for run in made.runs:
+    for run in built.runs:
         run.sheet, run.column = sheet, column
     kept = {r: v for r, v in angles.constants.items() if r < FIRST_ROW}
-    grid.sheets[sheet][column] = CellColumn({**kept, FIRST_ROW: 0.0}, runs=made.runs)
+    grid.sheets[sheet][column] = CellColumn({**kept, FIRST_ROW: 0.0}, runs=built.runs)
     rows = placed(grid).places[f"{TABLE}.s_mm"].rows
     assert rows == tuple(range(FIRST_ROW, FIRST_ROW + len(wanted)))
 

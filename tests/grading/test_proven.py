@@ -25,9 +25,9 @@ HALF = {"omega": ["=regime_speed_rpm*PI()/60"]}
 @pytest.fixture(scope="module")
 def marker() -> Marker:
     """A marker that has seen a right book."""
-    made = Marker(classroom.register())
-    mark(made, right())
-    return made
+    built = Marker(classroom.register())
+    mark(built, right())
+    return built
 
 
 def right() -> bytes:
@@ -80,8 +80,8 @@ def test_a_ring_of_right_numbers_rests_on_nothing(marker):
     for _ in range(3):
         result = mark(marker, ring())
         lines = {line["id"]: line for line in result["items"]}
-        found = [lines[f"P3_1.{key}"] for key in ("v1_m_s", "v2_m_s", "v_m_s")]
-        assert [(line["verdict"], line["points"]) for line in found] == [("unknown", 0)] * 3
+        collected = [lines[f"P3_1.{key}"] for key in ("v1_m_s", "v2_m_s", "v_m_s")]
+        assert [(line["verdict"], line["points"]) for line in collected] == [("unknown", 0)] * 3
         assert result["manual"]
 
 
@@ -92,11 +92,11 @@ def parts_of(data: bytes) -> list[bytes]:
 
 def test_what_follows_from_a_mistake_is_calculated(marker):
     data = as_excel(filled_book(classroom.handout(), classroom.assignment(), HALF))
-    student, found = settled(marker, data)
-    assert {"lam", "P3_1.s1_mm", "P3_2.beta_rad"} <= found
+    student, actual = settled(marker, data)
+    assert {"lam", "P3_1.s1_mm", "P3_2.beta_rad"} <= actual
     for node in ("omega", "P3_1.v1_m_s", "P4_1.T_MPa", "P4_2.Msum_Nm"):
-        assert node not in found
-    student.settle(found)
+        assert node not in actual
+    student.settle(actual)
     assert student.answers["P3_1.v1_m_s"].values[3] == pytest.approx(
         student.expected.value("P3_1.v1_m_s")[3] / 2
     )
@@ -104,9 +104,9 @@ def test_what_follows_from_a_mistake_is_calculated(marker):
 
 def test_a_number_that_is_not_the_formula_s_is_calculated_and_told(marker):
     data = tampered(right(), "П4.1", "I9")
-    found = settled(marker, data)[1]
-    assert "P4_1.M_Nm" not in found
-    assert "P4_2.M1_Nm" not in found  # reads it
+    actual = settled(marker, data)[1]
+    assert "P4_1.M_Nm" not in actual
+    assert "P4_2.M1_Nm" not in actual  # reads it
     result = mark(marker, data)
     assert result["points"] == 100
     assert "П4.1!I9" in result["altered"][0]
@@ -136,6 +136,6 @@ def test_a_formula_that_is_right_to_the_printed_digits_alone_is_calculated(marke
     rounded = {"lam": ["=ROUND(r_crank/L_rod,4)"]}
     data = as_excel(filled_book(classroom.handout(), classroom.assignment(), rounded))
     mark(marker, data)
-    found = settled(marker, data)[1]
-    assert "lam" not in found
-    assert "P3_1.s2_mm" not in found
+    actual = settled(marker, data)[1]
+    assert "lam" not in actual
+    assert "P3_1.s2_mm" not in actual

@@ -26,11 +26,11 @@ def _saved_by_another_program(libreoffice: LibreOffice) -> None:
     """Some books are saved by LibreOffice."""
 
 
-def unlike(found: Marked, *allowed: str) -> dict[str, str]:
+def unlike(actual: Marked, *allowed: str) -> dict[str, str]:
     """Items whose verdict is none of those allowed."""
     return {
         item: line["verdict"]
-        for item, line in found.lines.items()
+        for item, line in actual.lines.items()
         if line["verdict"] not in ("right", *allowed)
     }
 
@@ -45,10 +45,10 @@ def test_the_class_is_large_enough():
 
 @pytest.mark.parametrize("name", [work.name for work in HONEST])
 def test_an_honest_book_is_right_throughout(name):
-    found = marked()[name]
-    assert unlike(found) == {}
-    assert found.result["points"] == 100
-    assert found.result["manual"] == found.result["notes"] == found.result["doubts"] == []
+    actual = marked()[name]
+    assert unlike(actual) == {}
+    assert actual.result["points"] == 100
+    assert actual.result["manual"] == actual.result["notes"] == actual.result["doubts"] == []
 
 
 @pytest.mark.parametrize("name", ["array formulas", "noughts at dead centre", "blank omega"])
@@ -75,45 +75,45 @@ def parts(book: bytes) -> dict[str, bytes]:
 
 def test_formulas_by_hand_are_not_the_programs():
     shares = [
-        sum(own for _, _, own in made.values()) / len(made)
+        sum(own for _, _, own in built.values()) / len(built)
         for work in HONEST
-        if (made := marked()[work.name].result["formulas"])
+        if (built := marked()[work.name].result["formulas"])
     ]
     assert len(shares) >= 15 and max(shares) < 0.5
 
 
 @pytest.mark.parametrize("name", [work.name for work in MISTAKES])
 def test_a_mistake_costs_its_own_column_and_no_other(name):
-    found = marked()[name]
-    assert unlike(found, "carried") == dict(found.work.verdicts)
-    for item, words in found.work.causes.items():
-        assert words in found.lines[item]["cause"]
-    for item, line in found.lines.items():
-        if item not in found.work.verdicts:
+    actual = marked()[name]
+    assert unlike(actual, "carried") == dict(actual.work.verdicts)
+    for item, words in actual.work.causes.items():
+        assert words in actual.lines[item]["cause"]
+    for item, line in actual.lines.items():
+        if item not in actual.work.verdicts:
             assert line["points"] == line["of"], item  # carried is paid in full
-    assert not found.result["manual"]
-    assert found.row["points"] == found.result["points"] < 99.2 or _is_small(found)
+    assert not actual.result["manual"]
+    assert actual.row["points"] == actual.result["points"] < 99.2 or _is_small(actual)
 
 
-def _is_small(found: Marked) -> bool:
+def _is_small(actual: Marked) -> bool:
     """Mistakes in what nothing follows from, or in one row, may cost less than a point."""
-    return all(found.lines[i]["of"] < 1 or found.lines[i]["points"] for i in found.work.verdicts)
+    return all(actual.lines[i]["of"] < 1 or actual.lines[i]["points"] for i in actual.work.verdicts)
 
 
 @pytest.mark.parametrize("name", [work.name for work in CHEATS if not work.held])
 def test_a_cheat_earns_nothing(name):
-    found = marked()[name]
-    for item in found.work.unpaid:
-        assert found.lines[item]["points"] == 0, (item, found.lines[item]["verdict"])
+    actual = marked()[name]
+    for item in actual.work.unpaid:
+        assert actual.lines[item]["points"] == 0, (item, actual.lines[item]["verdict"])
     # Nothing right is lost to the cheat but what rests on blanks and circles.
-    told = {*found.work.unpaid, *found.work.verdicts}
-    others = {i: v for i, v in unlike(found, "carried", "groundless").items() if i not in told}
+    lines = {*actual.work.unpaid, *actual.work.verdicts}
+    others = {i: v for i, v in unlike(actual, "carried", "groundless").items() if i not in lines}
     assert others == {}
 
 
 @pytest.mark.parametrize("name", [work.name for work in CHEATS if work.held])
 def test_a_foreign_work_waits_for_a_person(name):
-    found = marked()[name]
-    assert found.row["points"] is None
-    assert found.row["manual"]
-    assert found.work.held in found.row["remark"]
+    actual = marked()[name]
+    assert actual.row["points"] is None
+    assert actual.row["manual"]
+    assert actual.work.held in actual.row["remark"]

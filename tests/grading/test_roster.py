@@ -29,9 +29,9 @@ def test_a_roster_in_any_usual_form(tmp_path, encoding, delimiter):
     path = tmp_path / "group.csv"
     text = PEOPLE.replace('"Первый"', "Ёлкин").replace(";", delimiter).replace("\n", "\r\n")
     path.write_bytes(text.encode(encoding))
-    found = read_roster(path)
-    assert [student.full for student in found] == ["Иванов Иван", "Пётр Ёлкин Анна"]
-    assert found[0].group == "ДВС-1"
+    actual = read_roster(path)
+    assert [student.full for student in actual] == ["Иванов Иван", "Пётр Ёлкин Анна"]
+    assert actual[0].group == "ДВС-1"
 
 
 @pytest.mark.parametrize("delimiter", [";", ",", "\t"])
@@ -45,8 +45,8 @@ def test_a_roster_may_begin_with_what_excel_puts_before_it(tmp_path, delimiter, 
     path = tmp_path / "group.csv"
     text = f"{first}{head}@Группа\r\nИванов Иван Ильич@Д-1\r\n"
     path.write_text(text.replace("@", delimiter), encoding="utf-8-sig", newline="")
-    (found,) = read_roster(path)
-    assert (found.surname, found.name, found.group) == ("Иванов", "Иван Ильич", "Д-1")
+    (actual,) = read_roster(path)
+    assert (actual.surname, actual.name, actual.group) == ("Иванов", "Иван Ильич", "Д-1")
 
 
 @pytest.mark.parametrize(
@@ -198,16 +198,16 @@ IVANOV, PETROV = ("Иванов", "Иван", "Ильич", "Д-1"), ("Петр�
 def book(tmp_path: Path, *sheets: Sequence[Sequence[object]],
          edit: Callable[[Worksheet], None] | None = None) -> Path:  # fmt: skip
     """A file that a person calls as it comes, with these rows on its sheets."""
-    made = Workbook()
-    made.remove(made.active)
+    built = Workbook()
+    built.remove(built.active)
     for number, rows in enumerate(sheets, 1):
-        sheet = made.create_sheet(f"Группа {number}")
+        sheet = built.create_sheet(f"Группа {number}")
         for row in rows:
             sheet.append(row)
         if edit is not None:
             edit(sheet)
     path = tmp_path / "Список (1).XLSX"
-    made.save(path)
+    built.save(path)
     return path
 
 
@@ -236,8 +236,8 @@ TITLE = ("Список группы Д-1, осень, 3 курс", None, None, N
 )  # fmt: skip
 def test_a_book_and_a_csv_file_are_read_alike(tmp_path, rows):
     for path in (book(tmp_path, rows), as_csv(tmp_path, rows)):
-        found = [(student.full, student.group) for student in read_roster(path)]
-        assert found == [("Иванов Иван Ильич", "Д-1"), ("Петров Пётр", "Д-1")]
+        collected = [(student.full, student.group) for student in read_roster(path)]
+        assert collected == [("Иванов Иван Ильич", "Д-1"), ("Петров Пётр", "Д-1")]
 
 
 def test_numbers_of_a_book_are_as_its_sheet_shows_them(tmp_path):
@@ -257,8 +257,8 @@ def test_a_group_that_is_merged_downwards_is_everybodys(tmp_path):
         sheet.merge_cells("A1:B1")
         sheet.merge_cells("C2:C3")
 
-    found = [(s.full, s.group) for s in read_roster(book(tmp_path, rows, edit=edit))]
-    assert found == [("Иванов Иван", "Д-1"), ("Петров Пётр", "Д-1")]
+    collected = [(s.full, s.group) for s in read_roster(book(tmp_path, rows, edit=edit))]
+    assert collected == [("Иванов Иван", "Д-1"), ("Петров Пётр", "Д-1")]
 
 
 def test_zeros_that_a_site_keeps_through_excel(tmp_path):
@@ -272,8 +272,8 @@ def test_hidden_rows_are_people_and_hidden_sheets_are_not(tmp_path):
         sheet.row_dimensions[3].hidden = True
         sheet.sheet_state = "hidden" if sheet.title.endswith("1") else "visible"
 
-    found = read_roster(book(tmp_path, [HEAD, ("Кто", "То")], [HEAD, IVANOV, PETROV], edit=edit))
-    assert [student.surname for student in found] == ["Иванов", "Петров"]
+    actual = read_roster(book(tmp_path, [HEAD, ("Кто", "То")], [HEAD, IVANOV, PETROV], edit=edit))
+    assert [student.surname for student in actual] == ["Иванов", "Петров"]
 
 
 def test_saved_values_of_formulas_are_read(tmp_path):
@@ -282,20 +282,20 @@ def test_saved_values_of_formulas_are_read(tmp_path):
     with pytest.raises(InputError, match="«Группа 1», A2: значение формулы не сохранено"):
         read_roster(path)
     path.write_bytes(with_value(path.read_bytes(), "Иванов Иван"))
-    (found,) = read_roster(path)
-    assert found.full == "Иванов Иван"
+    (actual,) = read_roster(path)
+    assert actual.full == "Иванов Иван"
 
 
 def with_value(data: bytes, text: str) -> bytes:
     """A book as Excel saves it: the only formula with its value."""
-    made = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(made, "w") as target:
+    built = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(built, "w") as target:
         for info in source.infolist():
             part = source.read(info).decode("utf-8")
             part = part.replace('<c r="A2"><f>', '<c r="A2" t="str"><f>')
             part = re.sub(r"(</f>)<v\s*/?>(</v>)?", rf"\1<v>{text}</v>", part)
             target.writestr(info, part)
-    return made.getvalue()
+    return built.getvalue()
 
 
 @pytest.mark.parametrize(
@@ -324,43 +324,43 @@ def test_a_bad_book_is_one_clear_line(tmp_path, rows, words):
 
 def test_a_sheet_of_marks_of_the_same_people_is_no_other_group(tmp_path):
     marks = [("Студент", "Оценка"), ("Петров П.", 5), ("Иванов И.", 4)]
-    found = read_roster(book(tmp_path, [("Журнал",)], [HEAD, IVANOV, PETROV], marks))
-    assert [student.surname for student in found] == ["Иванов", "Петров"]
+    actual = read_roster(book(tmp_path, [("Журнал",)], [HEAD, IVANOV, PETROV], marks))
+    assert [student.surname for student in actual] == ["Иванов", "Петров"]
 
 
 def test_a_work_book_is_no_list(tmp_path):
-    made = Workbook()
-    made.active.title = CONTENTS_SHEET
-    made.active.append(["Студент", "Иванов"])
-    made.create_sheet(INPUT_SHEET).append(["Студент", "Петров"])
-    made.save(tmp_path / "работа.xlsx")
+    built = Workbook()
+    built.active.title = CONTENTS_SHEET
+    built.active.append(["Студент", "Иванов"])
+    built.create_sheet(INPUT_SHEET).append(["Студент", "Петров"])
+    built.save(tmp_path / "работа.xlsx")
     with pytest.raises(InputError, match="это рабочая книга, а не список группы"):
         read_roster(tmp_path / "работа.xlsx")
 
 
 def test_a_book_that_no_program_wrote_is_refused(tmp_path):
     path = book(tmp_path, [HEAD, IVANOV])
-    made = io.BytesIO()
-    with zipfile.ZipFile(path) as source, zipfile.ZipFile(made, "w") as target:
+    built = io.BytesIO()
+    with zipfile.ZipFile(path) as source, zipfile.ZipFile(built, "w") as target:
         for info in source.infolist():
             part = source.read(info)
             target.writestr(info, part[:200] if "sheet1" in info.filename else part)
-    path.write_bytes(made.getvalue())
+    path.write_bytes(built.getvalue())
     with pytest.raises(InputError, match="книга не читается; сохраните список как CSV"):
         read_roster(path)
 
 
 def _renamed(data: bytes, names: dict[str, str], texts: dict[str, tuple[str, str]]) -> bytes:
     """A book with other names of its parts, and with texts replaced in some."""
-    made = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(made, "w") as target:
+    built = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as source, zipfile.ZipFile(built, "w") as target:
         for info in source.infolist():
             part = source.read(info).decode("utf-8")
             for old, new in (texts[key] for key in texts if key in info.filename):
                 part = part.replace(old, new)
             info.filename = names.get(info.filename, info.filename)
             target.writestr(info, part)
-    return made.getvalue()
+    return built.getvalue()
 
 
 _STRINGS = "xl/sharedStrings.xml"

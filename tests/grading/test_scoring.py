@@ -133,8 +133,8 @@ def test_own_words_stand_at_the_mistake_that_they_are_about(tmp_path):
     marker = Marker(replace(classroom.register(), rubric=rubric))
     book = filled_book(classroom.handout(), classroom.assignment(), formulas)
     result = marker.mark(Submission("р.xlsx", tmp_path, None, None), book)
-    told = {entry["id"]: entry["message"] for entry in result["items"] if entry["message"]}
-    assert told == {
+    lines = {entry["id"]: entry["message"] for entry in result["items"] if entry["message"]}
+    assert lines == {
         "P3_1.v1_m_s": "На лекции 3 радиус взят из табл. 1.",
         "P3_1.j1_m_s2": "Правило знаков — с. 14.",
     }

@@ -29,7 +29,7 @@ def told(tmp_path: Path, data: bytes) -> dict[str, str]:
     path = tmp_path / "моя книга.xlsx"
     path.write_bytes(data)
     assert is_work_book(path)
-    return {found.where: found.what for found in findings(path)}
+    return {item.where: item.what for item in findings(path)}
 
 
 def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
@@ -98,21 +98,21 @@ def test_a_book_that_is_filled_in_gives_no_remark(tmp_path):
 def test_everything_odd_is_told_with_its_cells(tmp_path):
     changes = {"P3_1.v1_m_s": [1.5] * 13, "lam": ["=1/0"], "V_c": ['=INDIRECT("V_h")'],
                "P4_1.M_Nm": [None] * 25}  # fmt: skip
-    found = told(
+    actual = told(
         tmp_path, filled_book(classroom.handout(), classroom.assignment(), changes, spoilt)
     )
     changed = "исходное данное «Частота вращения» изменено"
-    assert [where.partition("!")[0] for where, what in found.items() if what == changed] == [
+    assert [where.partition("!")[0] for where, what in actual.items() if what == changed] == [
         "Исходные данные"
     ]
-    assert found["Цилиндры!L8"] == "ячейка заперта, а изменена: теперь 5.0"
-    assert found["П3.1 vп1"] == "число вместо формулы: П3.1!E6:E18"
-    assert found["Массы λ"] == "ошибка #ДЕЛ/0! — деление на ноль: Массы!C7"
-    assert "INDIRECT" in found["Массы Vc"]
-    assert found["П4.1 Mкр"] == "пусто: П4.1!I6:I30"
-    assert found["П4.1 Kуд"] == "пусто: П4.1!H9"
-    assert "П3.1 jп2" in found["Ошибки, пришедшие из названных выше"]
-    assert "верн" not in " ".join(found.values())
+    assert actual["Цилиндры!L8"] == "ячейка заперта, а изменена: теперь 5.0"
+    assert actual["П3.1 vп1"] == "число вместо формулы: П3.1!E6:E18"
+    assert actual["Массы λ"] == "ошибка #ДЕЛ/0! — деление на ноль: Массы!C7"
+    assert "INDIRECT" in actual["Массы Vc"]
+    assert actual["П4.1 Mкр"] == "пусто: П4.1!I6:I30"
+    assert actual["П4.1 Kуд"] == "пусто: П4.1!H9"
+    assert "П3.1 jп2" in actual["Ошибки, пришедшие из названных выше"]
+    assert "верн" not in " ".join(actual.values())
 
 
 def test_a_solved_book_is_no_work_book(tmp_path):

@@ -12,12 +12,12 @@ from tests.grading.fill import filled_book
 
 
 def result(number: int, **more) -> dict:
-    made = {
+    values = {
         "status": "graded", "number": number, "student": f"Студент {number}", "key": f"{number}",
         "file": f"{number}.xlsx", "sha256": f"{number}", "items": [], "properties": {},
         "manual": [],
     }  # fmt: skip
-    return made | more
+    return values | more
 
 
 def line(item: str, mark: str, right: str, of: float = 1.0) -> dict:

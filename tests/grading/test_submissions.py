@@ -113,10 +113,10 @@ def test_a_participant_who_is_not_on_the_roster_is_told():
     key = f"{stranger}_7_assignsubmission_file_/{mine.file}"
     match = owner(key, cell=mine.ticket, moodle=stranger)
     assert (match.book, match.submitter) == (mine, 0)
-    told = f"имя участника Moodle: «{stranger}» — его нет в списке"
-    assert match.doubts == (f"{told}, а идентификатор выдан: {mine.student.full}",)
+    lines = f"имя участника Moodle: «{stranger}» — его нет в списке"
+    assert match.doubts == (f"{lines}, а идентификатор выдан: {mine.student.full}",)
     bare = owner(key, moodle=stranger)
-    assert (bare.book, bare.doubts) == (None, (f"нет идентификатора; {told}",))
+    assert (bare.book, bare.doubts) == (None, (f"нет идентификатора; {lines}",))
     unreadable = submission(key, stranger)
     assert find_by_name(classroom.register(), unreadable).book is None
     hidden = owner(key, cell=mine.ticket, moodle="Участник")  # of a task graded without names

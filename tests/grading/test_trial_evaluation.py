@@ -37,9 +37,9 @@ def test_the_third_leaves_no_ratio_of_neighbours_as_it_was(seed: int) -> None:
     first, _, third = trials_of(assignment(), register().books, str(seed))
     fields = assignment().model.fields
     kept = ("geometry", "regime", "gas")
-    made = [third.inputs[name] / float(fields[name].value) for name in third.inputs
+    values = [third.inputs[name] / float(fields[name].value) for name in third.inputs
             if name.startswith(kept) and name not in first.inputs]  # fmt: skip
-    times = list(dict.fromkeys(round(factor, 9) for factor in made))
+    times = list(dict.fromkeys(round(factor, 9) for factor in values))
     assert len(times) > 5
     least = 0.2 * (max(times) - min(times))
     for further in (1, 2):

@@ -89,13 +89,13 @@ def test_a_semester_of_tries(register: Register) -> None:
     works = played(register)
     assert len(works) == STUDENTS * TRIES
     rows = table_rows(register, [work for work, _ in works])
-    asked = {len([entry for entry in work.items if entry.of]) for work, _ in works}
-    assert len(asked) == 1
+    requested = {len([entry for entry in work.items if entry.of]) for work, _ in works}
+    assert len(requested) == 1
     rose = 0
     for row in rows:
-        told = [words for work, words in works if work.number == row["number"]]
-        rights = [int(words.split()[1]) for words in told]
-        assert all(f" из {max(asked)}" in words for words in told)
+        lines = [words for work, words in works if work.number == row["number"]]
+        rights = [int(words.split()[1]) for words in lines]
+        assert all(f" из {max(requested)}" in words for words in lines)
         assert f"попыток 5 из 5, верно столбцов: {', '.join(map(str, rights))} из" in row["similar"]
         assert ("подбор значений" in row["similar"]) == (row["number"] in PROBERS), row["similar"]
         if row["number"] not in PROBERS:
@@ -105,8 +105,8 @@ def test_a_semester_of_tries(register: Register) -> None:
             )
         # No more than the count and one sheet: no column, no number of the student's or the right.
         assert all("первая ошибка на листе" in words or "не заполнено" in words
-                   or rights[i] == max(asked) for i, words in enumerate(told))  # fmt: skip
-        assert not any(entry.label in words for words in told for entry in works[0][0].items)
+                   or rights[i] == max(requested) for i, words in enumerate(lines))  # fmt: skip
+        assert not any(entry.label in words for words in lines for entry in works[0][0].items)
     assert rose > STUDENTS  # what is mended is counted
     assert "попыток 5 из 5" in gradebook_csv(rows, 100)
     assert "попыток 5 из 5" in moodle_csv(rows)
@@ -150,8 +150,8 @@ def test_the_server_s_answer_is_one_sentence(tmp_path):
     path = tmp_path / "book.xlsx"
     path.write_bytes(filled_book(classroom.handout(), classroom.assignment(), {"lam": ["=1/5"]}))
     classroom.register()
-    told = told_of_try(str(path), str(folder / "issued"))
-    assert told.keys() == {"try"}
-    assert told["try"].endswith("первая ошибка на листе Массы")
+    message = told_of_try(str(path), str(folder / "issued"))
+    assert message.keys() == {"try"}
+    assert message["try"].endswith("первая ошибка на листе Массы")
     path.write_bytes(b"MZ")
     assert told_of_try(str(path), str(folder / "issued")) == {}

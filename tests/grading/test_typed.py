@@ -48,19 +48,19 @@ def test_a_number_as_a_text_is_worth_a_number(written: str, point: str) -> None:
     numbers = graded({SPEED: right("v1_m_s")})
     texts = [written.format(f"{value:.2f}".replace(".", point)) for value in right("v1_m_s")]
     result = graded({SPEED: texts})
-    found = line(result, SPEED)
-    assert (found["verdict"], found["points"]) == ("typed", line(numbers, SPEED)["points"])
-    assert found["reason"] == "число записано текстом: таблица с ним не считает"
+    actual = line(result, SPEED)
+    assert (actual["verdict"], actual["points"]) == ("typed", line(numbers, SPEED)["points"])
+    assert actual["reason"] == "число записано текстом: таблица с ним не считает"
     assert set(classroom.verdicts(result).values()) <= {"typed", "carried"}
     wrong = [text.replace("1", "7") for text in texts]
     assert line(graded({SPEED: wrong}), SPEED)["points"] == 0
 
 
 def test_one_text_among_formulas_costs_what_a_number_does() -> None:
-    made = formulas()[SPEED]
+    built = formulas()[SPEED]
     value = right("v1_m_s")[3]
-    one = graded({SPEED: [*made[:3], value, *made[4:]]})
-    text = graded({SPEED: [*made[:3], str(value).replace(".", ","), *made[4:]]})
+    one = graded({SPEED: [*built[:3], value, *built[4:]]})
+    text = graded({SPEED: [*built[:3], str(value).replace(".", ","), *built[4:]]})
     assert line(text, SPEED)["points"] == line(one, SPEED)["points"]
     assert "текстом" in line(text, SPEED)["reason"] and not line(one, SPEED)["reason"]
 
@@ -82,11 +82,11 @@ def test_a_text_costs_nothing_after_it(text: str) -> None:
     ],
 )  # fmt: skip
 def test_what_is_no_number_any_more_is_for_a_person(cells: list[object], why: str) -> None:
-    made = formulas()[SPEED]
-    result = graded({SPEED: [*made[:3], *cells, *made[4:]]})
-    found = line(result, SPEED)
-    assert (found["verdict"], found["points"]) == ("unknown", 0)
-    assert why in found["reason"] and found["rows"] == ["90"]
+    built = formulas()[SPEED]
+    result = graded({SPEED: [*built[:3], *cells, *built[4:]]})
+    actual = line(result, SPEED)
+    assert (actual["verdict"], actual["points"]) == ("unknown", 0)
+    assert why in actual["reason"] and actual["rows"] == ["90"]
     assert result["manual"]
 
 
@@ -123,12 +123,12 @@ def vars_of(register) -> dict:
 
 
 def test_a_student_is_told_before_handing_in(tmp_path: Path) -> None:
-    made = formulas()[SPEED]
+    built = formulas()[SPEED]
     odd = ["1,5", datetime(2026, 5, 1), " =1+1", "нет"]
     path = tmp_path / "моя.xlsx"
-    changes = {SPEED: [*odd, *made[4:]]}
+    changes = {SPEED: [*odd, *built[4:]]}
     path.write_bytes(filled_book(classroom.handout(), classroom.assignment(), changes))
-    assert [found.what for found in findings(path)][:4] == [
+    assert [collected.what for collected in findings(path)][:4] == [
         "текст вместо числа: П3.1!E9",
         "число записано текстом: таблица с ним не считает: П3.1!E6",
         "вместо числа стоит дата: 1.5 таблица приняла за первое мая: П3.1!E7",

@@ -68,13 +68,13 @@ def test_an_empty_book_is_empty_throughout():
 
 def test_one_wrong_omega_costs_one_item_and_all_after_it_is_carried():
     result = graded({"omega": ["=regime_speed_rpm*PI()/60"]})
-    found = classroom.verdicts(result)
-    assert found.pop("geometry.omega") == "wrong"
-    assert set(found.values()) == {"carried"}
+    actual = classroom.verdicts(result)
+    assert actual.pop("geometry.omega") == "wrong"
+    assert set(actual.values()) == {"carried"}
     # Speeds, accelerations, inertia forces and everything made of them.
     for item in ("P3_1.v1_m_s", "P3_1.j_m_s2", "P4_1.M_Nm", "P4_3_2.R_MPa"):
-        assert found[item] == "carried"
-    assert "P3_1.s_mm" not in found
+        assert actual[item] == "carried"
+    assert "P3_1.s_mm" not in actual
     cost = line(result, "geometry.omega")["of"]
     assert result["points"] == pytest.approx(100 - cost, abs=0.01)
 
@@ -83,8 +83,8 @@ def test_what_rests_on_an_empty_column_names_it():
     empty = [""] * len(formulas()["P3_1.v1_m_s"])
     result = graded({"P3_1.v1_m_s": empty})
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "empty", "P3_1.v_m_s": "groundless"}
-    found = line(result, "P3_1.v_m_s")
-    assert found["origins"] == ["P3_1.v1_m_s"] and found["points"] == 0
+    actual = line(result, "P3_1.v_m_s")
+    assert actual["origins"] == ["P3_1.v1_m_s"] and actual["points"] == 0
     result = graded({"P3_1.v1_m_s": empty, "P3_1.v2_m_s": empty})
     assert line(result, "P3_1.v_m_s")["origins"] == ["P3_1.v1_m_s", "P3_1.v2_m_s"]
     result = graded({"P3_1.v1_m_s": empty, "omega": [""]})
@@ -133,11 +133,11 @@ def test_a_wrong_way_back_is_wrong():
 )
 def test_a_usual_mistake_is_named(item, change, cause):
     result = graded({item: [change(f) for f in formulas()[item]]})
-    found = line(result, item)
-    assert found["verdict"] == "wrong"
-    assert cause in found["cause"]
-    sheet = found["where"][0].partition("!")[0]
-    assert all(cell["cell"].startswith(f"{sheet}!") for cell in found["cells"])
+    actual = line(result, item)
+    assert actual["verdict"] == "wrong"
+    assert cause in actual["cause"]
+    sheet = actual["where"][0].partition("!")[0]
+    assert all(cell["cell"].startswith(f"{sheet}!") for cell in actual["cells"])
     others = {key: word for key, word in classroom.verdicts(result).items() if key != item}
     assert set(others.values()) <= {"carried"}
 
@@ -147,8 +147,8 @@ def test_typed_numbers_are_told_from_formulas():
     right = evaluate_model(values.model).columns["P3_1"]["v1_m_s"]
     result = graded({"P3_1.v1_m_s": [round(float(v), 2) for v in right]})
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
-    found = line(result, "P3_1.v1_m_s")
-    assert found["points"] == pytest.approx(found["of"] / 2)
+    actual = line(result, "P3_1.v1_m_s")
+    assert actual["points"] == pytest.approx(actual["of"] / 2)
     # A formula of numbers is a number.
     result = graded({"P3_1.v1_m_s": [f"={float(v)!r}+0" for v in right]})
     assert classroom.verdicts(result) == {"P3_1.v1_m_s": "typed"}
@@ -158,10 +158,10 @@ def test_typed_numbers_are_told_from_formulas():
 def test_a_formula_that_fails_in_one_or_two_rows_loses_their_share(row, lost):
     """Though it is one formula, filled down: in the other rows it is right for every engine."""
     texts = [f"=IF(ROW(){row},1/0,{f[1:]})" for f in formulas()["P4_1.S_MPa"]]
-    found = line(graded({"P4_1.S_MPa": texts}), "P4_1.S_MPa")
+    actual = line(graded({"P4_1.S_MPa": texts}), "P4_1.S_MPa")
     share = 1 - lost / 25 if lost else 22 / 25 / 2  # of three a formula is wrong
-    assert found["verdict"] == "error" and len(found["rows"]) == (lost or 25)
-    assert found["points"] == pytest.approx(found["of"] * share, abs=1e-5)
+    assert actual["verdict"] == "error" and len(actual["rows"]) == (lost or 25)
+    assert actual["points"] == pytest.approx(actual["of"] * share, abs=1e-5)
 
 
 def test_a_formula_of_numbers_is_a_number_whatever_the_engines(monkeypatch):
@@ -175,10 +175,10 @@ def test_a_formula_of_numbers_is_a_number_whatever_the_engines(monkeypatch):
     right = evaluate_model(classroom.assignment().model).columns["P4_1"]["Pg_MPa"]
     texts = [f"={float(v)!r}" for v in right]
     book = filled_book(classroom.handout(), classroom.assignment(), {"P4_1.Pg_MPa": texts})
-    found = marking.Marker(classroom.register()).mark(
+    actual = marking.Marker(classroom.register()).mark(
         Submission("работа", Path("х"), None, None), book
     )
-    assert line(found, "P4_1.Pg_MPa")["verdict"] == "typed"
+    assert line(actual, "P4_1.Pg_MPa")["verdict"] == "typed"
 
 
 @pytest.mark.parametrize(
@@ -218,8 +218,8 @@ def test_the_tolerance_is_half_a_unit_of_the_last_printed_digit(key, largest, al
     rubric = SimpleNamespace(tolerance=ToleranceRules())
     student = SimpleNamespace(assignment=SimpleNamespace(rubric=rubric))
     item = SimpleNamespace(id=f"t.{key}", quantity=quantity(key))
-    found = tolerance(item, np.array([0.0, largest]), student)
-    assert found == pytest.approx(allowed, rel=1e-6)
+    actual = tolerance(item, np.array([0.0, largest]), student)
+    assert actual == pytest.approx(allowed, rel=1e-6)
 
 
 @pytest.mark.parametrize("original", ["empty", "filled"])
@@ -233,9 +233,11 @@ def test_a_copy_of_a_sheet_that_is_filled_instead_is_for_a_person(original):
                 cell.value = None
 
     result = graded(edit=copied)
-    found = {item for item, verdict in classroom.verdicts(result).items() if verdict == "unknown"}
-    told = {item["id"] for item in result["items"] if item["id"].startswith("P3_1.")}
-    assert found == (told if original == "empty" else set())
+    collected = {
+        item for item, verdict in classroom.verdicts(result).items() if verdict == "unknown"
+    }
+    lines = {item["id"] for item in result["items"] if item["id"].startswith("P3_1.")}
+    assert collected == (lines if original == "empty" else set())
     assert bool(result["manual"]) == (original == "empty")
 
 
@@ -261,11 +263,11 @@ def test_a_look_up_over_a_column_that_follows_from_it_is_for_a_person(saved, mor
     if saved:
         (book,) = LibreOffice().converted([book])
     result = classroom.marks(book)
-    found = set(classroom.verdicts(result).values())
+    collected = set(classroom.verdicts(result).values())
     if not more:
-        assert found == set() and result["points"] == 100
+        assert collected == set() and result["points"] == 100
         return
-    assert found == ({"unknown"} if saved else {"error", "groundless"})
+    assert collected == ({"unknown"} if saved else {"error", "groundless"})
     assert bool(result["manual"]) == saved
 
 
@@ -366,8 +368,8 @@ def test_numbers_that_are_scaled_are_not_said_to_stand_still():
     values = evaluate_model(classroom.assignment().model)
     omega = values.scalars["omega"]
     scaled = [f"={float(v)!r}*omega/{omega!r}" for v in values.columns["P3_1"]["v1_m_s"]]
-    found = line(graded({"P3_1.v1_m_s": scaled}), "P3_1.v1_m_s")
-    assert found["verdict"] == "still" and "готовые числа" in found["reason"]
+    actual = line(graded({"P3_1.v1_m_s": scaled}), "P3_1.v1_m_s")
+    assert actual["verdict"] == "still" and "готовые числа" in actual["reason"]
 
 
 def test_a_row_within_a_table_is_not_called_a_change_of_given_formulas_alone():

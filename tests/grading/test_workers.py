@@ -85,11 +85,11 @@ def test_after_so_many_answers_comes_another_process() -> None:
 def test_the_end_waits_for_nobody() -> None:
     started = time.monotonic()
     with Workers(2, calling) as workers:
-        asked = [workers.ask(time.sleep, 60, seconds=60) for _ in range(5)]
-        while not all(each.running() for each in asked[:2]):
+        requested = [workers.ask(time.sleep, 60, seconds=60) for _ in range(5)]
+        while not all(each.running() for each in requested[:2]):
             time.sleep(0.05)
     assert time.monotonic() - started < 20
-    assert all(each.done() for each in asked)
+    assert all(each.done() for each in requested)
 
 
 def test_processes_that_never_start_are_told(
@@ -105,7 +105,7 @@ def test_processes_that_never_start_are_told(
 
 def test_a_part_takes_one_process_and_the_time_it_brings(monkeypatch: pytest.MonkeyPatch) -> None:
     """The cluster counts its workers by processors, and a person has set the seconds."""
-    asked: list[dict[str, object]] = []
-    monkeypatch.setattr(pool, "grade_all", lambda *_, **how: asked.append(how) or [])
+    requested: list[dict[str, object]] = []
+    monkeypatch.setattr(pool, "grade_all", lambda *_, **how: requested.append(how) or [])
     assert pool._grade_here(pool.ClusterPart("{}", [], 7.0)) == []
-    assert asked == [{"workers": 1, "timeout_s": 7.0}]
+    assert requested == [{"workers": 1, "timeout_s": 7.0}]

@@ -32,8 +32,8 @@ def test_the_other_library_writes_every_cell_of_ours():
     cells = cells_of(without_charts(coarse_book("gots-diesel")))
     book = openpyxl.load_workbook(io.BytesIO(theirs(cells)))
     for sheet, written in cells.items():
-        found = sum(cell.value is not None for row in book[sheet].iter_rows() for cell in row)
-        assert found == len(written), sheet
+        item = sum(cell.value is not None for row in book[sheet].iter_rows() for cell in row)
+        assert item == len(written), sheet
 
 
 def test_the_history_is_drawn_by_commit(tmp_path, capsys):

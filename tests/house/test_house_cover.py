@@ -50,8 +50,8 @@ def test_every_table_function_chart_and_chapter_counts() -> None:
 
 
 def test_what_is_new_joins_by_itself() -> None:
-    found = {"one": {1, 2, 3}, "other": {3, 4}, "again": {1, 2}}
-    cost = dict.fromkeys([*found, "new"], 1)
-    assert smallest(found, cost) == ["one", "other"]
-    assert smallest(found | {"new": {5}}, cost) == ["one", "other", "new"]
-    assert smallest(found, cost | {"one": 9}) == ["other", "again"]
+    collected = {"one": {1, 2, 3}, "other": {3, 4}, "again": {1, 2}}
+    cost = dict.fromkeys([*collected, "new"], 1)
+    assert smallest(collected, cost) == ["one", "other"]
+    assert smallest(collected | {"new": {5}}, cost) == ["one", "other", "new"]
+    assert smallest(collected, cost | {"one": 9}) == ["other", "again"]

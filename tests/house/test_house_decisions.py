@@ -73,9 +73,9 @@ def test_no_template_decides_by_russian_text() -> None:
     """Of the report: books compare a choice with its label, which is the cell's own word."""
     compared = re.compile(r'(?:==|!=|\bin) "[^"]*[А-Яа-яЁё]|\.startswith\("[А-Яа-яЁё]')
     reading = {
-        f"{path.name}: {found[0]}"
+        f"{path.name}: {matches[0]}"
         for path in (ROOT / "templates").rglob("*.j2")
-        for found in compared.finditer(path.read_text(encoding="utf-8"))
+        for matches in compared.finditer(path.read_text(encoding="utf-8"))
     }
     assert reading == {'macros.html.j2: .startswith("П'}  # a heading of an appendix
 
@@ -98,10 +98,10 @@ def test_no_usual_span_is_typed_where_it_is_said() -> None:
     """It stands as numbers in a table of spans: warnings, comments, books and chapters read it."""
     typed = re.compile(r"обычно (?:от )?[−-]?\d|span_text\(-?[\d.]+, ")
     places = [
-        f"{path.relative_to(ROOT)}: {found[0]}"
+        f"{path.relative_to(ROOT)}: {matches[0]}"
         for pattern in ("reports/**/*.py", "kshm/**/*.py", "templates/**/*.book")
         for path in ROOT.glob(pattern)
-        for found in typed.finditer(path.read_text(encoding="utf-8"))
+        for matches in typed.finditer(path.read_text(encoding="utf-8"))
     ]
     assert places == []
 

@@ -139,7 +139,7 @@ def test_imports_stay_light(module):
 def test_the_command_is_that_of_the_systems_own_manager(monkeypatch, release, programs, command):
     monkeypatch.setattr(doctor.platform, "freedesktop_os_release", lambda: release)
     monkeypatch.setattr(doctor.shutil, "which", lambda name: name if name in programs else None)
-    told = doctor.install_command("pango")
-    assert told.startswith(command)
+    message = doctor.install_command("pango")
+    assert message.startswith(command)
     if "ID" in release and release["ID"] != "debian":
-        assert told == command
+        assert message == command

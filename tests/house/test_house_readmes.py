@@ -22,13 +22,13 @@ def headings(page):
 
 def rows(page):
     """What every row of the tables is about: its code, or its text where there is none."""
-    found = []
+    collected = []
     for line in page.read_text(encoding="utf-8").splitlines():
         if line.strip().startswith("|"):
             first, *others = re.split(r"(?<!\\)\|", line.strip())[1:-1]
             words = tuple(re.findall(r"--[a-z]+|kshm [a-z]+|[a-z0-9-]+\.[a-z]+", first))
-            found.append((len(others), words, set(re.findall(r"\d+", first))))
-    return found
+            collected.append((len(others), words, set(re.findall(r"\d+", first))))
+    return collected
 
 
 def test_the_same_headings_tables_commands_and_pictures():

@@ -175,8 +175,8 @@ def test_only_what_the_tests_need_is_asked_for(house, arguments, wanted):
     }
     commands = [line for line in said.splitlines() if "apt-get install -y" in line]
     assert len(commands) <= 1  # one command for all
-    found = {name for name in machine if f" {name}" in "".join(commands)}
-    assert found == {name for name in wanted.split() if machine[name]}
+    collected = {name for name in machine if f" {name}" in "".join(commands)}
+    assert collected == {name for name in wanted.split() if machine[name]}
 
 
 def test_the_noise_of_apt_is_hidden_unless_it_fails_or_is_wanted(house):
@@ -358,12 +358,12 @@ def test_what_the_system_lacks_comes_beside_the_packages(house):
     (house.root / ".venv/kshm-stamp").unlink()
     python = 'case "$*" in *"pip install"*) exit 7;; esac'
     house.tool(house.bin / "apt-get", "sleep 1")
-    made = house.root / ".venv/bin/python"
+    built = house.root / ".venv/bin/python"
     house.tool(house.root / "python", python)
     house.tool(
         house.bin / "python3",
         f"""case "$*" in
-        *"-m venv"*) mkdir -p "{made.parent}"; cp "{house.root}/python" "{made}";; esac""",
+        *"-m venv"*) mkdir -p "{built.parent}"; cp "{house.root}/python" "{built}";; esac""",
     )
     done = house.run("test", "tests/web")
     assert (done.returncode, (house.root / ".venv/kshm-stamp").exists()) == (3, False)

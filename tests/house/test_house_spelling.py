@@ -52,9 +52,9 @@ def test_every_word_is_known() -> None:
         missing("pymorphy3", "python3-pip; pip install pymorphy3")
     known = MorphAnalyzer(lang="ru").word_is_known
     ours = set(OURS.read_text(encoding="utf-8").split())
-    found = words()
-    assert len(found) > 3000
-    assert {word: found[word] for word in sorted(found.keys() - ours) if not known(word)} == {}
+    actual = words()
+    assert len(actual) > 3000
+    assert {word: actual[word] for word in sorted(actual.keys() - ours) if not known(word)} == {}
 
 
 @pytest.mark.parametrize("word", ["двухтактый", "шатуная", "противавес"])

@@ -34,7 +34,11 @@ def without_dots(words: set[str]) -> set[str]:
     dotted = {own.replace("ё", "е") for own in ours if "ё" in own}
     plain = {word for word in words - SHORT if "ё" not in word.lower()}
     forms = {word: [p.word for p in parse(word) if p.is_known] for word in plain}
-    known = {word for word, found in forms.items() if found and all("ё" in one for one in found)}
+    known = {
+        word
+        for word, collected in forms.items()
+        if collected and all("ё" in one for one in collected)
+    }
     return known | {word for word in plain if word.lower() in dotted}
 
 
@@ -45,9 +49,9 @@ def test_what_a_user_reads_has_its_dots() -> None:
         for path in sorted((ROOT / folder).glob(f"{'**/' * (folder != '.')}*.{kind}"))
     }
     texts = {name: text for name, text in texts.items() if name not in ALLOWED}
-    found = {word: name for name, text in texts.items() for word in WORD.findall(text)}
-    assert len(found) > 2500
-    assert {word: found[word] for word in without_dots(set(found))} == {}
+    matches = {word: name for name, text in texts.items() for word in WORD.findall(text)}
+    assert len(matches) > 2500
+    assert {word: matches[word] for word in without_dots(set(matches))} == {}
     assert {name: MEANT.findall(text) for name, text in texts.items() if MEANT.search(text)} == {}
 
 

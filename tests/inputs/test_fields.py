@@ -30,9 +30,11 @@ def names_of(raw):
 
 @pytest.mark.parametrize("sample", list_samples())
 def test_names_are_legal_and_unique(sample):
-    found = [f.name for f in fields.iter_fields(load_toml(samples_dir() / f"{sample}.toml").model)]
-    assert Counter(name.lower() for name in found).most_common(1)[0][1] == 1
-    for name in found:
+    collected = [
+        f.name for f in fields.iter_fields(load_toml(samples_dir() / f"{sample}.toml").model)
+    ]
+    assert Counter(name.lower() for name in collected).most_common(1)[0][1] == 1
+    for name in collected:
         assert re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{1,254}", name)
         assert "_" in name
         assert not re.fullmatch(r"[A-Za-z]{1,3}\d+|[rRcC]\d*([cC]\d*)?", name)
@@ -41,7 +43,7 @@ def test_names_are_legal_and_unique(sample):
 def test_the_names_formulas_use(raw):
     raw["geometry"] |= {"lambda": 47 / 148}
     raw["crankshaft"]["force_offsets_deg"] = [0, 480, 240]
-    found = names_of(raw)
+    actual = names_of(raw)
     for name, value in {
         "geometry_bore_mm": 88.0,
         "geometry_lambda": 47 / 148,
@@ -57,16 +59,16 @@ def test_the_names_formulas_use(raw):
         "crankshaft_nose_arm_mm": 130,
         "calculation_step_deg": 10,
     }.items():
-        assert found[name].value == value
+        assert actual[name].value == value
 
 
 def test_names_of_points(raw):
     raw["gas"] = TABLE
-    found = names_of(raw)
-    assert (found["gas_point_2_deg"].value, found["gas_point_2_mpa"].value) == (180, 0.2)
-    assert (found["gas_point_2_deg"].unit, found["gas_point_2_mpa"].unit) == ("°", "МПа")
-    assert found["gas_point_2_mpa"].title == "Точка 2: давление"
-    assert found["gas_point_2_mpa"].path == ("gas", "points", 1, 1)
+    actual = names_of(raw)
+    assert (actual["gas_point_2_deg"].value, actual["gas_point_2_mpa"].value) == (180, 0.2)
+    assert (actual["gas_point_2_deg"].unit, actual["gas_point_2_mpa"].unit) == ("°", "МПа")
+    assert actual["gas_point_2_mpa"].title == "Точка 2: давление"
+    assert actual["gas_point_2_mpa"].path == ("gas", "points", 1, 1)
 
 
 def test_a_field_tells_all(raw):
@@ -88,12 +90,12 @@ def test_a_field_tells_all(raw):
 
 
 def test_choices_and_structure(raw):
-    found = names_of(raw)
-    assert found["calculation_method"].choices == {
+    actual = names_of(raw)
+    assert actual["calculation_method"].choices == {
         "textbook": "по учебнику: двучленное ускорение",
         "exact": "точное ускорение",
     }
-    assert {name for name, field in found.items() if field.structural} == {
+    assert {name for name, field in actual.items() if field.structural} == {
         "engine_cylinders",
         "engine_layout",
         "engine_strokes",
@@ -102,17 +104,17 @@ def test_choices_and_structure(raw):
         "gas_source",
         "workbook_sheets",
     }
-    for field in found.values():
+    for field in actual.values():
         if field.choices is not None:
             assert str(field.value) in field.choices
 
 
 def test_only_given_or_defaulted(raw):
-    found = names_of(raw)
-    assert "geometry_lambda" not in found
-    assert "masses_rod_kg" not in found
-    assert found["crankshaft_nose_mass_kg"].optional
-    assert not found["geometry_bore_mm"].optional
+    actual = names_of(raw)
+    assert "geometry_lambda" not in actual
+    assert "masses_rod_kg" not in actual
+    assert actual["crankshaft_nose_mass_kg"].optional
+    assert not actual["geometry_bore_mm"].optional
 
 
 def test_order_is_the_files(raw):

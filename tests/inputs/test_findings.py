@@ -66,11 +66,13 @@ def test_the_names_of_checks_are_those_of_the_tables(raw):
     from tests.inputs.test_plausibility import sample
 
     raw["masses"] = {"piston_group_kg": 1.5, "rod_kg": 1.7, "rod_small_end_share": 0.275}
-    found = set()
+    collected = set()
     for data in (raw, sample("cycle-turbo-diesel")):
         model = build_model(load_mapping(data, source="f").model)
-        found |= {key.removeprefix("check_") for key in model.scalars if key.startswith("check_")}
-    assert found == set(CHECKS)
+        collected |= {
+            key.removeprefix("check_") for key in model.scalars if key.startswith("check_")
+        }
+    assert collected == set(CHECKS)
 
 
 def lines_of(raw):

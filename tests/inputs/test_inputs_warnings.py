@@ -118,16 +118,16 @@ def test_numbers_in_sentences_have_a_decimal_comma(changes):
     except InputError as error:
         lines = [problem.line() for problem in error.problems]
     for line in lines:
-        for found in re.finditer(r"\d+\.\d+(?![\d.]|\w)", line):
-            before = line[: found.start()]
+        for matches in re.finditer(r"\d+\.\d+(?![\d.]|\w)", line):
+            before = line[: matches.start()]
             assert re.search(f"(?:{TYPED.pattern})$", before) or "п." in before[-4:], line
 
 
 def test_spans_in_the_words_of_the_checks_have_a_decimal_comma():
     """Random files rarely meet each check: the words themselves are read too."""
     for path in sorted((ROOT / "reports").rglob("*.py")):
-        found = re.findall(r"\b(?:от|до) \d+\.\d+", path.read_text("utf-8"))
-        assert not found, f"{path}: {found}"
+        matches = re.findall(r"\b(?:от|до) \d+\.\d+", path.read_text("utf-8"))
+        assert not matches, f"{path}: {matches}"
 
 
 def test_a_sign_that_the_report_cannot_print_is_said_with_its_field(raw):

@@ -39,9 +39,9 @@ def test_cylinders_that_fire_together_are_told(raw):
     """540° typed twice fits the throws: nothing else shows it."""
     offsets = [0.0, 540.0, 540.0, 360.0]
     given = in_line_four(raw, firing_offsets_deg=offsets, throw_angles_deg=[0, 180, 180, 0])
-    (told,) = (w for w in load_mapping(given, source="f.toml").warnings if "то же" in w.what)
-    assert told.where == "f.toml: crankshaft.firing_offsets_deg[3]"
-    assert told.what == "начало рабочего хода то же, что у цилиндра 2: 540°"
+    (message,) = (w for w in load_mapping(given, source="f.toml").warnings if "то же" in w.what)
+    assert message.where == "f.toml: crankshaft.firing_offsets_deg[3]"
+    assert message.what == "начало рабочего хода то же, что у цилиндра 2: 540°"
     given["crankshaft"]["firing_offsets_deg"][2] = 180.0
     assert not any("то же" in w.what for w in load_mapping(given, source="f.toml").warnings)
 
@@ -58,8 +58,8 @@ def test_throws_of_a_v_engine_from_offsets(raw):
     engine = to_engine(loaded(raw))
     angles = [math.degrees(throw.angle) for throw in engine.crankshaft.throws]
     assert angles == pytest.approx([0, 120, 240])
-    assert [place.throw for place in engine.arrangement] == [0, 1, 2, 0, 1, 2]
-    assert [place.rod_place for place in engine.arrangement] == [0, 0, 0, 1, 1, 1]
+    assert [position.throw for position in engine.arrangement] == [0, 1, 2, 0, 1, 2]
+    assert [position.rod_place for position in engine.arrangement] == [0, 0, 0, 1, 1, 1]
 
 
 def test_split_pins_make_a_v_six_even(raw):
@@ -77,7 +77,7 @@ def test_opposed_engine_alternates_its_throws(raw):
     model = loaded(raw)
     assert model.crankshaft.bank_angle_deg == 180
     engine = to_engine(model)
-    assert [place.throw for place in engine.arrangement] == [0, 2, 1, 3]
+    assert [position.throw for position in engine.arrangement] == [0, 2, 1, 3]
     angles = [math.degrees(throw.angle) for throw in engine.crankshaft.throws]
     assert angles == pytest.approx([0, 180, 180, 0])
 

@@ -63,9 +63,9 @@ REFUSED = [
 def test_one_meaning_is_understood(raw, key, given, meant, locate):
     path = path_of(key)
     wanted = load_mapping(changed(raw, (path, meant)), source="f", locate=locate)
-    found = load_mapping(changed(raw, (path, given)), source="f", locate=locate)
-    assert found.model == wanted.model
-    assert type(found.model) is type(wanted.model)
+    actual = load_mapping(changed(raw, (path, given)), source="f", locate=locate)
+    assert actual.model == wanted.model
+    assert type(actual.model) is type(wanted.model)
 
 
 @pytest.mark.parametrize(("key", "given", "words"), REFUSED)

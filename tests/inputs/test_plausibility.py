@@ -69,9 +69,11 @@ def test_every_factor_of_ten_is_named(engine):
         for factor in FACTORS:
             if plain(path) in TOLERABLE:
                 continue
-            found = set(told(changed(engine, (path, value * factor)))) - before
-            assert found, f"{plain(path)} × {factor} is not named"
-            assert any(f"f: {path[0]}" in line for line in found) or plain(path) in ELSEWHERE, found
+            collected = set(told(changed(engine, (path, value * factor)))) - before
+            assert collected, f"{plain(path)} × {factor} is not named"
+            assert any(f"f: {path[0]}" in line for line in collected) or plain(path) in ELSEWHERE, (
+                collected
+            )
 
 
 @pytest.mark.parametrize("factor", FACTORS)
@@ -81,8 +83,8 @@ def test_every_throw_of_a_given_train_is_named(place, factor):
     keys = ["inertia_kg_m2", *(["stiffness_nm_rad"] if place < 7 else [])]
     for key in keys:
         path = ("torsion", "masses", place, key)
-        found = told(changed(raw, (path, factor * at(raw, path))))
-        assert any(f"torsion.masses[{place + 1}].{key}" in line for line in found), (key, found)
+        actual = told(changed(raw, (path, factor * at(raw, path))))
+        assert any(f"torsion.masses[{place + 1}].{key}" in line for line in actual), (key, actual)
 
 
 @pytest.mark.parametrize("factor", FACTORS)
@@ -101,8 +103,8 @@ def test_every_throw_of_a_train_that_is_given_in_lists_is_named(name, factor):
     assert not [line for line in told(raw) if "torsion" in line]
     for key, given in list(raw["torsion"].items()):
         path = ("torsion", key, 0) if isinstance(given, list) else ("torsion", key)
-        found = told(changed(raw, (path, factor * at(raw, path))))
-        assert any(f"torsion.{key}" in line for line in found), (key, found)
+        actual = told(changed(raw, (path, factor * at(raw, path))))
+        assert any(f"torsion.{key}" in line for line in actual), (key, actual)
 
 
 # Keys of a shaft that no sample gives, in values that are usual.
@@ -178,8 +180,8 @@ NAMED = {
 @pytest.mark.parametrize("case", NAMED)
 def test_the_key_itself_is_named(case, raw):
     (key, value), where = NAMED[case]
-    found = told(changed(raw, (path_of(key), value)))
-    assert any(where in place for place in found), found
+    actual = told(changed(raw, (path_of(key), value)))
+    assert any(where in position for position in actual), actual
 
 
 def test_a_wrong_bore_is_one_line(raw):

@@ -91,10 +91,10 @@ READ = {
 @pytest.mark.parametrize("case", READ)
 def test_a_file_as_it_is_written_is_read(case: str, tmp_path: Path) -> None:
     table, more = READ[case]
-    found = loaded(tmp_path, table, more)
-    np.testing.assert_allclose(found.model.gas.points, RIGHT, rtol=1e-12)
-    assert found.warnings == ()
-    assert found.notes == ()
+    actual = loaded(tmp_path, table, more)
+    np.testing.assert_allclose(actual.model.gas.points, RIGHT, rtol=1e-12)
+    assert actual.warnings == ()
+    assert actual.notes == ()
 
 
 TORN = "запятая стоит и между столбцами, и в дробях"
@@ -188,11 +188,11 @@ def test_a_fine_trace_is_thinned_by_means_and_does_the_same_work(
     step: float, tmp_path: Path
 ) -> None:
     angles, p = trace(step)
-    found = loaded(tmp_path, "\n".join(f"{a:.2f};{x:.4f}" for a, x in zip(angles, p, strict=True)))
+    item = loaded(tmp_path, "\n".join(f"{a:.2f};{x:.4f}" for a, x in zip(angles, p, strict=True)))
     whole = work(np.append(angles, 720), np.append(p, p[0]))
-    assert work(*np.array(found.model.gas.points).T) == pytest.approx(whole / 10, rel=1e-3)
-    assert len(found.model.gas.points) <= 1442  # the seam too
-    (note,) = found.notes
+    assert work(*np.array(item.model.gas.points).T) == pytest.approx(whole / 10, rel=1e-3)
+    assert len(item.model.gas.points) <= 1442  # the seam too
+    (note,) = item.notes
     assert note == f"diagram.csv: {len(p)} строк усреднены до точек через 0,5°"
 
 
@@ -205,10 +205,10 @@ def test_several_cycles_are_averaged_when_asked(
     shown = angles % 720 if restarts else angles
     table = "\n".join(f"{a:g};{x:.6f}" for a, x in zip(shown, p, strict=True))
     assert "больше цикла 720°" in refusal(tmp_path, table)
-    found = loaded(tmp_path, table, "average_cycles = true")
+    actual = loaded(tmp_path, table, "average_cycles = true")
     expected = p.reshape(3, -1).mean(axis=0) / 10
-    np.testing.assert_allclose(np.array(found.model.gas.points)[:-1, 1], expected, atol=2e-7)
-    assert found.notes == ("diagram.csv: давления 3 циклов усреднены по углу",)
+    np.testing.assert_allclose(np.array(actual.model.gas.points)[:-1, 1], expected, atol=2e-7)
+    assert actual.notes == ("diagram.csv: давления 3 циклов усреднены по углу",)
 
 
 A, P = trace(0.5)
@@ -282,9 +282,9 @@ def test_a_column_per_cycle_is_averaged(columns: int, more: str, tmp_path: Path)
     others = [np.full(P.size, 300.0)] * columns
     table = "CA;a;b;c;d;T\n"[: 11 + 2 * columns].rstrip(";\n") + "\n"
     table += rows_of(A, *cycles, *others)
-    found = loaded(tmp_path, table, "average_cycles = true\n" + more)
-    np.testing.assert_allclose(np.array(found.model.gas.points)[:-1, 1], P / 10, atol=1e-5)
-    assert found.notes == ("diagram.csv: давления столбцов усреднены: 4",)
+    actual = loaded(tmp_path, table, "average_cycles = true\n" + more)
+    np.testing.assert_allclose(np.array(actual.model.gas.points)[:-1, 1], P / 10, atol=1e-5)
+    assert actual.notes == ("diagram.csv: давления столбцов усреднены: 4",)
     if columns:
         line = refusal(tmp_path, table, "average_cycles = true")
         assert "столбцов циклов подряд 4, а за ними другие числа; назовите столбцы" in line
@@ -295,15 +295,15 @@ def test_a_misfire_is_a_cycle(tmp_path: Path) -> None:
     p[720:] = np.minimum(
         p[720:], 1.1 * (16.4 / volume_ratios(angles[720:], 44 / 141, 16.4)) ** 1.35
     )
-    found = loaded(tmp_path, rows_of(angles, p), "average_cycles = true")
-    assert "давления 2 циклов усреднены" in found.notes[0]
+    actual = loaded(tmp_path, rows_of(angles, p), "average_cycles = true")
+    assert "давления 2 циклов усреднены" in actual.notes[0]
 
 
 def test_a_lone_gap_is_told_and_steps_that_grow_are_not(tmp_path: Path) -> None:
     angles, p = trace(1.0)
     rows = [f"{a:g};{x:.4f}" for a, x in zip(angles, p, strict=True)]
-    found = loaded(tmp_path, "\n".join(rows[:300] + rows[330:]))
-    assert found.notes == ("diagram.csv: между 299 и 330° точек нет",)
+    actual = loaded(tmp_path, "\n".join(rows[:300] + rows[330:]))
+    assert actual.notes == ("diagram.csv: между 299 и 330° точек нет",)
     uneven = rows[:300:10] + rows[300:420] + rows[420::10]
     assert loaded(tmp_path, "\n".join(uneven)).notes == ()
 
@@ -344,8 +344,8 @@ def test_a_wrong_diagram_is_told_with_what_it_suggests(case: str, tmp_path: Path
 def test_ten_degrees_are_told_and_three_are_not(turn: int, words: str, tmp_path: Path) -> None:
     angles, p = trace(1.0)
     table = "\n".join(f"{a:g};{x:.4f}" for a, x in zip(angles, p, strict=True))
-    found = loaded(tmp_path, table, f"firing_tdc_deg = {360 - turn}")
-    lines = [problem.line() for problem in found.warnings]
+    collected = loaded(tmp_path, table, f"firing_tdc_deg = {360 - turn}")
+    lines = [problem.line() for problem in collected.warnings]
     assert [words in line for line in lines] == ([True] if words else [])
 
 
@@ -370,7 +370,7 @@ def test_exponents_of_known_polytropes_are_found() -> None:
 
 def test_figures_of_the_right_diagram(tmp_path: Path) -> None:
     model = loaded(tmp_path, kept("right")).model
-    found = indicated_of(model, model.gas, sizes_of(model))
-    assert found.peak_at == 360
-    assert found.compression == pytest.approx(1.41, abs=5e-3)
-    assert found.intake == pytest.approx(0.1132, abs=1e-6)
+    actual = indicated_of(model, model.gas, sizes_of(model))
+    assert actual.peak_at == 360
+    assert actual.compression == pytest.approx(1.41, abs=5e-3)
+    assert actual.intake == pytest.approx(0.1132, abs=1e-6)

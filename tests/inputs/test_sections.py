@@ -26,8 +26,8 @@ from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 
 SUBJECTS = [
-    importlib.import_module(f"{nomenclature.__name__}.{found.name}")
-    for found in pkgutil.iter_modules(nomenclature.__path__)
+    importlib.import_module(f"{nomenclature.__name__}.{item.name}")
+    for item in pkgutil.iter_modules(nomenclature.__path__)
 ]
 TITLES = {row[3] for subject in SUBJECTS for row in getattr(subject, "ROWS", ()) if row[3]}
 # Of other things: the pressure ratio of the compressor, a place on the shaft that may be chosen.
@@ -37,8 +37,8 @@ ALIKE = {"степень повышения давления", "шатунная
 def texts(file: Path) -> set[str]:
     """Texts of a module, in small letters."""
     tree = ast.parse(file.read_text(encoding="utf-8"))
-    found = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
-    return {text.lower() for text in found if isinstance(text, str)}
+    collected = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    return {text.lower() for text in collected if isinstance(text, str)}
 
 
 @pytest.mark.parametrize("place", [sections, dizdn_listing], ids=["sections", "listing"])

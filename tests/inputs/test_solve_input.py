@@ -35,22 +35,22 @@ def scalars(model):
 def test_what_is_told_is_what_the_solver_finds_with_a_step_of_a_degree(name, step):
     model = stepped(name, step)
     coarse, fine = scalars(model), scalars(stepped(name, 1.0))
-    told = {error.key: error for error in grid_errors(model)}
+    lines = {error.key: error for error in grid_errors(model)}
     for key in ("M_max", "M_mean", "I_flywheel", "Rpin_max", "Rmain1_max", "dM_main2"):
         off = abs(coarse[key] - fine[key]) > 0.02 * abs(fine[key])
-        assert (key in told) == off, key
+        assert (key in lines) == off, key
         if off:
-            assert (told[key].coarse, told[key].fine) == (coarse[key], fine[key])
+            assert (lines[key].coarse, lines[key].fine) == (coarse[key], fine[key])
             angle = f"phi_{key}_deg"
             moved = fine[angle] if fine.get(angle) != coarse.get(angle) else None
-            assert told[key].moved_deg == moved
+            assert lines[key].moved_deg == moved
 
 
 def test_the_v6_of_the_issue():
-    (found,) = (e for e in grid_errors(stepped("yamz-236", 10.0)) if e.key == "M_max")
-    assert round(found.coarse) == 2374 and round(found.fine) == 2557
-    assert found.percent == pytest.approx(-7.18, abs=0.01)
-    assert found.moved_deg is not None and found.moved_deg % 10
+    (item,) = (e for e in grid_errors(stepped("yamz-236", 10.0)) if e.key == "M_max")
+    assert round(item.coarse) == 2374 and round(item.fine) == 2557
+    assert item.percent == pytest.approx(-7.18, abs=0.01)
+    assert item.moved_deg is not None and item.moved_deg % 10
 
 
 def test_a_fine_grid_has_nothing_to_tell():
@@ -94,10 +94,10 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
     model = stepped("gots-diesel", 30.0)
     coarse, fine = scalars(model), scalars(stepped("gots-diesel", 1.0))
     assert round(coarse["hole_pin_deg"]) == 270 and round(fine["hole_pin_deg"]) == 300
-    (found,) = (e for e in grid_errors(model) if e.key == "hole_pin_deg")
-    assert (round(found.coarse), round(found.fine)) == (270, 300)
-    assert np.isinf(found.percent)  # no share of an angle
-    assert replace(found, first=True).title.endswith("шейки 1, от колена против вращения")
+    (item,) = (e for e in grid_errors(model) if e.key == "hole_pin_deg")
+    assert (round(item.coarse), round(item.fine)) == (270, 300)
+    assert np.isinf(item.percent)  # no share of an angle
+    assert replace(item, first=True).title.endswith("шейки 1, от колена против вращения")
     assert not [e for e in grid_errors(stepped("yamz-236", 10.0)) if "hole" in e.key]
     # The pin's bending is held against the fine step's in the same plane of the hole.
     hole = {"oil_hole_deg": coarse["alpha_oil_deg"]}
@@ -111,12 +111,12 @@ def test_an_oil_hole_that_the_fine_step_puts_elsewhere_is_told():
 def test_of_alike_pins_the_first_is_named_and_goes_first():
     raw = to_mapping(sample("yamz-238"))
     raw["calculation"]["step_deg"] = 30
-    told = [e for e in grid_errors(load_mapping(raw, source="t.toml").model) if "Rpin" in e.key]
-    names = [e.title for e in told if e.key.endswith("max_kN")]
+    lines = [e for e in grid_errors(load_mapping(raw, source="t.toml").model) if "Rpin" in e.key]
+    names = [e.title for e in lines if e.key.endswith("max_kN")]
     assert names[0].endswith("шатунную шейку 1")
     for key in ("max_kN", "_max"):
-        numbers = [int(e.title[-1]) for e in told if e.key.endswith(key)]
-        equal = {e.percent for e in told if e.key.endswith(key)}
+        numbers = [int(e.title[-1]) for e in lines if e.key.endswith(key)]
+        equal = {e.percent for e in lines if e.key.endswith(key)}
         assert len(equal) > 1 or numbers == sorted(numbers)
     one = [e for e in grid_errors(stepped("two-stroke", 30.0)) if "Rpin" in e.key]
     assert all(e.title.endswith("шейку") for e in one)

@@ -63,8 +63,10 @@ def phased(draw: st.DrawFn, layout: str, strokes: int) -> tuple[Arrangement, lis
     split = (0.0, math.radians(draw(st.integers(-40, 40)))) if layout == "split" else None
     places = fan(pairs, (0.0, bank), pin_angles=split, articulated=layout == "articulated")
     right = []
-    for offset, place in zip(left, places[pairs:], strict=True):
-        behind = math.degrees(place.axis - place.pin_angle) + 360 * draw(st.integers(0, turns - 1))
+    for offset, position in zip(left, places[pairs:], strict=True):
+        behind = math.degrees(position.axis - position.pin_angle) + 360 * draw(
+            st.integers(0, turns - 1)
+        )
         right.append((offset + behind) % period)
     return places, left + right
 
@@ -140,11 +142,11 @@ def engines(
             draw(numbers(0.1, 10)), draw(numbers(0.2, 12)), length * draw(numbers(0.6, 0.85))
         )
     end_masses = st.builds(EndMass, numbers(0, 3), numbers(-math.pi, math.pi), numbers(0, 0.3))
-    count = 1 + max(place.throw for place in places)
+    count = 1 + max(position.throw for position in places)
     rods = 2 if layout in ("v", "split") else 1
     shaft_throws = []
     for throw in range(count):
-        first = next(i for i, place in enumerate(places) if place.throw == throw)
+        first = next(i for i, index in enumerate(places) if index.throw == throw)
         angle = throw_angle(places[first], math.radians(offsets[first]))
         shaft_throws.append(draw(throws(angle, rods=rods)))
     shaft = Crankshaft(

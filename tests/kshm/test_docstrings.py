@@ -37,8 +37,8 @@ def array_functions(room: str) -> Iterator[tuple[str, Callable[..., Any]]]:
     for module in modules(room):
         classes = [c for name, c in inspect.getmembers(module, inspect.isclass) if name[0] != "_"]
         for holder in (module, *classes):
-            for name, found in inspect.getmembers(holder):
-                function = inspect.unwrap(getattr(found, "__func__", found))
+            for name, item in inspect.getmembers(holder):
+                function = inspect.unwrap(getattr(item, "__func__", item))
                 if not inspect.isfunction(function) or name.startswith("_"):
                     continue
                 if function.__module__ != module.__name__:

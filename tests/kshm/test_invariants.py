@@ -67,7 +67,7 @@ def test_reactions_balance_the_loads_of_the_cranks(engine: Engine) -> None:
     area = engine.geometry.piston_area
     unit = engine.geometry.crank_radius * engine.omega**2
     m_2 = float(batch.m_2[0, 0, 0])
-    place = batch.throws.places
+    position = batch.throws.places
     force = np.zeros((2, raw.phi.size))
     moment = np.zeros_like(force)
     start, bearings = 0.0, [0.0]
@@ -88,12 +88,12 @@ def test_reactions_balance_the_loads_of_the_cranks(engine: Engine) -> None:
             cylinder = engine.arrangement[n]
             out, along = directions(throw.angle + cylinder.pin_angle)
             K, T = raw.K[0, n] * area, raw.T[0, n] * area
-            rod = start + place.rod_at(cylinder.rod_place)[0, i]
+            rod = start + position.rod_at(cylinder.rod_place)[0, i]
             add(rod, -K * out[0] + T * along[0], -K * out[1] + T * along[1])
             add(rod, *(m_2 * unit * out * (cylinder.master is None)))
-            add(start + place.pin[0, i], *(throw.pin_mass / len(carried) * unit * out))
+            add(start + position.pin[0, i], *(throw.pin_mass / len(carried) * unit * out))
         out, along = directions(throw.angle)
-        sides = ((throw.left_web, place.left_web), (throw.right_web, place.right_web))
+        sides = ((throw.left_web, position.left_web), (throw.right_web, position.right_web))
         for web, where in sides:
             a, c = web.angle, web.counterweight_angle
             z = start + where[0, i]
@@ -103,7 +103,7 @@ def test_reactions_balance_the_loads_of_the_cranks(engine: Engine) -> None:
             nose = shaft.nose
             turned = np.cos(nose.angle) * out + np.sin(nose.angle) * along
             add(start - nose.arm, *(nose.mass * unit * turned))
-        start += place.length[0, i]
+        start += position.length[0, i]
         bearings.append(start)
         if i == len(shaft.throws) - 1:
             rear: EndMass = shaft.rear
@@ -165,12 +165,12 @@ def test_a_row_turned_round_the_shaft_moves_as_before(engine: Engine, turn: int)
     """Its master, what hangs on it and their firing turned together: as in a staggered radial."""
     last, by = engine.arrangement[-1].throw, np.radians(turn)
     assume(last > 0)  # cylinder 1 is where angles are counted from
-    there = [place.throw == last for place in engine.arrangement]
+    there = [position.throw == last for position in engine.arrangement]
     turned = replace(
         engine,
         arrangement=tuple(
-            replace(place, axis=place.axis + by * own)
-            for place, own in zip(engine.arrangement, there, strict=True)
+            replace(position, axis=position.axis + by * own)
+            for position, own in zip(engine.arrangement, there, strict=True)
         ),
         firing_offsets=tuple(
             (offset + by * own) % engine.period
@@ -273,17 +273,17 @@ def test_crankpins_carry_what_pistons_and_walls_put_on_the_rods(engine: Engine) 
         cos, sin = np.cos(angle), np.sin(angle)
         return np.stack([side * cos + up * sin, up * cos - side * sin])
 
-    for n, place in enumerate(engine.arrangement):
+    for n, index in enumerate(engine.arrangement):
         pin = turned(0.0, np.sin(raw.local_phi[0, n]), np.cos(raw.local_phi[0, n]))
         along = np.stack([pin[1], -pin[0]])
         on_pin = -raw.K[0, n] * pin + raw.T[0, n] * along
-        total += turned(place.axis, *on_pin)
-        total -= turned(place.axis, raw.N[0, n], -raw.p_sum[0, n])
-        if place.master is not None:
+        total += turned(index.axis, *on_pin)
+        total -= turned(index.axis, raw.N[0, n], -raw.p_sum[0, n])
+        if index.master is not None:
             row = raw.batch.articulated.cylinders.index(n)
             pin_path = raw.hung.motion.pin
             unit = engine.articulated[0].big_end * engine.omega**2 / engine.geometry.piston_area
             inertia = (-unit * part[2][0, row] for part in (pin_path.across, pin_path.along))
-            total -= turned(place.axis, *inertia)
+            total -= turned(index.axis, *inertia)
             total[0] -= raw.hung.on_pin.N_added[0, row]
     np.testing.assert_allclose(total, 0, atol=1e-11 * scale * engine.cylinders)

@@ -20,7 +20,7 @@ def family(count: int) -> list[Engine]:
     """Engines that differ in speed, bore, shaft and, every third, in the timing."""
     base = to_engine(sample("gots-diesel"))
     first = base.crankshaft.throws[0]
-    made = []
+    values = []
     for i in range(count):
         shaft = replace(
             base.crankshaft,
@@ -29,7 +29,7 @@ def family(count: int) -> list[Engine]:
                 *base.crankshaft.throws[1:],
             ),
         )
-        made.append(
+        values.append(
             replace(
                 base,
                 omega=base.omega * (1 + 0.02 * i),
@@ -39,19 +39,19 @@ def family(count: int) -> list[Engine]:
                 method="exact" if i % 4 == 3 else "textbook",
             )
         )
-    return made
+    return values
 
 
 @pytest.mark.parametrize("size", [1, 3, 100])
 def test_chunks_give_every_engine_what_it_gives_alone(size: int) -> None:
-    made = family(7)
-    chunks = list(solve_chunks(iter(made), size))
+    built = family(7)
+    chunks = list(solve_chunks(iter(built), size))
     assert [len(chunk.batch.engines) for chunk in chunks] == {
         1: [1] * 7, 3: [3, 3, 1], 100: [7]
     }[size]  # fmt: skip
     for name in FIELDS:
         together = np.concatenate([getattr(chunk, name) for chunk in chunks])
-        for engine, values in zip(made, together, strict=True):
+        for engine, values in zip(built, together, strict=True):
             alone = getattr(solve_batch([engine]), name)[0]
             np.testing.assert_allclose(values, alone, rtol=1e-12, atol=1e-12 * np.abs(alone).max())
 
@@ -75,7 +75,7 @@ def test_sums_by_sectors_are_the_sums_of_the_table(rays: int) -> None:
     up, against = size * np.cos(turn), size * np.sin(turn)
     up[7] = against[7] = 0.0
     vectors = np.array([up, up[::-1]]), np.array([against, against[::-1]])
-    found = wear.ray_sums(*vectors, np.hypot(*vectors), rays)
+    actual = wear.ray_sums(*vectors, np.hypot(*vectors), rays)
     listed = wear.ray_loads(*vectors, rays)[:, :-1].sum(axis=1)
-    np.testing.assert_allclose(found, listed, rtol=1e-12)
-    assert np.ptp(found) > 0
+    np.testing.assert_allclose(actual, listed, rtol=1e-12)
+    assert np.ptp(actual) > 0

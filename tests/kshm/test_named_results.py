@@ -31,8 +31,8 @@ def test_every_name_is_a_result_of_an_engine_that_has_it(name):
 
 def test_every_name_stands_for_something():
     solutions = [kshm.solve(*engine_and_cycle(sample(name))) for name in ("d-240", "yamz-236")]
-    found = {(g, n) for s in solutions for g in NAMES for n in dir(getattr(s, g))}
-    assert found == {(group, name) for group, names in NAMES.items() for name in names}
+    collected = {(g, n) for s in solutions for g in NAMES for n in dir(getattr(s, g))}
+    assert collected == {(group, name) for group, names in NAMES.items() for name in names}
 
 
 def test_what_there_is_not_is_told():
@@ -95,14 +95,14 @@ def test_a_study_of_nothing_is_refused(vary, words):
 
 def test_a_bad_value_is_a_row_with_its_reason():
     engine = reports.load("samples/gots-diesel.toml")
-    told = []
+    lines = []
     study = kshm.sweep(
         engine,
         {"geometry.bore_mm": [84, -1, 92], "gas.rho": [1.2]},
         quantities=["loads.journal_max", "torque.mean", "P4_1.N_MPa"],
-        progress=lambda done, total: told.append((done, total)),
+        progress=lambda done, total: lines.append((done, total)),
     )
-    assert list(study["error"].str.len() > 0) == [False, True, False] and told == [(3, 3)]
+    assert list(study["error"].str.len() > 0) == [False, True, False] and lines == [(3, 3)]
     assert "bore_mm = -1, gas.rho = 1.2: " in study.loc[1, "error"]
     assert study[["Rmain1_max_kN", "M_mean", "P4_1.N_MPa.max_deg"]].isna().sum().tolist() == [1] * 3
     assert study.attrs["units"]["geometry.bore_mm"] == "мм"

@@ -56,8 +56,8 @@ def calculated(program: LiveProgram, folder: Path, edits: Sequence[Edit] = ()) -
         [node, "main.js"], cwd=folder, capture_output=True, text=True, timeout=120, check=False
     )
     assert done.returncode == 0, done.stderr[:2000]
-    found: dict[str, Any] = json.loads(done.stdout)
-    return found
+    collected: dict[str, Any] = json.loads(done.stdout)
+    return collected
 
 
 def distance(values: Any, others: Any) -> float:
@@ -71,6 +71,6 @@ def distance(values: Any, others: Any) -> float:
     gaps = ~np.isfinite(first)
     if (gaps != ~np.isfinite(second)).any():
         return np.inf
-    apart = np.abs(first - second)[~gaps].max(initial=0.0)
+    separate = np.abs(first - second)[~gaps].max(initial=0.0)
     most = np.abs(first[~gaps]).max(initial=0.0)
-    return 0.0 if apart <= LEAST else float(apart / most) if most else np.inf
+    return 0.0 if separate <= LEAST else float(separate / most) if most else np.inf

@@ -48,17 +48,17 @@ def test_an_edit_gives_the_numbers_of_a_new_build(
     for change in changes:
         if key_text(change.field.path) not in titles:
             continue  # nothing of the short book reads it
-        told = page.evaluate(
+        message = page.evaluate(
             SET,
             [key_text(change.field.path), change.value],
         )
-        refused += [told] if told else []
+        refused += [message] if message else []
     assert "\n".join(refused) == ""
     second = Evaluation(build_model(changed))
     keys = page.evaluate(MOVING, [key for key in model.nodes if key in free])
-    found = page.evaluate(GET, keys)
+    actual = page.evaluate(GET, keys)
     far = {key: distance(np.asarray(second.value(key)).tolist(), value)
-           for key, value in zip(keys, found, strict=True)}  # fmt: skip
+           for key, value in zip(keys, actual, strict=True)}  # fmt: skip
     assert {key: each for key, each in far.items() if each > 1e-9} == {}
     shown = page.inner_text("[data-key=M_mean] b")
     assert shown == fixed(
@@ -81,8 +81,8 @@ def test_a_value_beyond_its_limits_leaves_the_last_good_engine(live: Opened) -> 
     page.wait_for_selector("#stale", state="hidden")
     assert page.evaluate("kshm.get('geometry_bore_mm')") == 90.5
     assert page.inner_text("[data-key=M_mean] b") != before
-    told = page.evaluate(SET, ["engine.cylinders", 4])
-    assert told == "engine.cylinders: это строение двигателя; нужен build"
+    message = page.evaluate(SET, ["engine.cylinders", 4])
+    assert message == "engine.cylinders: это строение двигателя; нужен build"
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(1366, "light"), (390, "dark")])

@@ -26,9 +26,9 @@ def test_javascript_finds_what_numpy_finds(name: str, tmp_path: Path) -> None:
         change.field.name: (change.field.choices or {}).get(str(change.value), change.value)
         for change in changes
     }
-    found, after = calculated(program, tmp_path, [edit])["found"]
+    actual, after = calculated(program, tmp_path, [edit])["found"]
     first, second = Evaluation(model), Evaluation(build_model(changed))
-    worst = {key: distance(first.value(key), found[key]) for key in model.nodes}
+    worst = {key: distance(first.value(key), actual[key]) for key in model.nodes}
     assert {key: far for key, far in worst.items() if far > NEAR} == {}
     worst = {
         key: distance(second.value(key), after[key]) for key in model.nodes

@@ -14,8 +14,8 @@ _BLOCK = re.compile(r"^ *```(?P<kind>\w+)\n(?P<text>.*?)^ *```", re.M | re.S)
 
 def blocks(page: Path, kind: str) -> list[str]:
     """Texts of the fenced blocks of a kind, in order."""
-    found = _BLOCK.finditer(page.read_text(encoding="utf-8"))
-    return [match["text"] for match in found if match["kind"] == kind]
+    matches = _BLOCK.finditer(page.read_text(encoding="utf-8"))
+    return [match["text"] for match in matches if match["kind"] == kind]
 
 
 def commands(page: Path) -> list[str]:

@@ -64,10 +64,10 @@ def chain_of(command: str) -> str:
 
 def all_commands() -> list[str]:
     order = (*READMES, DOCS / "first-project.md", DOCS / "grading.md", *PAGES)
-    found = dict.fromkeys(command for page in order for command in commands(page))
-    assert f"./run build {COPY[0]} -o out" in found
+    item = dict.fromkeys(command for page in order for command in commands(page))
+    assert f"./run build {COPY[0]} -o out" in item
     left_out = {*LEFT_OUT, *SPARED}
-    return [command for command in found if command not in left_out and not SAME.match(command)]
+    return [command for command in item if command not in left_out and not SAME.match(command)]
 
 
 def put(path: Path, old: str, new: str) -> None:
@@ -150,9 +150,9 @@ def test_commands(tmp_path, chain):
     for name in EXPECTED[chain]:
         assert (tmp_path / name).exists(), name
     if chain == "project":
-        made = load_workbook_input(tmp_path / "out2" / "my-engine.xlsx").model
-        found = {field.name: field.value for field in iter_fields(made)}
-        assert {name: found[name] for name in EDITED} == EDITED
+        built = load_workbook_input(tmp_path / "out2" / "my-engine.xlsx").model
+        collected = {field.name: field.value for field in iter_fields(built)}
+        assert {name: collected[name] for name in EDITED} == EDITED
 
 
 EXPECTED = {

@@ -134,7 +134,7 @@ def site(tmp_path_factory) -> Path:
 def test_html_fits_the_window(site, tmp_path, width):
     page = (site / "sheets.html").read_text(encoding="utf-8")
     assert 'href="input.html"' in page
-    found = measure(page, width, tmp_path / "browser", boxes="table, pre")
-    assert found["scroll"] <= found["width"]
-    assert found["wide"] == []
-    assert found["scripts"] == 0
+    measured = measure(page, width, tmp_path / "browser", boxes="table, pre")
+    assert measured["scroll"] <= measured["width"]
+    assert measured["wide"] == []
+    assert measured["scripts"] == 0

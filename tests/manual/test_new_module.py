@@ -70,14 +70,14 @@ def test_it_is_in_the_workbook_the_report_and_the_results(changed, tmp_path):
     assert "step_deg = 10" in text and "[report]\n" in text
     text = text.replace("[report]\n", '[report]\nchapters = ["dynamics"]\n')
     sample.write_text(text.replace("step_deg = 10", "step_deg = 15"), encoding="utf-8")
-    told = subprocess.run(
+    message = subprocess.run(
         [sys.executable, "-P", "-c", TRY, str(sample)],
         env=os.environ | {"PYTHONPATH": str(changed[0])},
         text=True, capture_output=True, check=True,
     )  # fmt: skip
-    made = json.loads(told.stdout)
-    assert made["formulas"] > 30 and made["charts"] == 1 and made["exported"]
-    assert made["greatest"][0] == pytest.approx(made["greatest"][1]) == made["greatest"][2]
-    assert made["apart"] < 1e-9 * made["greatest"][0]
-    assert "Кинетическая энергия</h2>" in made["page"]
-    assert "Кинетическая энергия поступательных масс цилиндра</figcaption>" in made["page"]
+    built = json.loads(message.stdout)
+    assert built["formulas"] > 30 and built["charts"] == 1 and built["exported"]
+    assert built["greatest"][0] == pytest.approx(built["greatest"][1]) == built["greatest"][2]
+    assert built["apart"] < 1e-9 * built["greatest"][0]
+    assert "Кинетическая энергия</h2>" in built["page"]
+    assert "Кинетическая энергия поступательных масс цилиндра</figcaption>" in built["page"]

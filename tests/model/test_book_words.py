@@ -64,5 +64,5 @@ list geometry: Размеры
 S_stroke = 2*r_crank | -
 """
     further = "r_crank = 1 | -\nlam = 1/4 | -\n"
-    made = keys(tmp_path, text, sample("gots-diesel"), further=further)
-    assert made == ["r_crank", "lam", "S_stroke"]
+    built = keys(tmp_path, text, sample("gots-diesel"), further=further)
+    assert built == ["r_crank", "lam", "S_stroke"]

@@ -119,8 +119,8 @@ def test_what_only_the_model_shows(text: str, line: int, column: int, words: str
     model = build_model(scope.input)
     kept = [b for b in model.blocks if b.id not in ("geometry", "t", "a")]
     whole = type(model)(model.input, model.inputs, (*kept, *part.blocks), ())
-    told = str(next(iter(book_faults(whole, places, Shelf((tmp_path,))))))
-    assert words in told and told.startswith(f"own.book: строка {line}, столбец {column}: ")
+    message = str(next(iter(book_faults(whole, places, Shelf((tmp_path,))))))
+    assert words in message and message.startswith(f"own.book: строка {line}, столбец {column}: ")
 
 
 def test_numbers_are_short_and_macros_stand_on_one_line(tmp_path: Path):

@@ -13,30 +13,30 @@ def second(name: str) -> str:
 
 
 def test_names_change_and_texts_stay() -> None:
-    found = renamed(
+    actual = renamed(
         'max(a, t.a) + 1e5*b - "a"', lambda name: name if name == "max" else second(name)
     )
-    assert found == 'max(a_R2, t_R2.a) + 1e5*b_R2 - "a"'
+    assert actual == 'max(a_R2, t_R2.a) + 1e5*b_R2 - "a"'
 
 
 def test_only_what_is_replaced_changes() -> None:
     block = ScalarTable("s", "", "", (Scalar("a", "mass*r + mass_2"),))
     assert substituted((block,), {}) == (block,)
-    (made,) = substituted((block,), {"mass": "m_est"})
-    assert made == ScalarTable("s", "", "", (Scalar("a", "m_est*r + mass_2"),))
+    (built,) = substituted((block,), {"mass": "m_est"})
+    assert built == ScalarTable("s", "", "", (Scalar("a", "m_est*r + mass_2"),))
 
 
 def test_a_copied_table_keeps_its_columns() -> None:
     table = TableSpec("t", "1", "", "", (Column("x", None), Column("y", "x*a + u.x")), (0.0,))
-    made = copied(table, second)
-    assert isinstance(made, TableSpec)
-    assert made.id == "t_R2"
-    assert [(c.key, c.expr) for c in made.columns] == [("x", None), ("y", "x*a_R2 + u_R2.x")]
+    built = copied(table, second)
+    assert isinstance(built, TableSpec)
+    assert built.id == "t_R2"
+    assert [(c.key, c.expr) for c in built.columns] == [("x", None), ("y", "x*a_R2 + u_R2.x")]
 
 
 def test_copied_scalars_remember_their_quantity() -> None:
-    made = copied(ScalarTable("s", "", "", (Scalar("a", "b"),)), second)
-    assert made == ScalarTable("s_R2", "", "", (Scalar("a_R2", "b_R2", of="a"),))
+    built = copied(ScalarTable("s", "", "", (Scalar("a", "b"),)), second)
+    assert built == ScalarTable("s_R2", "", "", (Scalar("a_R2", "b_R2", of="a"),))
     grid = copied(
         Grid("g", "", "", ("1", "2"), (GridRow("q", (Scalar("q1", "b", of="q"), None)),)), second
     )

@@ -38,9 +38,9 @@ def test_decimals_follow_the_bore(bore_m, small, formats):
 
 
 def single(power_kw: float, speed_rpm: float):
-    made = generate_engine(1, layout="inline", strokes=4, kind="petrol",
+    built = generate_engine(1, layout="inline", strokes=4, kind="petrol",
                       power_kw=power_kw, speed_rpm=speed_rpm)  # fmt: skip
-    return load_mapping(made.data, source="").model
+    return load_mapping(built.data, source="").model
 
 
 @settings(max_examples=25)
@@ -57,11 +57,11 @@ def test_a_model_of_a_small_engine_shows_them_everywhere():
     model = single(2.2, 6500)
     small = smallness_of(model)
     assert small == math.ceil(5 * math.log10(60 / model.geometry.bore_mm)) > 0
-    made = build_model(model)
-    for name, node in made.nodes.items():
+    built = build_model(model)
+    for name, node in built.nodes.items():
         assert node.quantity == quantity(node.of or node.key, small), name
     rows = [
-        row for block in made.blocks for row in getattr(block, "rows", ()) if hasattr(row, "cells")
+        row for block in built.blocks for row in getattr(block, "rows", ()) if hasattr(row, "cells")
     ]
     assert rows and all(row.quantity == quantity(row.of, small) for row in rows)
 

@@ -91,8 +91,8 @@ def test_words_stand_where_symbols_cannot():
     assert {key for key, each in about.items() if not each.symbol} == {
         "tor_fresh", "oil_fresh", "W_fresh", "st_over",
     }  # fmt: skip
-    told = {"check_value", "oil_open", "governs", "verdict"}
-    assert told <= {key for key in WORDS if not about[key].tex}
+    lines = {"check_value", "oil_open", "governs", "verdict"}
+    assert lines <= {key for key in WORDS if not about[key].tex}
 
 
 def of_block(block: Block) -> list[Quantity]:

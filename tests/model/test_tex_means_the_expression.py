@@ -209,7 +209,7 @@ def test_a_printed_formula_gives_the_number_that_is_computed(name):
             continue
         if not np.isfinite(wanted):
             continue
-        found = Reader(tex, values).whole()
-        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12), (key, tex)
+        actual = Reader(tex, values).whole()
+        assert actual == pytest.approx(wanted, rel=1e-9, abs=1e-12), (key, tex)
         seen += 1
     assert seen > 100

@@ -92,8 +92,8 @@ def test_the_diagram_gives_the_pressure_the_size_was_found_with(kind, strokes):
     engine, cycle = engine_and_cycle(model)
     power = solve(engine, cycle).scalars["N_i_calc"] * model.regime.mechanical_efficiency
     swept = engine.geometry.piston_area * 2 * engine.geometry.crank_radius * 4
-    found = power / 1000 / (swept * model.regime.speed_rpm / 30 / strokes)
-    assert found == pytest.approx(USUAL[kind, strokes].effective_mpa, rel=0.005)
+    actual = power / 1000 / (swept * model.regime.speed_rpm / 30 / strokes)
+    assert actual == pytest.approx(USUAL[kind, strokes].effective_mpa, rel=0.005)
 
 
 @settings(max_examples=25, deadline=None)
@@ -106,9 +106,9 @@ def test_an_engine_has_the_power_that_was_asked_for(case, power, speed):
     cylinders, layout, strokes, kind = case
     usual = made(*case).model.regime.speed_rpm
     wanted = None if speed is None else round(usual * speed)
-    found = made(cylinders, layout, strokes, kind, power_kw=power * cylinders, speed_rpm=wanted)
-    assert found.warnings == ()
-    model = found.model
+    actual = made(cylinders, layout, strokes, kind, power_kw=power * cylinders, speed_rpm=wanted)
+    assert actual.warnings == ()
+    model = actual.model
     if wanted is not None:
         assert model.regime.speed_rpm == wanted
     moment = solve(*engine_and_cycle(model)).scalars["M_e"]
@@ -121,9 +121,9 @@ def test_an_engine_has_the_power_that_was_asked_for(case, power, speed):
 def test_engines_of_every_size_pass_without_a_warning(bore_mm, kind, strokes):
     usual = USUAL[kind, strokes]
     speed = round(usual.piston_speed * 30000 / usual.stroke_bore / bore_mm)
-    found = made(4, "inline", strokes, kind, speed_rpm=speed)
-    assert found.warnings == ()
-    assert found.model.geometry.bore_mm == pytest.approx(bore_mm, rel=0.02)
+    actual = made(4, "inline", strokes, kind, speed_rpm=speed)
+    assert actual.warnings == ()
+    assert actual.model.geometry.bore_mm == pytest.approx(bore_mm, rel=0.02)
 
 
 def test_firing_is_even_where_one_order_says_it():
@@ -227,26 +227,26 @@ def test_an_alternative_of_another_power_says_so(tmp_path):
 )
 def test_every_sample_has_an_alternative_that_passes(path):
     old = load_toml(path)
-    found = load_text(file_text(alternative(old.model, 6)), source="alt.toml")
+    actual = load_text(file_text(alternative(old.model, 6)), source="alt.toml")
     # What the sample accepts with a reason of its own is told of the alternative.
     raw = to_mapping(old.model)
     raw.pop("checks", None)
     bare = load_mapping(raw, source="bare.toml").warnings
-    assert {problem.what for problem in found.warnings} <= {problem.what for problem in bare}
+    assert {problem.what for problem in actual.warnings} <= {problem.what for problem in bare}
     masses = file_text(alternative(old.model, 6))
     assert "таблица 4: от " in masses
 
 
 def test_cylinders_of_an_alternative_stand_beside_each_other():
     """By the rule alone twelve would overlap: journals shrink faster than the bore."""
-    for sample, apart in (("two-stroke", 0.77), ("yamz-238", None), ("cycle-petrol", 0.82)):
+    for sample, separate in (("two-stroke", 0.77), ("yamz-238", None), ("cycle-petrol", 0.82)):
         old = load_toml(samples_dir() / f"{sample}.toml").model
         text = file_text(alternative(old, 12))
         engine = to_engine(load_text(text, source="alt.toml").model)
         between = np.diff(np.unique(rod_places(engine)))[:: 2 if sample == "yamz-238" else 1]
-        assert between.min() >= (1.08 if apart else 0) * engine.geometry.bore * (1 - 1e-6)
-        assert ("шейки и щёки удлинены до 1,08 D" in text) == (apart is not None)
-        assert apart is None or f"вышло бы 0,{round(apart * 100)}" in text
+        assert between.min() >= (1.08 if separate else 0) * engine.geometry.bore * (1 - 1e-6)
+        assert ("шейки и щёки удлинены до 1,08 D" in text) == (separate is not None)
+        assert separate is None or f"вышло бы 0,{round(separate * 100)}" in text
 
 
 def test_an_alternative_has_a_train_and_bearings_of_its_own():
@@ -281,8 +281,8 @@ def test_journals_of_an_alternative_stay_within_their_bounds(cylinders, words):
 def test_every_alternative_of_made_engines_passes(layout, strokes, kind):
     for first, last in ((2, 12), (12, 2), (4, 6), (6, 1 if layout == "inline" else 8)):
         model = made(first, layout, strokes, kind).model
-        found = load_text(file_text(alternative(model, last)), source="alt.toml")
-        assert found.warnings == (), (first, last)
+        actual = load_text(file_text(alternative(model, last)), source="alt.toml")
+        assert actual.warnings == (), (first, last)
 
 
 def test_what_is_known_by_memory_says_so():
@@ -318,9 +318,9 @@ def test_masses_of_a_throw_are_within_the_table_they_are_taken_from(kind):
 
 @pytest.mark.parametrize("options", [{}, {"power_kw": 106.0, "speed_rpm": 5200.0}])
 def test_the_note_at_the_bore_tells_this_engines_piston_speed(options):
-    made = generate_engine(4, **options)
-    speed = made.data["geometry"]["stroke_mm"] * made.data["regime"]["speed_rpm"] / 30000
-    assert f"Sn/30 ≈ {number_text(round(speed, 1))} м/с" in made.notes["geometry.bore_mm"]
+    built = generate_engine(4, **options)
+    speed = built.data["geometry"]["stroke_mm"] * built.data["regime"]["speed_rpm"] / 30000
+    assert f"Sn/30 ≈ {number_text(round(speed, 1))} м/с" in built.notes["geometry.bore_mm"]
 
 
 def test_masses_of_a_large_engine_grow_with_its_bore():

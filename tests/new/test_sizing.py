@@ -90,15 +90,15 @@ PARTS = [range(12)] if cover.QUICK else [range(n, n + 10) for n in range(0, TASK
 def test_a_drawn_task_has_its_power_and_passes(numbers: range) -> None:
     for number in numbers:
         case, task = drawn(number)
-        found = made(case, task)
-        assert told(found) == [], (case, task)
-        assert effective_kw(found) == pytest.approx(task["power_kw"], rel=1e-3), (case, task)
-        section = found.model.geometry
+        actual = made(case, task)
+        assert told(actual) == [], (case, task)
+        assert effective_kw(actual) == pytest.approx(task["power_kw"], rel=1e-3), (case, task)
+        section = actual.model.geometry
         for key in ("bore_mm", "stroke_mm", "lambda_"):
             if task.get(key) is not None:
                 assert getattr(section, key) == task[key]
         assert section.compression_ratio == task["compression"]
-        assert found.model.regime.speed_rpm == task["speed_rpm"]
+        assert actual.model.regime.speed_rpm == task["speed_rpm"]
 
 
 def test_the_tasks_are_of_every_kind() -> None:
@@ -134,9 +134,9 @@ def of_sample(name: str) -> tuple[tuple[int, str, int, str], dict[str, Any], lis
 def test_every_sample_given_as_a_task(path: Path) -> None:
     case, task, powers = of_sample(path.stem)
     for power in powers:
-        found = made(case, {**task, "power_kw": round(power, 2)})
-        assert told(found) == []
-        assert effective_kw(found) == pytest.approx(power, rel=1e-3)
+        actual = made(case, {**task, "power_kw": round(power, 2)})
+        assert told(actual) == []
+        assert effective_kw(actual) == pytest.approx(power, rel=1e-3)
 
 
 @pytest.mark.parametrize("key", ["bore_mm", "stroke_mm", "compression", "lambda_", "rod_mm", None])
@@ -146,13 +146,13 @@ def test_any_part_of_a_task_will_do(key: str | None, power: float | None, speed:
     given = {"bore_mm": 110.0, "stroke_mm": 125.0, "compression": 16.0, "lambda_": 0.27,
              "rod_mm": 240.0}  # fmt: skip
     task = {"power_kw": power, "speed_rpm": speed} | ({key: given[key]} if key else {})
-    found = made((4, "inline", 4, "diesel"), task)
-    assert told(found) == []
+    actual = made((4, "inline", 4, "diesel"), task)
+    assert told(actual) == []
     if power is not None:
-        assert effective_kw(found) == pytest.approx(power, rel=1e-3)
-        assert found.model.regime.indicated_power_kw == pytest.approx(power / 0.78, abs=1e-3)
+        assert effective_kw(actual) == pytest.approx(power, rel=1e-3)
+        assert actual.model.regime.indicated_power_kw == pytest.approx(power / 0.78, abs=1e-3)
     else:
-        assert found.model.regime.indicated_power_kw is None
+        assert actual.model.regime.indicated_power_kw is None
 
 
 @pytest.mark.parametrize(
@@ -233,8 +233,8 @@ def test_asked_55_got_65(tmp_path: Path) -> None:
     run("new", *SHEET, "-o", file)
     text = file.read_text(encoding="utf-8").replace("bore_mm = 110", "bore_mm = 120")
     file.write_text(text, encoding="utf-8")
-    found = effective_kw(load_toml(file))
-    assert found == pytest.approx(55 * (120 / 110) ** 2, rel=1e-3)
+    actual = effective_kw(load_toml(file))
+    assert actual == pytest.approx(55 * (120 / 110) ** 2, rel=1e-3)
     assert "(эффективная 55 кВт), а диаграмма с этими размерами даёт 83,92 кВт (65,45 кВт)" in (
         run("check", file)[1].replace("\xa0", " ")
     )
@@ -290,10 +290,10 @@ def test_an_alternative_has_the_power_that_was_asked_for(tmp_path: Path, sample:
     file = tmp_path / "alt.toml"
     source = samples_dir() / f"{sample}.toml"
     assert run("new", "--from", source, "--cylinders", 4, "--power", "60,5", "-o", file)[0] == 0
-    found = load_toml(file)
-    assert effective_kw(found) == pytest.approx(60.5, rel=2e-3)
-    assert power_problems(found.model) == ()
-    assert found.model.regime.indicated_power_kw is not None
+    actual = load_toml(file)
+    assert effective_kw(actual) == pytest.approx(60.5, rel=2e-3)
+    assert power_problems(actual.model) == ()
+    assert actual.model.regime.indicated_power_kw is not None
 
 
 _BOOSTED = [

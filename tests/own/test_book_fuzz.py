@@ -53,13 +53,13 @@ def slipped(number: int) -> str:
 @pytest.mark.parametrize("group", range(GROUPS if ALL else 2))
 def test_a_slip_is_told_or_does_no_harm(group: int):
     """Each document is made of what check takes: `refuse_unbuilt` makes them all."""
-    told = 0
+    message = 0
     for number in range(group, SLIPS, GROUPS):
         try:
             model = engine(slipped(number))
             refuse_faults(model)
         except InputError as error:
-            told += 1
+            message += 1
             for line in str(error).splitlines():
                 assert re.match(r"к\.book: строка \d+, столбец \d+: .+; .+", line), (number, line)
                 assert "складывается" not in line and "печатается" not in line, (number, line)
@@ -68,4 +68,4 @@ def test_a_slip_is_told_or_does_no_harm(group: int):
             refuse_unbuilt(model, whole=number % (3 * GROUPS) == group)
         except InputError as error:
             assert "не набирается" in str(error) or "уже стоит" in str(error), (number, str(error))
-    assert 0 < told < SLIPS // GROUPS
+    assert 0 < message < SLIPS // GROUPS

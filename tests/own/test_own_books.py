@@ -89,10 +89,10 @@ def test_the_workbook_is_recalculated(engine: Path):
 
 def test_solve_gives_its_numbers(engine: Path):
     data = json.loads(run("solve", str(engine), "--json", "-").partition("\nШаг таблиц")[0])
-    told = data["summary"]["tip_fan"]
-    assert told["unit"] == "м/с" and data["engine"]["fan_blade_mm"] == 420
+    message = data["summary"]["tip_fan"]
+    assert message["unit"] == "м/с" and data["engine"]["fan_blade_mm"] == 420
     omega = data["summary"]["omega"]["value"]
-    assert told["value"] == pytest.approx(omega * 1.2 * 0.42 / 2)
+    assert message["value"] == pytest.approx(omega * 1.2 * 0.42 / 2)
 
 
 def test_a_wrong_value_is_told_by_its_key(engine: Path):
@@ -140,11 +140,11 @@ def test_a_class_with_slips_in_own_items(tmp_path: Path):
         return {line["id"]: line["verdict"] for line in marks["items"]}
 
     assert set(verdicts({}).values()) == {"right"}
-    found = verdicts(slips)
-    assert found["valve_lift.lift_own"] == found["oil_pump.Q_oil_own"] == "wrong"
+    actual = verdicts(slips)
+    assert actual["valve_lift.lift_own"] == actual["oil_pump.Q_oil_own"] == "wrong"
     for item in ("valve_lift.area_own", "oil_pump.V_oil_own", "oil_pump.V_pump_own"):
-        assert found[item] == "carried", item
-    assert found["valve_lift.angle_own"] == found["oil_pump.Q_fuel_own"] == "right"
+        assert actual[item] == "carried", item
+    assert actual["valve_lift.angle_own"] == actual["oil_pump.Q_fuel_own"] == "right"
 
 
 def replaced(names: tuple[str, ...], base: str) -> Iterator[bytes]:

@@ -73,9 +73,9 @@ def changed_everywhere(
     parts = [wanted]
     while parts:  # halves of what is refused, so that few cells are tried alone
         part = parts.pop()
-        made = with_values(data, [*taken, *part])
-        if made is not None:
-            taken, result = [*taken, *part], made
+        built = with_values(data, [*taken, *part])
+        if built is not None:
+            taken, result = [*taken, *part], built
         elif len(part) > 1:
             parts += [part[len(part) // 2 :], part[: len(part) // 2]]
     return taken, result

@@ -27,16 +27,16 @@ def answers(office, source, edits, cells, page):
         Path(source).as_uri(), "_blank", 0, (prop("Hidden", True),)
     )
     sheets = document.getSheets()
-    found = [watched(sheets, cells)]
+    collected = [watched(sheets, cells)]
     for number, (sheet, at, value, origin) in enumerate(edits):
         type_in(sheets.getByName(sheet), at, value)
-        found.append(watched(sheets, cells))
+        collected.append(watched(sheets, cells))
         if not number:
             document.storeToURL(Path(page).as_uri(), (prop("FilterName", "HTML (StarCalc)"),))
         type_in(sheets.getByName(sheet), at, origin)
-        found.append(watched(sheets, cells))
+        collected.append(watched(sheets, cells))
     document.close(True)
-    return found
+    return collected
 
 
 with desktop(sys.argv[1]) as root:

@@ -46,8 +46,8 @@ def test_a_grid_gives_what_the_whole_workbook_gives(name):
 
 def test_what_is_compared_stays_rounded_where_roundings_are_taken_away():
     text = "ROUND(IF(ROUND(A1-B1,9)>=C1,ROUND(A1,2),IF(B1<ROUND(A1,1),ROUND(B1,3),D1)),2)"
-    found = render(unrounded(formula_of(pattern(text, 1, 3))).pattern, 1, 3)
-    assert found == "=(IF(ROUND(A1-B1,9.0)>=C1,(A1),IF(B1<ROUND(A1,1.0),(B1),D1)))"
+    actual = render(unrounded(formula_of(pattern(text, 1, 3))).pattern, 1, 3)
+    assert actual == "=(IF(ROUND(A1-B1,9.0)>=C1,(A1),IF(B1<ROUND(A1,1.0),(B1),D1)))"
 
 
 # As LibreOffice 7.4 calculates them.
@@ -72,8 +72,8 @@ def test_functions_that_people_seldom_need_are_calculated():
     cells |= {f"C{row}": f"=A{row}*2" for row in range(1, 6)} | {"C3": "=SUBTOTAL(9,A1:A2)"}
     cells |= {f"E{row}": f"={text}" for row, text in enumerate(SELDOM, 1)}
     engine = engine_of(cells)
-    found = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(SELDOM, 1)}
-    assert found == pytest.approx(SELDOM, rel=1e-12)
+    collected = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(SELDOM, 1)}
+    assert collected == pytest.approx(SELDOM, rel=1e-12)
 
 
 # As LibreOffice 7.4 calculates them; what it lacks by hand.
@@ -93,8 +93,8 @@ def test_functions_of_rectangles_are_calculated():
     cells = {"A1": 1, "A2": 3, "A3": 5, "B1": 2, "B2": 4, "B3": 6}
     cells |= {f"E{row}": f"={text}" for row, text in enumerate(OF_RECTANGLES, 1)}
     engine = engine_of(cells)
-    found = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(OF_RECTANGLES, 1)}
-    assert found == pytest.approx(OF_RECTANGLES, rel=1e-12)
+    collected = {text: engine.shown("Sheet", 5, row) for row, text in enumerate(OF_RECTANGLES, 1)}
+    assert collected == pytest.approx(OF_RECTANGLES, rel=1e-12)
     odd = {"A1": 1, "A2": 2, "B1": 2, "B2": 4, "C1": "слово"}
     texts = {"E1": "=MMULT(A1:B2,A1:A1)", "E2": "=SUM(MINVERSE(A1:B2))", "E3": "=MDETERM(C1:C1)"}
     engine = engine_of(odd | texts)
@@ -170,8 +170,8 @@ NUMBERS = {"A1": 1.0, "A2": -2.0, "A3": 3.0, "B1": "=1/0", "B2": "=SQRT(-1)"}
 )  # fmt: skip
 def test_functions_are_lifted_over_arrays_and_keep_kinds_of_errors(formula, wanted):
     """Of all tests this one alone has every function that formualizer does not lift itself."""
-    found = array_value(formula, **NUMBERS)
-    assert found == (wanted if isinstance(wanted, str) else pytest.approx(wanted, abs=1e-12))
+    actual = array_value(formula, **NUMBERS)
+    assert actual == (wanted if isinstance(wanted, str) else pytest.approx(wanted, abs=1e-12))
 
 
 def test_capitals_of_any_alphabet_are_not_told_apart():

@@ -109,13 +109,13 @@ def same(value: float | str, other: float | str | None) -> bool:
     return value == other
 
 
-def stale(wanted: Book, found: dict[str, list[list[float | str]]]) -> tuple[int, list[str]]:
+def stale(wanted: Book, collected: dict[str, list[list[float | str]]]) -> tuple[int, list[str]]:
     """Number of cells compared and those that differ."""
     compared, wrong = 0, []
     for sheet, cells in wanted.items():
         for cell, value in cells.items():
             compared += 1
-            other = at(found[sheet], cell)
+            other = at(collected[sheet], cell)
             if not same(value, other):
                 wrong.append(f"{sheet}!{cell}: {value!r}, LibreOffice {other!r}")
     return compared, wrong
@@ -126,11 +126,11 @@ def stale(wanted: Book, found: dict[str, list[list[float | str]]]) -> tuple[int,
 @pytest.mark.parametrize("name", [*ENGINES, COMPUTED])
 def test_the_first_edit_reaches_every_cell(name: str, tmp_path: Path) -> None:
     books = edited(name, tmp_path)
-    for change, found in zip(changes_of(name), books, strict=True):
+    for change, item in zip(changes_of(name), books, strict=True):
         wanted = recalculated(name, change)
         if name != COMPUTED:
             assert unlike(built(name, change), wanted) <= Counter(OF_THE_BUILD)
-        compared, wrong = stale(wanted, found)
+        compared, wrong = stale(wanted, item)
         assert wrong == [], (change.field.name, compared, len(wrong))
         assert compared > 5000
         back = load_workbook_input(saved(tmp_path, change)).model

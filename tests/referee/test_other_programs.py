@@ -54,15 +54,15 @@ def hyperformula(tmp_path_factory: pytest.TempPathFactory) -> HyperFormula:
     return HyperFormula(Path(folder, "node_modules", "hyperformula"))
 
 
-def differing(book: bytes, found: Book) -> list[str]:
+def differing(book: bytes, actual: Book) -> list[str]:
     return [
-        f"{sheet}!{at}: {value!r}, {found[sheet][at]!r}"
+        f"{sheet}!{at}: {value!r}, {actual[sheet][at]!r}"
         for sheet, cells in cached_values(book).items()
         for at, value in cells.items()
         if not (
-            abs(value - found[sheet][at]) <= _NEAR * max(1, abs(value))
+            abs(value - actual[sheet][at]) <= _NEAR * max(1, abs(value))
             if isinstance(value, float)
-            else found[sheet][at] == value
+            else actual[sheet][at] == value
         )
     ]
 
@@ -70,9 +70,9 @@ def differing(book: bytes, found: Book) -> list[str]:
 @pytest.mark.parametrize("name", SAMPLES)
 def test_gnumeric_recalculates_and_draws(name: str, gnumeric: Gnumeric) -> None:
     book = coarse_book(name)
-    (found,) = gnumeric.recalculate([book])
-    assert errors_in(found) == []
-    assert differing(book, found) == []
+    (actual,) = gnumeric.recalculate([book])
+    assert errors_in(actual) == []
+    assert differing(book, actual) == []
     charts, curves, links = gnumeric.drawn(book)
     specs = drawn(coarse_model(name))
     assert charts == len(specs) + MOVING
@@ -89,9 +89,9 @@ def _quoted(sheet: str) -> str:
 @pytest.mark.parametrize("name", SAMPLES)
 def test_hyperformula_recalculates(name: str, hyperformula: HyperFormula) -> None:
     book = coarse_book(name)
-    (found,) = hyperformula.recalculate([book])
-    assert errors_in(found) == []
-    assert differing(book, found) == []
+    (actual,) = hyperformula.recalculate([book])
+    assert errors_in(actual) == []
+    assert differing(book, actual) == []
 
 
 def saved_by_openpyxl(book: bytes, changes: Sequence[Change]) -> bytes:

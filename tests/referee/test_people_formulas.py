@@ -18,10 +18,10 @@ from tests.referee.books import engine_of
 
 def test_a_pattern_gives_its_formula_back():
     text = 'SUM($A$1:A7)+\'П4.1\'!B7*IF(C$2>0,"a""b",-D7^2)+SUM(A:B)+#N/A'
-    found = pattern(text, 7, 5)
-    assert render(found, 7, 5) == "=" + text
-    assert pattern(render(found, 9, 6)[1:], 9, 6) == found
-    assert formula_at(text, 7, 5) is formula_at(render(found, 9, 6)[1:], 9, 6)
+    actual = pattern(text, 7, 5)
+    assert render(actual, 7, 5) == "=" + text
+    assert pattern(render(actual, 9, 6)[1:], 9, 6) == actual
+    assert formula_at(text, 7, 5) is formula_at(render(actual, 9, 6)[1:], 9, 6)
     assert render(pattern("A1+Б!A1+SUM(A1:B2)", 1, 1), 1, 1, "Я") == "='Я'!A1+Б!A1+SUM('Я'!A1:B2)"
 
 
@@ -58,13 +58,13 @@ def test_references_of_a_run_over_all_its_rows():
     ("VLOOKUP(1,Л!A1:A3,2)", True, False),
 ])  # fmt: skip
 def test_where_a_rectangle_stands(text, whole, spread):
-    found = formula_at(text, 9, 9).references[0]
-    assert (found.whole, found.spread) == (whole, spread)
+    actual = formula_at(text, 9, 9).references[0]
+    assert (actual.whole, actual.spread) == (whole, spread)
 
 
 @pytest.mark.parametrize("text", ["A1{", "A1]", "x?", "A1048577", "ZZZ1", "1" * 9000])
 def test_what_is_no_formula_is_said_so(text):
     with pytest.raises(UnknownFormula):
-        found = formula_at(text, 1, 1)
-        if found.refusal or found.gives_array:
-            raise UnknownFormula(found.refusal)
+        actual = formula_at(text, 1, 1)
+        if actual.refusal or actual.gives_array:
+            raise UnknownFormula(actual.refusal)

@@ -30,19 +30,19 @@ SINGLES = {
 
 
 def book(formulas: tuple[str, ...]) -> bytes:
-    made = Workbook()
-    sheet, other = made.active, made.create_sheet("Другой лист")
+    built = Workbook()
+    sheet, other = built.active, built.create_sheet("Другой лист")
     for row in range(1, 10):
         sheet.cell(row, 1).value, sheet.cell(row, 2).value = 30.0 * row - 45, 0.5 * row
         other.cell(row, 2).value = row + 0.25
     for column in range(1, 30):
         sheet.cell(9, column).value = 1.5 * column
-    made.defined_names["фи"] = DefinedName("фи", attr_text="Sheet!$A$2:$A$5")
+    built.defined_names["фи"] = DefinedName("фи", attr_text="Sheet!$A$2:$A$5")
     for column, text in enumerate(formulas, 4):
         for row in range(2, 6):
             sheet.cell(row, column).value = f"={text}"
     stream = io.BytesIO()
-    made.save(stream)
+    built.save(stream)
     return stream.getvalue()
 
 

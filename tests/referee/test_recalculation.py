@@ -115,11 +115,11 @@ def changed_books(name: str) -> tuple[tuple[list[Change], Model, bytes], ...]:
     """An engine with everything changed at once, once for each spread."""
     model, book = coarse_of(name)
     data, book = model.input, without_charts(book)
-    found = []
+    collected = []
     for spread in SPREADS:
         changes, changed = changed_everywhere(data, random.Random(f"{name} {spread}"), spread)
-        found.append((changes, build_model(changed), type_into(book, data, changes)))
-    return tuple(found)
+        collected.append((changes, build_model(changed), type_into(book, data, changes)))
+    return tuple(collected)
 
 
 @pytest.mark.parametrize("name", samples_with(quantities))
@@ -145,10 +145,10 @@ def tampered(book: bytes, sheet: str, cell: str) -> bytes:
         for name in source.namelist():
             data = source.read(name)
             if name == part:
-                before, found, after = data.partition(f'r="{cell}"'.encode())
+                before, actual, after = data.partition(f'r="{cell}"'.encode())
                 start = after.index(b"<v>") + 3
                 after = after[:start] + b"123456.5" + after[after.index(b"</v>") :]
-                data = before + found + after
+                data = before + actual + after
             target.writestr(name, data)
     return stream.getvalue()
 

@@ -104,9 +104,9 @@ def in_libreoffice(folder: Path, name: str) -> tuple[list[list[str]], str]:
 def test_a_changed_structure_is_said_and_taken_back_in_libreoffice(
     name: str, tmp_path: Path
 ) -> None:
-    (before, *found), page = in_libreoffice(tmp_path, name)
+    (before, *actual), page = in_libreoffice(tmp_path, name)
     assert before[1] == before[0] != RESHAPED
-    for item, after, restored in zip(edits(name), found[::2], found[1::2], strict=True):
+    for item, after, restored in zip(edits(name), actual[::2], actual[1::2], strict=True):
         assert after == [RESHAPED, RESHAPED], item.name
         assert restored == before, item.name
     results = len(cached_values(made(name)[1]))
@@ -119,8 +119,8 @@ def test_a_changed_structure_is_said_in_gnumeric(name: str, gnumeric: Gnumeric) 
     at, step = _VERDICT, edits(name)[0]
     for item in edits(name) if ALL else edits(name)[:2]:
         typed = type_into(data, data_of(name), [Change(item, other(item))])
-        (found,) = gnumeric.recalculate([typed])
-        assert (found[CONTENTS_SHEET][at], found[INPUT_SHEET][_MARK]) == (RESHAPED, RESHAPED)
+        (actual,) = gnumeric.recalculate([typed])
+        assert (actual[CONTENTS_SHEET][at], actual[INPUT_SHEET][_MARK]) == (RESHAPED, RESHAPED)
     back = type_into(data, data_of(name), [Change(step, step.value)])
     (restored,) = gnumeric.recalculate([back])
     assert restored[CONTENTS_SHEET][at] == cached_values(data)[CONTENTS_SHEET][at]

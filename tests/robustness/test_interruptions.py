@@ -159,11 +159,11 @@ cli.main.commands["doctor"].callback = lambda **_: stop and signal.raise_signal(
 sys.argv = ["kshm", "doctor"]
 __main__.start()
 """
-    told = []
+    lines = []
     for how in ("stop", "go"):
         done = subprocess.run([sys.executable, "-c", code, how], capture_output=True, check=False)
-        told.append((done.returncode, done.stderr.decode()))
-    assert told == [(2, "прервано\n"), (0, "taken apart")]
+        lines.append((done.returncode, done.stderr.decode()))
+    assert lines == [(2, "прервано\n"), (0, "taken apart")]
 
 
 INT, TERM, KILL = signal.SIGINT, signal.SIGTERM, signal.SIGKILL

@@ -38,8 +38,8 @@ def test_a_link_stays_and_its_target_is_replaced(tmp_path: Path) -> None:
     link.symlink_to("far/target")
     chain.symlink_to(link)
     for number in range(2):
-        for place in (link, chain):
-            write_bytes(place, NEW + bytes([number]))
+        for position in (link, chain):
+            write_bytes(position, NEW + bytes([number]))
             assert target.read_bytes() == NEW + bytes([number])
     assert link.is_symlink()
     assert chain.is_symlink()
@@ -81,10 +81,10 @@ def test_a_link_to_a_folder_stays_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize("linked", [False, True])
 def test_a_device_stays_one(tmp_path: Path, linked: bool) -> None:
     null = device(tmp_path / "null", 3)
-    place = tmp_path / "link" if linked else null
+    path = tmp_path / "link" if linked else null
     if linked:
-        place.symlink_to(null)
-    write_bytes(place, NEW)
+        path.symlink_to(null)
+    write_bytes(path, NEW)
     assert stat.S_ISCHR(null.stat().st_mode)
     assert leftovers(tmp_path) == []
 
@@ -135,9 +135,9 @@ def test_an_open_stream_is_written_where_it_stands(tmp_path: Path, folder: str) 
     with target.open("wb") as stream:
         stream.write(OLD)
         stream.flush()
-        place = Path(folder, str(stream.fileno()))
-        link.symlink_to(place)
-        write_bytes(place, NEW)
+        path = Path(folder, str(stream.fileno()))
+        link.symlink_to(path)
+        write_bytes(path, NEW)
         write_bytes(link, NEW)
         assert os.fstat(stream.fileno()).st_ino == target.stat().st_ino
     assert target.read_bytes() == OLD + NEW + NEW

@@ -12,8 +12,8 @@ def test_many_commands_in_one_folder(tmp_path):
     out, alone = tmp_path / "out", tmp_path / "alone"
     sources = [small_input(tmp_path, name) for name in ("a", "b")]
     first = started("solve", sources[0], "--csv", alone, "--json", alone / "a.json")
-    _, told = first.communicate()  # of the coarse grid
-    assert first.returncode == 0 and told.startswith("Шаг таблиц") and told.count("\n") == 1
+    _, message = first.communicate()  # of the coarse grid
+    assert first.returncode == 0 and message.startswith("Шаг таблиц") and message.count("\n") == 1
     # All write the same tables; half of them the same JSON as well.
     running = [
         started(
@@ -24,7 +24,7 @@ def test_many_commands_in_one_folder(tmp_path):
     for process in running:
         _, error = process.communicate()
         assert process.returncode == 0, error
-        assert error == told
+        assert error == message
     assert leftovers(out) == []
     names = {path.name for path in alone.iterdir()}
     assert {path.name for path in out.iterdir()} == names | {"b.json"}

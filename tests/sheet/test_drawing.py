@@ -56,8 +56,8 @@ def test_values_that_fit_exactly_have_the_scale_at_which_they_do(high, unit):
 def crossed(items) -> list[str]:
     canvas = Canvas(list(items))
     texts = [item for item in items if isinstance(item, Words)]
-    found = [words.text for words in texts if not canvas.clear(words)]
-    return found + [one.text + other.text for one, other in itertools.combinations(texts, 2)
+    collected = [words.text for words in texts if not canvas.clear(words)]
+    return collected + [one.text + other.text for one, other in itertools.combinations(texts, 2)
                     if overlap(one.box, other.box)]  # fmt: skip
 
 

@@ -51,13 +51,13 @@ def test_signs_that_the_font_lacks_do_not_stop_the_sheet(tmp_path):
 def test_the_command_writes_pdf_and_dxf(tmp_path):
     code, said = run("build", source(tmp_path), "--only", "sheet", "-o", tmp_path / "out")
     assert code == 0, said
-    made = sorted(path.name for path in (tmp_path / "out").iterdir())
-    assert made == sorted(f"own{ending}" for ending in ENDINGS)
-    told = subprocess.run(["pdfinfo", str(tmp_path / "out" / "own-sheet.pdf")],
+    built = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert built == sorted(f"own{ending}" for ending in ENDINGS)
+    message = subprocess.run(["pdfinfo", str(tmp_path / "out" / "own-sheet.pdf")],
                           capture_output=True, text=True, check=True).stdout  # fmt: skip
-    wide, tall = map(float, re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", told).groups())
+    wide, tall = map(float, re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", message).groups())
     assert (wide / 72 * 25.4, tall / 72 * 25.4) == pytest.approx((841, 594), abs=0.5)
-    assert re.search(r"Pages:\s+1\b", told)
+    assert re.search(r"Pages:\s+1\b", message)
     images = subprocess.run(["pdfimages", "-list", str(tmp_path / "out" / "own-sheet.pdf")],
                             capture_output=True, text=True, check=True).stdout  # fmt: skip
     assert len(images.splitlines()) == 2  # the heading alone: lines and letters, no picture

@@ -53,9 +53,9 @@ def distance(points: np.ndarray, path: np.ndarray) -> np.ndarray:
     """From each point to the nearest place of a polyline."""
     start, step = path[:-1], np.diff(path, axis=0)
     long = np.maximum((step**2).sum(axis=1), 1e-12)
-    apart = points[:, None, :] - start[None]
-    share = np.clip((apart * step[None]).sum(axis=2) / long, 0, 1)
-    return np.sqrt(((apart - share[..., None] * step[None]) ** 2).sum(axis=2).min(axis=1))
+    separate = points[:, None, :] - start[None]
+    share = np.clip((separate * step[None]).sum(axis=2) / long, 0, 1)
+    return np.sqrt(((separate - share[..., None] * step[None]) ** 2).sum(axis=2).min(axis=1))
 
 
 def number(text: str) -> float:
@@ -101,9 +101,9 @@ def check_curves(t) -> int:
         series = next(s for s in chart.drawn_by("report") if s.y == column)
         table = np.column_stack([t.column(series.x), t.column(column)])
         where = np.empty_like(table)
-        for axis, found in enumerate(marks(texts, fields[key])):
-            slope, at_zero = np.polyfit(found[:, 1], found[:, 0], 1)
-            assert np.abs(slope * found[:, 1] + at_zero - found[:, 0]).max() < 0.01, item.name
+        for axis, match in enumerate(marks(texts, fields[key])):
+            slope, at_zero = np.polyfit(match[:, 1], match[:, 0], 1)
+            assert np.abs(slope * match[:, 1] + at_zero - match[:, 0]).max() < 0.01, item.name
             where[:, axis] = slope * table[:, axis] + at_zero
             unit = abs(1 / slope)
             assert any(_says(text.text, unit) for text in texts), (item.name, unit)
@@ -235,14 +235,14 @@ def test_the_same_bytes_in_another_process():
         "from reports.draw.canvas import Line;"
         "sys.stdout.buffer.write(dxf_bytes([Line(((0, 0), (9, 9)))]))"
     )
-    made = {
+    values = {
         subprocess.run(
             [sys.executable, "-c", program], check=True, capture_output=True,
             env={**os.environ, "PYTHONHASHSEED": seed},
         ).stdout
         for seed in "14"  # two orders
     }  # fmt: skip
-    assert len(made) == 1 and b"ENTITIES" in made.pop()
+    assert len(values) == 1 and b"ENTITIES" in values.pop()
 
 
 def test_words_stand_in_the_file_where_the_list_has_them():

@@ -26,12 +26,12 @@ from tests.sheet.sheet_samples import drawn, terms, terms_of
 
 def faults(t) -> list[str]:
     canvas, width, height = drawn(t)
-    found = []
+    collected = []
     texts = [item for item in canvas.items if isinstance(item, Words)]
     for one, other in itertools.combinations(texts, 2):
         if overlap(one.box, other.box):
-            found.append(f"{one.text!r} over {other.text!r} at {one.place}")
-    found += [
+            collected.append(f"{one.text!r} over {other.text!r} at {one.place}")
+    collected += [
         f"a curve through {words.text!r}"
         for words in texts
         if not Canvas([item for item in canvas.items if item.layer is CURVES]).clear(words)
@@ -40,8 +40,8 @@ def faults(t) -> list[str]:
         left, low, right, high = item.box
         edge = 0.0 if not isinstance(item, Words) else 4.9
         if left < edge or low < edge or right > width - edge or high > height - edge:
-            found.append(f"outside: {item}")
-    return found
+            collected.append(f"outside: {item}")
+    return collected
 
 
 @pytest.mark.parametrize("name", samples_with(charts, chapters))

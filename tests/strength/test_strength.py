@@ -60,8 +60,8 @@ def test_the_bush_is_two_thick_rings(run: Evaluation):
     gap = run.value("strength_bush_fit_um") * 1e-6
     gap += 2 * common * alpha * run.value("strength_bush_warming_k")
     moduli = (run.value("strength_bush_modulus_mpa"), run.value("rod_modulus"))
-    found = first.fit_pressure(gap, (inner, common, outer), moduli)
-    assert run.value("st_bush_MPa") == pytest.approx(found, rel=1e-9)
+    actual = first.fit_pressure(gap, (inner, common, outer), moduli)
+    assert run.value("st_bush_MPa") == pytest.approx(actual, rel=1e-9)
 
 
 def test_the_pin_is_a_beam_and_its_shear_that_of_a_ring(run: Evaluation):
@@ -69,23 +69,23 @@ def test_the_pin_is_a_beam_and_its_shear_that_of_a_ring(run: Evaluation):
     force = run.value("st_pin_N")
     modulus = np.pi / 32 * (outer**4 - inner**4) / outer
     sizes = (run.value(f"st_{key}_mm") for key in ("pin_length", "bosses", "eye_length"))
-    found = statics.pin_bending(force, *sizes, modulus)
-    assert run.value("st_pin_bend_MPa") == pytest.approx(found, rel=0.02)  # 1.2 for 12π/32
+    actual = statics.pin_bending(force, *sizes, modulus)
+    assert run.value("st_pin_bend_MPa") == pytest.approx(actual, rel=0.02)  # 1.2 for 12π/32
     shear = statics.pin_shear(force, outer, inner)
     assert run.value("st_pin_shear_MPa") == pytest.approx(shear, rel=0.002)  # 0.85 for 0.8488
 
 
 def test_the_ovality_is_that_of_a_ring_in_size(run: Evaluation):
     sizes = (run.value(f"st_{key}_mm") for key in ("pin_length", "pin", "pin_bore"))
-    found = statics.pin_oval(run.value("st_pin_N"), *sizes, run.value("strength_pin_modulus_mpa"))
-    assert 0.3 < run.value("st_oval_mm") / found < 3
+    actual = statics.pin_oval(run.value("st_pin_N"), *sizes, run.value("strength_pin_modulus_mpa"))
+    assert 0.3 < run.value("st_oval_mm") / actual < 3
 
 
 def test_the_shank_is_a_column(run: Evaluation):
     limit, area = run.value("rod_tensile"), 100 * run.value("st_shank_cm2")
     second, modulus = run.value("st_shank_Jx"), run.value("rod_modulus")
-    found = first.column_factor(limit, area, second, 1000 * run.value("L_rod"), modulus)
-    assert run.value("st_shank_Kx") == pytest.approx(found, rel=1e-9)
+    actual = first.column_factor(limit, area, second, 1000 * run.value("L_rod"), modulus)
+    assert run.value("st_shank_Kx") == pytest.approx(actual, rel=1e-9)
 
 
 def test_safety_is_the_nearer_of_two_lines(run: Evaluation):
@@ -97,8 +97,8 @@ def test_safety_is_the_nearer_of_two_lines(run: Evaluation):
     for key, (part, most, least) in pairs.items():
         limits = run.value(f"{part}_pull"), run.value(f"{part}_yield")
         k, mean = run.value(f"strength_{part}_concentration"), run.value("strength_mean_factor")
-        found = StressCycle.of(run.value(most), run.value(least)).safety(limits, k, mean)
-        assert run.value(key) == pytest.approx(found, rel=1e-9), key
+        actual = StressCycle.of(run.value(most), run.value(least)).safety(limits, k, mean)
+        assert run.value(key) == pytest.approx(actual, rel=1e-9), key
 
 
 @pytest.mark.parametrize("angle", [90, 100, 105, 110, 115, 120, 125, 130])
@@ -164,12 +164,12 @@ def test_numbers_of_a_pin(form: str):
     run = known({"st_pin_N": 169678.3, "st_pin_mm": 48, "st_pin_bore_mm": 26.4,
                  "st_pin_length_mm": 110.5, "st_bosses_mm": 50, "st_eye_length_mm": 58,
                  "strength_pin_modulus_mpa": 2.1e5}, oval_form=form)  # fmt: skip
-    told = {"st_pin_bend_MPa": 173.807, "st_pin_shear_MPa": 127.644, "st_oval_out0_MPa": 68.914,
+    lines = {"st_pin_bend_MPa": 173.807, "st_pin_shear_MPa": 127.644, "st_oval_out0_MPa": 68.914,
             "st_oval_in0_MPa": -415.674, "st_oval_out90_MPa": -223.002,
             "st_oval_in90_MPa": 220.779}  # fmt: skip
     if form == "curved":  # (1 + 2α)/(2 + α) of its first part
-        told |= {"st_oval_in0_MPa": -360.5028, "st_oval_in90_MPa": 170.2537}
-    for key, value in told.items():
+        lines |= {"st_oval_in0_MPa": -360.5028, "st_oval_in90_MPa": 170.2537}
+    for key, value in lines.items():
         assert run.value(key) == pytest.approx(value, rel=5e-6), key
     assert run.value("st_oval_mm") == pytest.approx(0.038979, rel=2e-4)
 

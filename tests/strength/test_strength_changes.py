@@ -26,26 +26,26 @@ def test_with_the_changes_made_all_is_within_its_limits(name: str):
     raw.pop("checks", None)
     model = load_mapping(raw, source="").model
     stresses = usual_stresses(model.strength)
-    made = changed(to_engine(model), stresses, model.strength.safety_allowed)
-    assert len(made.changes) > 3 and not made.left
+    built = changed(to_engine(model), stresses, model.strength.safety_allowed)
+    assert len(built.changes) > 3 and not built.left
     first = to_engine(model)
     sizes = first.strength.sizes(first.geometry.bore, first.crankshaft.pin_diameters[0])
     raw["strength"] |= {f"{key}_mm": round(1e3 * size, 6) for key, size in sizes.items()
                         if key not in ("bore", "crankpin")}  # fmt: skip
     keys = {"bush_fit": ("bush_fit_um", 1e6)}
-    for each in made.changes:
+    for each in built.changes:
         key, scale = keys.get(each.key, (f"{each.key}_mm", 1e3))
         raw["strength"][key] = round(scale * each.after, 6)
     again = evaluate_model(build_model(load_mapping(raw, source="").model)).scalars
     for each in stresses:
-        assert again[each.key] == pytest.approx(made.after[each.key] / quantity(each.key).si)
+        assert again[each.key] == pytest.approx(built.after[each.key] / quantity(each.key).si)
         assert each.excess(again[each.key]) <= 0, each.key
     for key in set(SAFETIES) & again.keys():
-        assert again[key] == pytest.approx(made.after[key])
+        assert again[key] == pytest.approx(built.after[key])
         assert again[key] >= model.strength.safety_allowed - 1e-6
 
 
 def test_an_engine_within_its_limits_is_left_alone():
     model = sample("vaz-2106")
-    made = changed(to_engine(model), usual_stresses(model.strength), model.strength.safety_allowed)
-    assert made.changes == () and made.left == ()
+    built = changed(to_engine(model), usual_stresses(model.strength), model.strength.safety_allowed)
+    assert built.changes == () and built.left == ()

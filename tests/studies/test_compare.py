@@ -59,8 +59,8 @@ def run(*args):
 
 def test_an_efficiency_that_the_cycle_finds_is_no_datum():
     """Friction A + B·c_m: the default of 1 is taken nowhere, and the report leaves it out too."""
-    found = engines(("d-240", "cycle-petrol"))
-    (shown,) = (d for d in differences(found) if d.title == "Механический КПД")
+    actual = engines(("d-240", "cycle-petrol"))
+    (shown,) = (d for d in differences(actual) if d.title == "Механический КПД")
     assert shown.values[1] is None
 
 
@@ -127,8 +127,8 @@ def test_what_differs_comes_first_and_what_is_alike_does_not():
     text = (samples_dir() / "d-240.toml").read_text(encoding="utf-8")
     files = [samples_dir() / "d-240.toml", samples_dir() / "d-260.toml"]
     other = load_text(text.replace("bore_mm = 110.0", "bore_mm = 105.0"), source="b.toml").model
-    found = differences(read_engines(files, [load_toml(files[0]).model, other]))
-    assert [(row.symbol, row.unit, row.values) for row in found] == [("D", "мм", (110.0, 105.0))]
+    actual = differences(read_engines(files, [load_toml(files[0]).model, other]))
+    assert [(row.symbol, row.unit, row.values) for row in actual] == [("D", "мм", (110.0, 105.0))]
 
 
 def test_names_of_files_are_told_apart(tmp_path):
@@ -248,10 +248,10 @@ def row(key, *values):
     ],
 )  # fmt: skip
 def test_a_conclusion_follows_from_the_values(rows, sentence):
-    *_, found = conclusions(("А", "Б"), rows)
-    assert found.replace("\u00a0", " ") == sentence
+    *_, actual = conclusions(("А", "Б"), rows)
+    assert actual.replace("\u00a0", " ") == sentence
     # No number stands at the end of a line with its unit, percent or "times" on the next.
-    assert not re.search(r"\d (%|раза|м/с)", found)
+    assert not re.search(r"\d (%|раза|м/с)", actual)
 
 
 def test_each_engine_has_its_own_decimals_and_no_change_is_told_in_millions_of_per_cent():
@@ -306,30 +306,30 @@ def test_the_book_says_what_is_left_by_a_plain_format(monkeypatch, percent, look
 
 def test_data_of_a_regime_are_said_to_be_of_it():
     """A person reads which regime a speed belongs to, and a choice in words."""
-    found = differences(engines(("d-240", "gots-regimes")))
-    titles = [difference.title for difference in found]
+    actual = differences(engines(("d-240", "gots-regimes")))
+    titles = [difference.title for difference in actual]
     assert len(titles) == len(set(titles))
     assert "Режим 2: частота вращения" in titles
     assert "Газы режима 3: давление впуска" in titles
-    words = {value for each in found for value in each.values if isinstance(value, str)}
+    words = {value for each in actual for value in each.values if isinstance(value, str)}
     assert "polytropic" not in words
-    (speed,) = (d for d in found if d.title == "Режим 2: частота вращения")
+    (speed,) = (d for d in actual if d.title == "Режим 2: частота вращения")
     assert speed.values == (None, 2400)
 
 
 def test_what_one_engine_alone_has_is_named_in_a_sentence_and_no_row_of_dashes():
-    found = engines(("d-240", "d-240-bearings", "gots-regimes"))
-    names = [engine.label for engine in found]
-    shown, said = split_rows(differences(found), names)
+    actual = engines(("d-240", "d-240-bearings", "gots-regimes"))
+    names = [engine.label for engine in actual]
+    shown, said = split_rows(differences(actual), names)
     assert "подшипники и прочность шеек" in said and "газы режима 3" in said
-    for row in (*shown, *split_rows(results(found), names)[0]):
+    for row in (*shown, *split_rows(results(actual), names)[0]):
         known = [value for value in row.values if value is not None]
         assert len(known) == len(names) or len(set(known)) > 1, row.title
-    page = plain(comparison_page(found, media="screen"))
+    page = plain(comparison_page(actual, media="screen"))
     assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
-    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(found)))[INPUTS]
+    sheet = openpyxl.load_workbook(io.BytesIO(book_bytes(actual)))[INPUTS]
     assert said in [cell.value for cell in sheet["A"]]
-    assert split_rows(differences(found[:1] * 2), names[:2]) == ([], "")
+    assert split_rows(differences(actual[:1] * 2), names[:2]) == ([], "")
 
 
 def test_results_that_one_engine_alone_has_are_named_by_their_group():

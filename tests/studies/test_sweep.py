@@ -219,10 +219,10 @@ def test_parquet_holds_the_numbers_of_the_csv(tmp_path: Path) -> None:
     sweep(BASE, vary, tmp_path / "a.parquet", options=SweepOptions(chunk=3))
     frame = pd.read_parquet(tmp_path / "a.parquet")
     assert list(frame.columns) == list(rows[0])
-    for (_, found), row in zip(frame.iterrows(), rows, strict=True):
-        assert ("" if pd.isna(found["error"]) else found["error"]) == row["error"]
+    for (_, item), row in zip(frame.iterrows(), rows, strict=True):
+        assert ("" if pd.isna(item["error"]) else item["error"]) == row["error"]
         if not row["error"]:
-            assert found["M_mean"] == pytest.approx(float(row["M_mean"]), rel=1e-12)
+            assert item["M_mean"] == pytest.approx(float(row["M_mean"]), rel=1e-12)
 
 
 def test_the_workbook_shows_a_family_of_curves(tmp_path: Path) -> None:

@@ -124,17 +124,17 @@ def test_the_page_needs_nothing_from_outside_and_says_verdicts_in_words(page: st
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_the_page_fits_a_phone_and_a_screen(page: str, width: int, tmp_path: Path) -> None:
-    found = browser.measure(page, width, tmp_path / "site")
-    assert found["scroll"] <= found["width"]
-    assert found["wide"] == []
-    assert "STIXGeneral" in found["fonts"]
+    measured = browser.measure(page, width, tmp_path / "site")
+    assert measured["scroll"] <= measured["width"]
+    assert measured["wide"] == []
+    assert "STIXGeneral" in measured["fonts"]
 
 
 def test_pdf_of_a_few_tables(tmp_path: Path) -> None:
-    made = render_pdf(validation_page(small(), media="print"))
-    assert made.startswith(b"%PDF")
-    assert render_pdf(validation_page(small(), media="print")) == made
-    text = " ".join(pages_of(made, tmp_path))
+    page = render_pdf(validation_page(small(), media="print"))
+    assert page.startswith(b"%PDF")
+    assert render_pdf(validation_page(small(), media="print")) == page
+    text = " ".join(pages_of(page, tmp_path))
     for word in ("Книга сверки", "опечатка", "75°10′", "2°52,0′", "0,381"):
         assert word.casefold() in text.casefold(), word
 
@@ -156,8 +156,8 @@ def test_everything_is_written_when_nothing_is_chosen(
     monkeypatch.setattr(page_module, "validate", small)
     done = run("-o", str(tmp_path / "new"))
     assert done.exit_code == 0
-    found = {path.name for path in (tmp_path / "new").iterdir()}
-    assert found == {"validation.csv", "validation.html", "validation.pdf"}
+    collected = {path.name for path in (tmp_path / "new").iterdir()}
+    assert collected == {"validation.csv", "validation.html", "validation.pdf"}
 
 
 def test_an_unrecorded_deviation_needs_a_person(

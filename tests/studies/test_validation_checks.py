@@ -39,10 +39,10 @@ def known(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
 )  # fmt: skip
 def test_printed_numbers(text: str, value: float, unit: float, decimals: int) -> None:
-    found = number(text)
-    assert found is not None
-    assert (found.value, found.decimals) == (pytest.approx(value), decimals)
-    assert found.unit == pytest.approx(unit, rel=1e-12)
+    actual = number(text)
+    assert actual is not None
+    assert (actual.value, actual.decimals) == (pytest.approx(value), decimals)
+    assert actual.unit == pytest.approx(unit, rel=1e-12)
 
 
 @pytest.mark.parametrize("text", ["", "+", "–", "-8633--", "1,5", "nan", "1e3", "82.3 / 90.7"])

@@ -53,9 +53,9 @@ def forces_on_shaft(engine: Engine) -> tuple[list[float], list[np.ndarray]]:
         l1, l2, l3, l4, l5, _ = throw.arms
         rod = start + l1 + throw.left_web_thickness + l2
         web = rod + l3 + l4 + l5 + throw.right_web_thickness / 2
-        for c, place in enumerate(engine.arrangement):
-            if place.throw == i:
-                at = rod + l3 + l4 if place.rod_place else rod
+        for c, index in enumerate(engine.arrangement):
+            if index.throw == i:
+                at = rod + l3 + l4 if index.rod_place else rod
                 up = m_2 * unit - raw.K[0, c] * area
                 add(at, throw.angle, -raw.T[0, c] * area, up)
         add(rod + l3, throw.angle, 0 * one, throw.pin_mass * unit * one)
@@ -94,15 +94,15 @@ def beam_reactions(engine: Engine) -> np.ndarray:
                       [6 * span, 2 * span**2, -6 * span, 4 * span**2]]) / span**3  # fmt: skip
         stiffness[2 * row : 2 * row + 4, 2 * row : 2 * row + 4] += k
     load = np.zeros((2 * count, *shape))
-    for place, force in zip(places, forces, strict=True):
-        if place <= 0 or place >= supports[-1]:
-            end = 0 if place <= 0 else count - 1
+    for position, force in zip(places, forces, strict=True):
+        if position <= 0 or position >= supports[-1]:
+            end = 0 if position <= 0 else count - 1
             load[2 * end] += force
-            load[2 * end + 1] += force * (place - supports[end])
+            load[2 * end + 1] += force * (position - supports[end])
             continue
-        row = int(np.searchsorted(supports, place, side="right")) - 1
+        row = int(np.searchsorted(supports, position, side="right")) - 1
         span = supports[row + 1] - supports[row]
-        a, b = place - supports[row], supports[row + 1] - place
+        a, b = position - supports[row], supports[row + 1] - position
         load[2 * row] += force * b**2 * (3 * a + b) / span**3
         load[2 * row + 1] += force * a * b**2 / span**2
         load[2 * row + 2] += force * a**2 * (a + 3 * b) / span**3
@@ -110,8 +110,8 @@ def beam_reactions(engine: Engine) -> np.ndarray:
     flat, turns = load.reshape(2 * count, -1), slice(1, None, 2)
     moved = np.zeros_like(flat)
     moved[turns] = np.linalg.solve(stiffness[turns, turns], flat[turns])
-    found: np.ndarray = (stiffness @ moved - flat)[::2]
-    return found.reshape(count, *shape)
+    actual: np.ndarray = (stiffness @ moved - flat)[::2]
+    return actual.reshape(count, *shape)
 
 
 def compared(engine: Engine) -> None:
@@ -154,7 +154,7 @@ def test_corrections_carry_no_force_and_no_moment() -> None:
             for k in range(1, 6)
         ]
         np.testing.assert_allclose(sum(added), 0, atol=1e-9)
-        couple = sum(a * place for a, place in zip(added, places, strict=True))
+        couple = sum(a * position for a, position in zip(added, places, strict=True))
         np.testing.assert_allclose(couple, 0, atol=1e-9)
 
 

@@ -22,10 +22,10 @@ def _key(field: Field) -> str:
 def _followed(model: Model) -> set[str]:
     """Names of inputs that a formula or a line across a chart follows, or that rebuild the book."""
     graph = graph_of(model)
-    found = frozenset().union(*(graph.references(node) for node in model.nodes))
-    found |= {name for run in found & model.input_runs.keys() for name in model.input_runs[run]}
-    found |= {name for chart in model.charts for name in chart.levels}
-    return found | {field.name for field in model.inputs if field.structural}
+    item = frozenset().union(*(graph.references(node) for node in model.nodes))
+    item |= {name for run in item & model.input_runs.keys() for name in model.input_runs[run]}
+    item |= {name for chart in model.charts for name in chart.levels}
+    return item | {field.name for field in model.inputs if field.structural}
 
 
 def test_no_number_of_the_input_sheet_is_idle() -> None:

@@ -46,9 +46,9 @@ def test_both_statements_agree(name):
 def test_each_pin_has_its_own_pressure():
     model = load_mapping(with_lists("gots-diesel"), source="x").model
     engine, _ = engine_and_cycle(model)
-    found = solve(engine).scalars
+    actual = solve(engine).scalars
     areas = [(56 - 2 * i) * (28 + i) for i in range(3)]
-    pressures = [found[f"q_pin{n}_max"] for n in ("", 2, 3)]
+    pressures = [actual[f"q_pin{n}_max"] for n in ("", 2, 3)]
     # The pins of one row carry the same load at other angles of the shaft.
     assert [p * a for p, a in zip(pressures, areas, strict=True)] == pytest.approx(
         [pressures[0] * areas[0]] * 3

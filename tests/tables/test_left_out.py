@@ -85,9 +85,9 @@ def test_reduced_inertia_and_gas_torque_with_an_offset_follow_from_the_motion(
     loaded = load_mapping(with_offset("ecoboost-10", crank_offset_mm=offset), source="f")
     engine, _ = engine_and_cycle(loaded.model)
     solution = solve(engine)
-    found, given = solution.columns["inertia"], solution.scalars
+    actual, given = solution.columns["inertia"], solution.scalars
     g, h = engine.geometry, 1e-5
-    phi = np.radians(found["phi_deg"])
+    phi = np.radians(actual["phi_deg"])
 
     def places(angle: Any) -> tuple[Any, ...]:
         """Piston pin and centre of the rod along and across the axis, the rod's angle."""
@@ -99,10 +99,10 @@ def test_reduced_inertia_and_gas_torque_with_an_offset_follow_from_the_motion(
     ends = zip(places(phi + h), places(phi - h), strict=True)
     pin, along, across, turning = ((after - before) / (2 * h) for after, before in ends)
     rod = given["rod_mass"] * (along**2 + across**2) + given["I_rod"] * turning**2
-    np.testing.assert_allclose(found["I_rod_kgm2"], rod, rtol=1e-6)
-    np.testing.assert_allclose(found["I_piston_kgm2"], given["piston_mass"] * pin**2, atol=1e-9)
-    assert "I_error" not in found and "t_motored_MPa" not in solution.columns["tangential"]
-    mean = np.mean(found["Mgas_Nm"][:-1])
+    np.testing.assert_allclose(actual["I_rod_kgm2"], rod, rtol=1e-6)
+    np.testing.assert_allclose(actual["I_piston_kgm2"], given["piston_mass"] * pin**2, atol=1e-9)
+    assert "I_error" not in actual and "t_motored_MPa" not in solution.columns["tangential"]
+    mean = np.mean(actual["Mgas_Nm"][:-1])
     assert mean == pytest.approx(given["M_mean"], rel=0.02)  # inertia gives no work
 
 
@@ -164,8 +164,8 @@ def test_sums_at_the_rays_are_among_the_numbers() -> None:
     assert {"table_14_sums", "table_14_main_1_sums", "table_14_main_5_sums"} <= set(tables)
     for name in ("table_14", "table_14_main_2"):
         rays = [key for key in tables[name] if key.startswith("ray_")]
-        found = [sum(value or 0.0 for value in tables[name][key][:-1]) for key in rays]  # type: ignore[misc]
-        assert tables[f"{name}_sums"]["ray_sum"] == pytest.approx(found, rel=1e-12)
+        collected = [sum(value or 0.0 for value in tables[name][key][:-1]) for key in rays]  # type: ignore[misc]
+        assert tables[f"{name}_sums"]["ray_sum"] == pytest.approx(collected, rel=1e-12)
         assert tables[f"{name}_sums"]["ray_deg"] == [360 * i / len(rays) for i in range(len(rays))]
 
 

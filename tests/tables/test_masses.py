@@ -113,12 +113,12 @@ def test_three_masses_keep_mass_centre_and_inertia() -> None:
 
 
 def test_the_estimate_is_marked() -> None:
-    found = loaded(WAYS["estimate"])
-    (warning,) = (w for w in found.warnings if "таблице 4" in w.what)
+    actual = loaded(WAYS["estimate"])
+    (warning,) = (w for w in actual.warnings if "таблице 4" in w.what)
     assert warning.what == (
         "оценены по таблице 4 учебника: поршневая группа, шатун, шатунная шейка, щёки"
     )
-    notes = [block.note for block in build_model(found.model).blocks if block.note]
+    notes = [block.note for block in build_model(actual.model).blocks if block.note]
     assert any(note.startswith("Массы оценены по таблице 4") for note in notes)
 
 

@@ -26,17 +26,17 @@ from tests.tables.test_two_statements import assert_agree
 def test_the_middle_of_the_widest_unloaded_arc_is_taken(unloaded, ray):
     sums = np.full(12, 5e6)
     sums[np.array(unloaded, dtype=int) - 1] = 0
-    found, place = least_loaded(np.stack([sums, sums]))
-    assert found.tolist() == [ray, ray]
-    assert np.degrees(place) == pytest.approx((30 * (ray - 1) + 180) % 360)
+    actual, position = least_loaded(np.stack([sums, sums]))
+    assert actual.tolist() == [ray, ray]
+    assert np.degrees(position) == pytest.approx((30 * (ray - 1) + 180) % 360)
 
 
 @pytest.mark.parametrize("size", [0.0, 5e6, 5e9])
 def test_a_tie_is_the_same_in_both_statements_whatever_the_sums(size):
     tie = float(blocks.TIE) * 1e6  # of the formula, which counts in MPa
-    for apart, ray in ((0.5 * tie, 4), (1.5 * tie, 3)):
+    for separate, ray in ((0.5 * tie, 4), (1.5 * tie, 3)):
         sums = np.full(12, size + 1e6)
-        sums[[2, 3, 4]] = size, size + apart, size + apart
+        sums[[2, 3, 4]] = size, size + separate, size + separate
         assert least_loaded(sums)[0] == ray
 
 

@@ -83,12 +83,12 @@ def test_the_pressure_is_that_of_the_own_rod_on_its_part_of_the_pin(name):
         own = 1e6 * float(live["B_max"]) * float(live["F_piston"])
         assert own != pytest.approx(force)
         force = own
-    for found in solved(name)[1:]:
+    for item in solved(name)[1:]:
         pressure = force / (pin.diameter * pin.length / pin.rods)
-        assert float(found["q_pin_max"]) == pytest.approx(pressure)
+        assert float(item["q_pin_max"]) == pytest.approx(pressure)
         if name != "articulated V6":  # the film has the same force on the same width
-            assert float(found["q_pin_max"]) == pytest.approx(float(found["oil_kmax1_MPa"]))
-            assert float(found["q_pin_mean"]) == pytest.approx(float(found["oil_k1_MPa"]))
+            assert float(item["q_pin_max"]) == pytest.approx(float(item["oil_kmax1_MPa"]))
+            assert float(item["q_pin_mean"]) == pytest.approx(float(item["oil_k1_MPa"]))
 
 
 @pytest.mark.parametrize("name", ["yamz-236", "d-240-bearings"])
@@ -111,9 +111,9 @@ def test_the_film_carries_a_rod_on_its_own_part(name):
     if name == "articulated V6":
         assert "oil_F1_N" not in solved(name)[1]
         return
-    for found in solved(name)[1:]:
-        pressure = float(found["oil_F1_N"]) / (pin.diameter * pin.length / pin.rods)
-        assert float(found["oil_k1_MPa"]) == pytest.approx(pressure)
+    for item in solved(name)[1:]:
+        pressure = float(item["oil_F1_N"]) / (pin.diameter * pin.length / pin.rods)
+        assert float(item["oil_k1_MPa"]) == pytest.approx(pressure)
 
 
 def test_a_torque_passes_all_pins_of_a_throw(name):
@@ -132,14 +132,14 @@ def test_a_torque_passes_all_pins_of_a_throw(name):
 
 
 def test_all_pins_of_a_throw_have_their_inertia(name):
-    pin, (engine, found, live) = CASES[name][1], solved(name)
+    pin, (engine, actual, live) = CASES[name][1], solved(name)
     d, along, r = pin.diameter / 1000, pin.length / 1000, engine.geometry.crank_radius
     one = 7800 * along * math.pi * (d**4 / 32 + d**2 / 4 * r**2)
     if name == "articulated V6":  # the tables have no sum for it
         return
     assert float(live["I_pin"]) == pytest.approx(one)
     rest = float(live["I_main"]) + 2 * float(live["I_web"])
-    for each in (found, live):
+    for each in (actual, live):
         assert float(each["I_crank"]) == pytest.approx(rest + pin.parts * one)
 
 
@@ -165,9 +165,9 @@ BY_HAND = {
 @pytest.mark.parametrize("case", BY_HAND)
 def test_figures_by_hand(case):
     mean, largest, reserve, stiffness, inertia = BY_HAND[case]
-    _, found, live = solved(case)
-    assert found["q_pin_mean"] == pytest.approx(mean, rel=1e-4)
-    assert found["q_pin_max"] == pytest.approx(largest, rel=1e-4)
-    assert found["oil_K1"] == pytest.approx(reserve, rel=1e-4)
+    _, actual, live = solved(case)
+    assert actual["q_pin_mean"] == pytest.approx(mean, rel=1e-4)
+    assert actual["q_pin_max"] == pytest.approx(largest, rel=1e-4)
+    assert actual["oil_K1"] == pytest.approx(reserve, rel=1e-4)
     assert 1 / float(live["tore_wilson_1"]) == pytest.approx(stiffness, rel=1e-4)
-    assert found["I_crank"] == pytest.approx(inertia, rel=1e-4)
+    assert actual["I_crank"] == pytest.approx(inertia, rel=1e-4)

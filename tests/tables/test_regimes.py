@@ -95,8 +95,8 @@ def test_the_governing_regime_is_named_for_each_load() -> None:
     values, solution = evaluate_model(build_model(data)).scalars, solve(*engine_and_cycle(data))
     names = ["максимальная мощность", "максимальный момент", "холостой ход"]
     for key in ("Rpin_max", "Rmain1_max", "Rmain4_mean", "M_max", "dM_pin3", "q_pin_mean"):
-        found = [solution.scalars[key + end] for end in ("", "_R2", "_R3")]
-        assert values[f"governs_{key}"] == names[int(np.argmax(found))], key
+        collected = [solution.scalars[key + end] for end in ("", "_R2", "_R3")]
+        assert values[f"governs_{key}"] == names[int(np.argmax(collected))], key
     lowest = [solution.columns[f"P4_1{end}"]["Ps_MPa"].min() for end in ("", "_R2", "_R3")]
     assert values["governs_Ps_min"] == names[int(np.argmin(lowest))]
 
@@ -129,8 +129,10 @@ def test_a_regime_in_the_open_workbook_is_live(tmp_path: Path) -> None:
 def test_solving_together_is_solving_apart() -> None:
     engine = to_engine(read(coarse()))
     first, second = solve(engine).regimes
-    apart = solve(replace(engine, regimes=engine.regimes[1:])).regimes[0]
-    np.testing.assert_array_equal(second.columns["P4_1"]["Ps_MPa"], apart.columns["P4_1"]["Ps_MPa"])
+    separate = solve(replace(engine, regimes=engine.regimes[1:])).regimes[0]
+    np.testing.assert_array_equal(
+        second.columns["P4_1"]["Ps_MPa"], separate.columns["P4_1"]["Ps_MPa"]
+    )
     assert first.engine.omega < second.engine.omega
 
 

@@ -34,12 +34,12 @@ def test_errors_are_the_differences_and_vanish_with_lambda() -> None:
 def test_known_error_at_90_degrees() -> None:
     """s(90°) = r(1 + λ/2) against r[1 + (1 − √(1 − λ²))/λ]."""
     engine = to_engine(sample("gots-diesel"))
-    found = solve(engine)
+    actual = solve(engine)
     r, lam = engine.geometry.crank_radius, engine.geometry.lam
-    row = list(found.columns["two_term"]["phi_deg"]).index(90)
+    row = list(actual.columns["two_term"]["phi_deg"]).index(90)
     expected = r * (lam / 2 - (1 - np.sqrt(1 - lam**2)) / lam)
-    assert found.columns["two_term"]["es_mm"][row] == pytest.approx(1000 * expected, rel=1e-9)
-    assert found.scalars["phi_es_deg"] == 90
+    assert actual.columns["two_term"]["es_mm"][row] == pytest.approx(1000 * expected, rel=1e-9)
+    assert actual.scalars["phi_es_deg"] == 90
 
 
 def test_torque_error_belongs_to_the_force_error() -> None:

@@ -94,16 +94,16 @@ REASONS: dict[int, str] = {
 
 def numbers(text: str) -> set[int]:
     """Numbers of the book's formulas that a text names after the author."""
-    found: set[int] = set()
+    collected: set[int] = set()
     for match in _NAMED.finditer(text):
         part = match.group()
         for first, last in _RANGE.findall(part):
             if int(last) - int(first) < LONGEST:  # «(1)-(60)» names the book, not a formula
-                found |= set(range(int(first), int(last) + 1))
+                collected |= set(range(int(first), int(last) + 1))
             else:
                 part = part.replace(f"({first})", "").replace(f"({last})", "")
-        found |= {int(number) for number in _ONE.findall(part)}
-    return {number for number in found if 1 <= number <= LAST}
+        collected |= {int(number) for number in _ONE.findall(part)}
+    return {number for number in collected if 1 <= number <= LAST}
 
 
 def _docstrings(tree: ast.Module) -> Iterator[tuple[str, str]]:
@@ -126,20 +126,20 @@ def _sources(tree: ast.Module) -> Iterator[str]:
 @cache
 def places() -> dict[int, tuple[list[str], list[str]]]:
     """Number → functions of the solver, modules and books of the tables that name it."""
-    found: dict[int, tuple[list[str], list[str]]] = {n: ([], []) for n in range(1, LAST + 1)}
+    collected: dict[int, tuple[list[str], list[str]]] = {n: ([], []) for n in range(1, LAST + 1)}
     for path in sorted((ROOT / "kshm").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for name, text in _docstrings(tree):
             for number in numbers(text.replace("\n", " ")):
-                found[number][0].append(f"{path.stem}.{name}")
+                collected[number][0].append(f"{path.stem}.{name}")
     for path in sorted((ROOT / "reports" / "tables").rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for number in {n for text in _sources(tree) for n in numbers(text)}:
-            found[number][1].append(path.stem)
+            collected[number][1].append(path.stem)
     for path in sorted((ROOT / "templates" / "tables").glob("*.book")):
         for number in numbers(_COMMENT.sub("", path.read_text(encoding="utf-8"))):
-            found[number][1].append(path.stem)
-    return found
+            collected[number][1].append(path.stem)
+    return collected
 
 
 def render() -> str:

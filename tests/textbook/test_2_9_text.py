@@ -22,12 +22,12 @@ ROUNDED_BY_THE_WAY = {
 
 
 def test_30_of_42_numbers_agree_and_the_others_are_known() -> None:
-    found = checks("text_2_9")
-    assert len(found) == 42
+    actual = checks("text_2_9")
+    assert len(actual) == 42
     assert beyond("text_2_9") == recorded("text_2_9")
     assert {row for row, _ in recorded("text_2_9", Verdict.MISPRINT)} == MISPRINTS
     assert {row for row, _ in recorded("text_2_9", Verdict.NOT_REPRODUCED)} == UNKNOWN
-    units = {row: check.cell.units for (row, _), check in found.items()}
+    units = {row: check.cell.units for (row, _), check in actual.items()}
     assert {row: wide for row, wide in units.items() if wide != 0.5} == ROUNDED_BY_THE_WAY
 
 

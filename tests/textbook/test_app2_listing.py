@@ -37,12 +37,12 @@ def printed_outputs() -> list[str]:
 def differing(listing: Listing) -> dict[str, float]:
     """Keys that do not print as the listing does, with the relative difference."""
     result = cycle(printed_inputs(), listing)
-    found = {}
+    collected = {}
     for q, text in zip(OUTPUTS, printed_outputs(), strict=True):
         value = value_of(result, q.key)
         if f"{value:.{q.decimals}f}" != f"{float(text):.{q.decimals}f}":
-            found[q.key] = value / float(text) - 1
-    return found
+            collected[q.key] = value / float(text) - 1
+    return collected
 
 
 def test_codes_of_the_listing_are_all_used():
@@ -54,22 +54,22 @@ def test_codes_of_the_listing_are_all_used():
 @pytest.mark.parametrize("fitted", [FITTED, Listing(1.0782, 1.22775)])
 def test_31_of_34_outputs_to_the_printed_digit(fitted):
     """The second pair fits the scalars as well, but not all 55 temperatures."""
-    found = differing(fitted)
-    assert set(found) == UNEXPLAINED
-    assert len(OUTPUTS) - len(found) == 31
+    actual = differing(fitted)
+    assert set(actual) == UNEXPLAINED
+    assert len(OUTPUTS) - len(actual) == 31
 
 
 def test_the_three_differences_have_their_known_size():
-    found = differing(FITTED)
-    assert found["effective.air_flow"] == pytest.approx(4.2e-5, abs=0.2e-5)
-    assert found["turbo.turbine_flow"] == pytest.approx(1.98e-2, abs=0.02e-2)
-    assert found["turbo.t_t"] == pytest.approx(-1.41e-3, abs=0.05e-3)
+    actual = differing(FITTED)
+    assert actual["effective.air_flow"] == pytest.approx(4.2e-5, abs=0.2e-5)
+    assert actual["turbo.turbine_flow"] == pytest.approx(1.98e-2, abs=0.02e-2)
+    assert actual["turbo.t_t"] == pytest.approx(-1.41e-3, abs=0.05e-3)
 
 
 def test_27_of_34_without_the_fitted_numbers():
-    found = differing(FORMULAS)
-    assert set(found) == UNEXPLAINED | NEED_FITS
-    assert max(abs(found[key]) for key in NEED_FITS) < 1.5e-4
+    actual = differing(FORMULAS)
+    assert set(actual) == UNEXPLAINED | NEED_FITS
+    assert max(abs(actual[key]) for key in NEED_FITS) < 1.5e-4
 
 
 def test_the_printed_xi_b_cannot_be_what_the_program_used():
@@ -146,11 +146,11 @@ def _ratio(phi: np.ndarray, lam: float) -> np.ndarray:
 
 
 def test_design_mode_gives_the_sizes_of_the_textbook():
-    found = design(printed_inputs(), 70e3, 1.068, listing=FITTED)
-    assert found.bore_exact * 1e3 == pytest.approx(87.79, abs=0.005)
-    assert found.stroke_exact * 1e3 == pytest.approx(93.76, abs=0.005)
-    assert (found.bore, found.stroke) == (0.088, 0.094)
-    assert value_of(found.cycle, "effective.power_e") == pytest.approx(70.5, abs=0.05)
+    actual = design(printed_inputs(), 70e3, 1.068, listing=FITTED)
+    assert actual.bore_exact * 1e3 == pytest.approx(87.79, abs=0.005)
+    assert actual.stroke_exact * 1e3 == pytest.approx(93.76, abs=0.005)
+    assert (actual.bore, actual.stroke) == (0.088, 0.094)
+    assert value_of(actual.cycle, "effective.power_e") == pytest.approx(70.5, abs=0.05)
 
 
 def test_the_clean_method_names_the_program_errors():

@@ -29,13 +29,13 @@ def test_184_of_185_cells_agree_and_the_other_is_the_misprint() -> None:
 
 def test_columns_of_eps_are_swapped_in_print() -> None:
     """By its own headers (1), (2) no row of ε but those of zeros would agree."""
-    found = checks("P3_2")
+    actual = checks("P3_2")
     wrong = {
         key
-        for key, check in found.items()
+        for key, check in actual.items()
         if key[1] in SWAPPED
         and check_cell(
-            table("P3_2"), check.cell, found[key[0], SWAPPED[key[1]]].ours
+            table("P3_2"), check.cell, actual[key[0], SWAPPED[key[1]]].ours
         ).verdict != "agrees"
     }  # fmt: skip
     assert {column for _, column in wrong} == set(SWAPPED)

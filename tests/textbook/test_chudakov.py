@@ -79,11 +79,11 @@ def test_inertia_harmonics_of_the_two_term_motion(lam: float) -> None:
     acceleration = np.cos(PHI) + lam * np.cos(2 * PHI)
     velocity = np.sin(PHI) + lam / 2 * np.sin(2 * PHI)
     orders = np.arange(1, 17) / 2
-    found = harmonics.analyse(-acceleration * velocity, 4 * np.pi, orders)
+    actual = harmonics.analyse(-acceleration * velocity, 4 * np.pi, orders)
     expected = np.zeros(16)
     expected[[1, 3, 5, 7]] = harmonics.inertia_coefficients(lam)
-    assert found.sine == pytest.approx(expected, abs=1e-14)
-    assert found.cosine == pytest.approx(np.zeros(16), abs=1e-14)
+    assert actual.sine == pytest.approx(expected, abs=1e-14)
+    assert actual.cosine == pytest.approx(np.zeros(16), abs=1e-14)
 
 
 @pytest.mark.parametrize("lam", [0.2, 0.3, 0.4])
@@ -95,10 +95,10 @@ def test_exact_second_order_is_half_and_a_thirty_second_of_lambda_to_the_fourth(
     j = sum(
         harmonics.acceleration_amplitude(lam, n) * np.cos(n * PHI) for n in (1, *range(2, 60, 2))
     )
-    found = harmonics.analyse(-j * velocity, 4 * np.pi, orders)
-    assert found.amplitude[1] == pytest.approx(0.5 + lam**4 / 32, abs=lam**6 / 16)
-    assert found.amplitude[1] > 0.5
-    assert abs(found.phase[1]) == pytest.approx(np.pi)
+    actual = harmonics.analyse(-j * velocity, 4 * np.pi, orders)
+    assert actual.amplitude[1] == pytest.approx(0.5 + lam**4 / 32, abs=lam**6 / 16)
+    assert actual.amplitude[1] > 0.5
+    assert abs(actual.phase[1]) == pytest.approx(np.pi)
 
 
 @settings(max_examples=20)
@@ -122,11 +122,11 @@ def test_parseval_over_all_orders() -> None:
     engine = replace(solution("d-240").engine, step_deg=10)
     curve = solve(engine).columns["tangential"]["t_gas_MPa"]
     orders = np.arange(1, 36) / 2
-    found = harmonics.analyse(curve, 4 * np.pi, orders)
+    actual = harmonics.analyse(curve, 4 * np.pi, orders)
     body = curve[:-1]
     # The highest of 72 samples' orders (18) counts once.
     last = (body * (-1.0) ** np.arange(72)).mean()
-    power = body.mean() ** 2 + (found.amplitude**2).sum() / 2 + last**2
+    power = body.mean() ** 2 + (actual.amplitude**2).sum() / 2 + last**2
     assert (body**2).mean() == pytest.approx(power, rel=1e-12)
 
 
@@ -170,8 +170,8 @@ def test_shift_of_the_shafts_needs_half_the_force_on_each() -> None:
     The printed 0.5·P_ц = 0.5·λ m_j R ω² makes P_ц twice as great and h half of that.
     """
     engine = solution("d-240").engine
-    found = balance.cylinders_of(engine)
-    force, _ = balance.reciprocating(engine, found, 2)
+    actual = balance.cylinders_of(engine)
+    force, _ = balance.reciprocating(engine, actual, 2)
     scalars = solution("d-240").scalars
     moment = 4 * 1e6 * scalars["t_j2"] * scalars["F_piston"] * scalars["r_crank"]
     psi = engine.balancing.suppression
@@ -192,6 +192,6 @@ def test_unknowable_orders_are_refused() -> None:
 def test_what_differs_has_symbols_that_differ():
     """Coefficients of the series, of two terms, of the article, in its unit: one list has all."""
     keys = ("t_inertia2", "t_j2", "t_j_order2", "d_j", "d_j_technical", "gas_phase_deg")
-    found = [quantity(key) for key in keys]
-    assert len({q.symbol for q in found}) == len({q.tex for q in found}) == len(keys)
-    assert found[-1].tex.startswith(r"\gamma")  # as the text of the chapter has it
+    collected = [quantity(key) for key in keys]
+    assert len({q.symbol for q in collected}) == len({q.tex for q in collected}) == len(keys)
+    assert collected[-1].tex.startswith(r"\gamma")  # as the text of the chapter has it

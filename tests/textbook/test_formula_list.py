@@ -27,10 +27,10 @@ def test_docs_hold_the_list() -> None:
     """Every row is there and names nothing that has gone; the module renews the file."""
     written = (ROOT / "docs" / "formulas.md").read_text(encoding="utf-8")
     rows = dict(re.findall(r"^\| (\d+) \| (.*) \|$", written, flags=re.M))
-    found = places()
+    actual = places()
     assert [int(number) for number in rows] == list(range(1, LAST + 1))
     for number, row in rows.items():
-        solver, tables = found[int(number)]
+        solver, tables = actual[int(number)]
         assert row.startswith(FORMULAS[int(number)])
         named = set(re.findall(r"`([^`]+)`", row.split(" | ", 1)[1]))
         assert named <= {*solver, *tables}, number

@@ -119,10 +119,10 @@ def test_approximation_19_on_the_samples() -> None:
 def test_rod_model_against_slices() -> None:
     """Mass, centre and central inertia of the cone and the rings, summed slice by slice."""
     rod = masses.rod_sizes(0.11, 0.068, 0.04, 0.23)
-    found = masses.rod_estimate(rod)
+    actual = masses.rod_estimate(rod)
     span = rod.length - rod.cap_height - rod.small_outer / 2
     z = (np.arange(200000) + 0.5) * span / 200000
-    radius = found.radius_big - (found.radius_big - found.radius_small) * z / span
+    radius = actual.radius_big - (actual.radius_big - actual.radius_small) * z / span
     mass = 7800 * np.pi * radius**2 * span / 200000
     big = 7800 * np.pi * (rod.cap_height**2 - (rod.pin_diameter / 2) ** 2) * rod.big_length
     small = 7800 * np.pi / 4 * (rod.small_outer**2 - rod.small_bore**2) * rod.small_length
@@ -136,10 +136,10 @@ def test_rod_model_against_slices() -> None:
         (mass * (radius**2 / 4 + (z + rod.cap_height - centre) ** 2)).sum()
         + big * centre**2 + small * (rod.length - centre) ** 2 + rings
     )  # fmt: skip
-    assert found.mass == pytest.approx(total, rel=1e-8)
-    assert found.centre == pytest.approx(centre, rel=1e-8)
-    assert found.inertia == pytest.approx(inertia, rel=1e-8)
-    assert 0.5 < found.mass / 0.11**2 * 4 / np.pi / 150 < 3  # near the paper's 100…200 kg/m²
+    assert actual.mass == pytest.approx(total, rel=1e-8)
+    assert actual.centre == pytest.approx(centre, rel=1e-8)
+    assert actual.inertia == pytest.approx(inertia, rel=1e-8)
+    assert 0.5 < actual.mass / 0.11**2 * 4 / np.pi / 150 < 3  # near the paper's 100…200 kg/m²
 
 
 def test_throw_needs_the_fourth_power() -> None:

@@ -50,13 +50,13 @@ def test_row_130_of_table_3_is_row_140_of_table_2() -> None:
 
 def test_our_windows_and_sums_are_the_printed_ones() -> None:
     """A force towards the middle of each printed window falls into just those rays."""
-    found = checks("table_14")
-    assert len(found) == 25 * 12
+    actual = checks("table_14")
+    assert len(actual) == 25 * 12
     assert beyond("table_14") == recorded("table_14") == set()
-    empty = [check for check in found.values() if not check.cell.text]
+    empty = [check for check in actual.values() if not check.cell.text]
     assert len(empty) == 187
     assert all(check.ours == "" for check in empty)
-    assert all(0 < check.tolerance <= 0.05 for check in found.values() if check.cell.text)
+    assert all(0 < check.tolerance <= 0.05 for check in actual.values() if check.cell.text)
 
 
 def test_the_forces_belong_to_another_engine() -> None:

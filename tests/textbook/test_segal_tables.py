@@ -27,10 +27,10 @@ def exact_s(row: float, column: str) -> float:
 
 
 def test_table_2_within_a_minute() -> None:
-    found = checks("segal_t2")
+    actual = checks("segal_t2")
     assert tolerance_of("segal_t2").units == 1
-    assert len(found) == 143
-    for (row, column), check in found.items():
+    assert len(actual) == 143
+    for (row, column), check in actual.items():
         assert check.ours == pytest.approx(exact_beta(float(row), column), abs=1e-9)
     assert beyond("segal_t2") == recorded("segal_t2")
     assert beyond("segal_t2") == {
@@ -125,10 +125,10 @@ def test_inverse_problem_by_all_formulas(solved: Solution) -> None:
 def test_smallest_acceleration_is_the_smallest(lam: float) -> None:
     alpha = np.linspace(np.pi / 2, np.pi, 20001)
     at = np.array(lam)
-    for found, curve in (
+    for item, curve in (
         (segal.min_acceleration(lam), segal.exact(alpha, at).j),
         (segal.min_acceleration_two_term(lam), segal.two_term(alpha, at).j),
     ):
-        assert found[1] == pytest.approx(curve.min(), abs=1e-8)
-        assert found[1] <= curve.min() + 1e-12
+        assert item[1] == pytest.approx(curve.min(), abs=1e-8)
+        assert item[1] <= curve.min() + 1e-12
     assert (segal.min_acceleration_two_term(lam)[0] == pytest.approx(np.pi)) == (lam <= 0.25)

@@ -97,11 +97,11 @@ def test_the_web_of_the_strength_is_that_of_the_throw(name: str) -> None:
     model = load_mapping(raw, source="f").model
     live = evaluate_model(build_model(model)).scalars
     engine, cycle = engine_and_cycle(model)
-    found = solve(engine, cycle=cycle).scalars
+    actual = solve(engine, cycle=cycle).scalars
     assert [live[f"web{k}_left_mm"] for k in (1, 2, 3)] == [20, 17, 22]
     assert live["st_web_width_mm"] == live["web1_width_mm"] == 91
     assert float(live["st_web_thickness_mm"]) == 17
-    assert found["I_crank"] == pytest.approx(float(live["I_crank"]))
+    assert actual["I_crank"] == pytest.approx(float(live["I_crank"]))
     assert not webs_remark(model)  # a web is without a thickness of its own
     raw["crankshaft"]["arms"][1]["left_web_mm"] = 21.0
     remark = webs_remark(load_mapping(raw, source="f").model)

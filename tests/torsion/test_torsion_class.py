@@ -53,10 +53,10 @@ def test_a_right_book_is_right_throughout() -> None:
 
 
 def test_a_wrong_inertia_is_wrong_once_and_carried_on() -> None:
-    found = unlike_right(CLASS.marks({"torJ2": 1.5}))
-    assert found.pop("torsion_train.tor_J_kgm2") == "wrong"
-    assert set(found.values()) <= {"carried"}
-    assert "torsion_forms.tor_theta1" in found
+    actual = unlike_right(CLASS.marks({"torJ2": 1.5}))
+    assert actual.pop("torsion_train.tor_J_kgm2") == "wrong"
+    assert set(actual.values()) <= {"carried"}
+    assert "torsion_forms.tor_theta1" in actual
 
 
 def test_every_variant_has_values_of_its_own() -> None:
@@ -78,11 +78,11 @@ def test_a_study_over_the_flywheel(tmp_path: Path) -> None:
     wanted = ("tor_f1_hz", "tor_worst", "tor_worst_rpm", "tor_top_MPa")
     sweep(base, ("torsion.flywheel_kg_m2=0.5:2.5:3",), target, quantities=wanted)
     rows = list(csv.DictReader(target.open(encoding="utf-8")))
-    found = [float(row["tor_f1_hz"]) for row in rows]
-    assert found == sorted(found, reverse=True)
+    collected = [float(row["tor_f1_hz"]) for row in rows]
+    assert collected == sorted(collected, reverse=True)
     raw["torsion"]["flywheel_kg_m2"] = 1.5
     single = solve(*engine_and_cycle(load_mapping(raw, source="one").model)).scalars
-    assert found[1] == pytest.approx(single["tor_f1_hz"])
+    assert collected[1] == pytest.approx(single["tor_f1_hz"])
     assert float(rows[1]["tor_worst"]) == pytest.approx(single["tor_worst"])
     tops = [float(row["tor_top_MPa"]) for row in rows]
     assert len({round(top, 6) for top in tops}) == 3

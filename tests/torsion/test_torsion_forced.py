@@ -52,10 +52,10 @@ def own_excitation(study: TorsionStudy) -> np.ndarray:
     torque = np.array([own_torque(study, rpm) for rpm in SPEEDS])
     phi = np.linspace(0, 4 * np.pi, torque.shape[1], endpoint=False)
     first = 2 * torque @ np.exp(-1j * np.outer(phi, orders)) / len(phi)
-    found = np.zeros((9, len(SPEEDS), 24), dtype=complex)
+    actual = np.zeros((9, len(SPEEDS), 24), dtype=complex)
     for cylinder, offset in enumerate(offsets):
-        found[2 + cylinder] = first * np.exp(-1j * orders * offset)
-    return found
+        actual[2 + cylinder] = first * np.exp(-1j * orders * offset)
+    return actual
 
 
 def test_the_excitation_written_down_again(study: TorsionStudy) -> None:
@@ -162,10 +162,10 @@ def test_orders_are_added_in_time() -> None:
     amplitudes = rng.normal(size=(3, 24)) + 1j * rng.normal(size=(3, 24))
     phi = np.linspace(0, 4 * np.pi, 20000)
     wanted = np.abs((amplitudes @ np.exp(1j * np.outer(orders, phi))).real).max(axis=1)
-    found = torsion.sum_in_time(amplitudes, orders, 0.5)
-    assert found == pytest.approx(wanted, rel=0.01)
-    assert np.all(found <= wanted * (1 + 1e-6))
-    assert np.all(found < np.abs(amplitudes).sum(axis=1))
+    actual = torsion.sum_in_time(amplitudes, orders, 0.5)
+    assert actual == pytest.approx(wanted, rel=0.01)
+    assert np.all(actual <= wanted * (1 + 1e-6))
+    assert np.all(actual < np.abs(amplitudes).sum(axis=1))
 
 
 def test_the_leading_order_is_that_of_whole_matrices(study: TorsionStudy) -> None:
@@ -176,15 +176,15 @@ def test_the_leading_order_is_that_of_whole_matrices(study: TorsionStudy) -> Non
     turning = np.exp(1j * np.outer(study.orders, np.linspace(0, 4 * np.pi, 1500)))
     leading = []
     for at, speed in enumerate(study.speeds):
-        found = []
-        for place, order in enumerate(study.orders):
+        collected = []
+        for index, order in enumerate(study.orders):
             omega = speed * order
             system = (1 + 1j * loss) * springs + 1j * omega * np.diag(study.damping)
             angles = np.linalg.solve(
-                system - omega**2 * np.diag(train.inertias), load[:, at, place]
+                system - omega**2 * np.diag(train.inertias), load[:, at, index]
             )
-            found.append(train.stiffnesses * np.diff(angles) / train.moduli)
-        by_shaft = np.array(found).T
+            collected.append(train.stiffnesses * np.diff(angles) / train.moduli)
+        by_shaft = np.array(collected).T
         worst = np.abs((by_shaft @ turning).real).max(axis=1).argmax()
         leading.append(study.orders[np.abs(by_shaft[worst]).argmax()])
     assert forced_columns(study)["tor_lead_order"].tolist() == leading
@@ -196,10 +196,10 @@ def test_the_energy_method_is_the_resonance_of_a_single_order(study: TorsionStud
     only = replace(study.inputs, loss_factor=0.002, damping=0.0)
     light = TorsionStudy(study.case, only)
     speed = light.modes.omega[:1] / 6.0
-    place = int(np.flatnonzero(light.orders == 6)[0])
-    exact = np.abs(light.response(speed).angles[0, 0, place])
+    position = int(np.flatnonzero(light.orders == 6)[0])
+    exact = np.abs(light.response(speed).angles[0, 0, position])
     from kshm.results.torsion import torsion_results
 
     engine = replace(study.case.engine, torsion=only)
     table = torsion_results(Case(engine, study.case.raw, 0))[0]["torsion_critical"]
-    assert table["tor_A1_deg"][place] == pytest.approx(exact, rel=0.03)
+    assert table["tor_A1_deg"][position] == pytest.approx(exact, rel=0.03)

@@ -126,10 +126,10 @@ def test_the_form_of_a_frequency_has_as_many_nodes_as_lower_ones(train: Train) -
     # Frequencies that all but meet share their forms: only clear ones are counted.
     clear = np.diff(modes.omega, prepend=0, append=np.inf) > 1e-3 * modes.omega.max()
     number = np.arange(len(modes.omega)) + (1 if train.is_free else 0)
-    found = np.isfinite(torsion.nodes(modes.forms)).sum(axis=1)
+    actual = np.isfinite(torsion.nodes(modes.forms)).sum(axis=1)
     small = np.abs(modes.forms).min(axis=1) < 1e-6 * np.abs(modes.forms).max(axis=1)
     for m in np.flatnonzero(clear[:-1] & clear[1:] & ~small):
-        assert found[m] == number[m]
+        assert actual[m] == number[m]
 
 
 def test_phase_sums_of_a_rigid_form_are_those_of_the_firing() -> None:

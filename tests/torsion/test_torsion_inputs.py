@@ -77,12 +77,12 @@ def test_one_shaft_has_one_bore() -> None:
     raw = to_mapping(sample("d-240-bearings"))
     raw["bearings"] |= {"pin_bore_mm": 20.0, "main_bore_mm": 25.0}
     raw["torsion"] = {"pin_bore_mm": 20.0}
-    (told,) = load_mapping(raw, source="файл").warnings
-    assert "в расчёте подшипников 25 мм, а в крутильной схеме 0 мм" in told.what
-    assert told.where == "файл: bearings.main_bore_mm"
+    (message,) = load_mapping(raw, source="файл").warnings
+    assert "в расчёте подшипников 25 мм, а в крутильной схеме 0 мм" in message.what
+    assert message.where == "файл: bearings.main_bore_mm"
     raw["torsion"]["main_bore_mm"] = 30.0
-    (told,) = load_mapping(raw, source="файл").warnings
-    assert told.where == "файл: torsion.main_bore_mm"
+    (message,) = load_mapping(raw, source="файл").warnings
+    assert message.where == "файл: torsion.main_bore_mm"
     raw["torsion"]["main_bore_mm"] = 25.0
     assert load_mapping(raw, source="файл").warnings == ()
 

@@ -96,5 +96,5 @@ def test_the_sheet_finds_the_largest_pressure(name: str) -> None:
     model = build_model(load_mapping(stepped(name, 15), source="f").model)
     (result,) = Formualizer().recalculate([workbook_bytes(model)])
     cell = Layout.of(model).cells["tor_diagram_MPa"]
-    found = result[cell.sheet][cell.coordinate]
-    assert found == pytest.approx(DIAGRAMS[name][1])
+    actual = result[cell.sheet][cell.coordinate]
+    assert actual == pytest.approx(DIAGRAMS[name][1])

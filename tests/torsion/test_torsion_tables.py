@@ -64,8 +64,8 @@ def test_no_section_no_sheet() -> None:
 
 def test_the_printed_frequencies_stand_in_the_sheet() -> None:
     values = evaluate_model(build_model(mwm()))
-    found = [values.scalars[f"tor_f{m}_hz"] for m in (1, 2, 3)]
-    assert found == pytest.approx(MWM_HZ[:3], abs=5e-5)
+    collected = [values.scalars[f"tor_f{m}_hz"] for m in (1, 2, 3)]
+    assert collected == pytest.approx(MWM_HZ[:3], abs=5e-5)
     assert values.columns["torsion_forms"]["tor_theta1"] == pytest.approx(MWM_FORM, abs=5e-6)
     assert list(np.flatnonzero(values.columns["torsion_forms"]["tor_node1"])) == [8]
 
@@ -123,14 +123,14 @@ def changed_books() -> list[tuple[InputFile, bytes]]:
     data = mwm()
     book = workbook_bytes(free_sheets(data))
     own = [field for field in free_fields(data) if field.name.startswith("torsion_mass_")]
-    made = [(data, book)]
+    values = [(data, book)]
     rng = random.Random(19)
-    while len(made) <= CHANGES:
+    while len(values) <= CHANGES:
         changes = [Change(field, field.value * rng.uniform(0.1, 10)) for field in own]
         changed = with_values(data, changes)
         if changed is not None:
-            made.append((changed, type_into(book, data, changes)))
-    return made
+            values.append((changed, type_into(book, data, changes)))
+    return values
 
 
 @cache
@@ -151,8 +151,8 @@ def test_the_sheets_follow_random_changes(program: type) -> None:
         assert errors_in(result) == []
         for m in (1, 2, 3):
             cell = layout.cells[f"tor_f{m}_hz"]
-            found = result[cell.sheet][cell.coordinate]
-            assert found == pytest.approx(solution.scalars[f"tor_f{m}_hz"], rel=1e-9)
+            actual = result[cell.sheet][cell.coordinate]
+            assert actual == pytest.approx(solution.scalars[f"tor_f{m}_hz"], rel=1e-9)
             column = layout.range_of(f"torsion_forms.tor_theta{m}").split("$")[1]
             form = [result["Крутильные формы"][f"{column}{FIRST_ROW + k}"] for k in range(9)]
             wanted = solution.columns["torsion_forms"][f"tor_theta{m}"]

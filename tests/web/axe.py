@@ -30,10 +30,10 @@ def _source() -> str:
             [npm, "pack", PACKAGE, "--silent"], cwd=folder, timeout=300, check=False,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
-        found = list(Path(folder).glob("*.tgz"))
-        if not found:
+        collected = list(Path(folder).glob("*.tgz"))
+        if not collected:
             pytest.skip("пакет axe-core недоступен")
-        with tarfile.open(found[0]) as archive:
+        with tarfile.open(collected[0]) as archive:
             stream = archive.extractfile("package/axe.min.js")
             assert stream is not None
             return stream.read().decode("utf-8")
@@ -41,9 +41,9 @@ def _source() -> str:
 
 def faults(page: Any, schemes: tuple[str, ...] = ("light", "dark")) -> list[str]:
     """Serious and critical findings on a page as it stands, in each colour scheme."""
-    found = []
+    collected = []
     for scheme in schemes:
         page.emulate_media(color_scheme=scheme)
         page.evaluate(_source())
-        found += [f"{scheme}: {each}" for each in page.evaluate(_RUN)]
-    return found
+        collected += [f"{scheme}: {each}" for each in page.evaluate(_RUN)]
+    return collected

@@ -74,9 +74,9 @@ class Served:
 
 
 @contextmanager
-def serving(place: Path, folder: str = ".", *more: str) -> Iterator[Served]:
+def serving(path: Path, folder: str = ".", *more: str) -> Iterator[Served]:
     """The command ``serve`` until the block ends, or is ended within; ``folder`` is within."""
-    data = place / folder
+    data = path / folder
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -93,7 +93,7 @@ def serving(place: Path, folder: str = ".", *more: str) -> Iterator[Served]:
     ]
     home = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
     process = subprocess.Popen(
-        command, cwd=place, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        command, cwd=path, env=home, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     )
     assert process.stdout is not None
     page, teacher = (process.stdout.readline().partition(": ")[2].strip() for _ in range(2))
@@ -111,8 +111,8 @@ def serving(place: Path, folder: str = ".", *more: str) -> Iterator[Served]:
 @pytest.fixture(scope="session")
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """One server for all that a real browser does."""
-    with serving(tmp_path_factory.mktemp("served")) as found:
-        yield found
+    with serving(tmp_path_factory.mktemp("served")) as actual:
+        yield actual
 
 
 def opened(browser: Any, address: str, width: int = 1280, scheme: str = "light") -> Any:

@@ -26,11 +26,11 @@ CURVES = """id => Chart.getChart(document.querySelector(`#chart-${id} canvas`)).
 @pytest.fixture(scope="module")
 def page(browser: Any, served: Served) -> Any:
     """A wide page with the textbook's engine, for the tests that need no own one."""
-    found = opened(browser, served.page)
-    found.wait_for_selector("#checks table")
-    yield found
-    assert not found.faults
-    found.context.close()
+    actual = opened(browser, served.page)
+    actual.wait_for_selector("#checks table")
+    yield actual
+    assert not actual.faults
+    actual.context.close()
 
 
 def solved(page: Any) -> Solution:
@@ -278,15 +278,15 @@ def taken(page: Any, *kinds: str) -> list[bytes]:
         tab_to(page, f"[data-kind={kind}]")
         page.keyboard.press("Enter")
         until(page, f"document.querySelectorAll('#jobs li').length === {count}")
-    found = []
-    for place, kind in enumerate(reversed(kinds), 1):
-        link = f"#jobs li:nth-child({place}) a[href$='engine.{kind}']"
+    collected = []
+    for index, kind in enumerate(reversed(kinds), 1):
+        link = f"#jobs li:nth-child({index}) a[href$='engine.{kind}']"
         page.wait_for_selector(link, timeout=120_000)
         tab_to(page, link)
         with page.expect_download() as download:
             page.keyboard.press("Enter")
-        found.append(Path(download.value.path()).read_bytes())
-    return found
+        collected.append(Path(download.value.path()).read_bytes())
+    return collected
 
 
 def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(

@@ -35,8 +35,8 @@ def teacher(browser: Any, served: Served) -> Any:
 
 def stored(served: Served) -> Path:
     """The class as it lies on the server's disk: its register is the test's key to the answers."""
-    (found,) = (path for path in (served.data / "classes").iterdir() if path.is_dir())
-    return found
+    (item,) = (path for path in (served.data / "classes").iterdir() if path.is_dir())
+    return item
 
 
 def taken(page: Any, selector: str) -> bytes:
@@ -54,12 +54,12 @@ def points(page: Any) -> dict[str, str]:
 
 def roster_book(count: int) -> bytes:
     """The list of a class as a book of Excel."""
-    made = Workbook()
-    made.active.append(["Список группы"])
+    built = Workbook()
+    built.active.append(["Список группы"])
     for line in classroom.roster_text(count).splitlines():
-        made.active.append(line.split(";"))
+        built.active.append(line.split(";"))
     stream = io.BytesIO()
-    made.save(stream)
+    built.save(stream)
     return stream.getvalue()
 
 
@@ -84,11 +84,11 @@ def not_issued(page: Any, served: Served, roster: bytes, seed: str) -> str:
 def heights(page: Any) -> dict[str, int]:
     """What is pressed on the page, as high as it is on a phone."""
     page.set_viewport_size({"width": 390, "height": 900})
-    found: dict[str, int] = page.evaluate("""Object.fromEntries([...document.querySelectorAll(
+    collected: dict[str, int] = page.evaluate("""Object.fromEntries([...document.querySelectorAll(
         "main :is(button, select, summary, .button, .bar > label)")]
         .filter(e => e.offsetHeight).map(e => [e.innerText.slice(0, 30), e.offsetHeight]))""")
     page.set_viewport_size({"width": 1280, "height": 900})
-    return found
+    return collected
 
 
 def decide(page: Any, who: str, what: str, worth: str, remark: str = "") -> None:
@@ -168,15 +168,15 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     until(student, "/работа сдана \\d/.test(document.getElementById('state').textContent)")
     assert not student.is_visible("#page")
     # What was handed in before is kept, and told; somebody else's book takes nobody's place.
-    place = stored(served) / "works" / register.books[2].file
-    (before,) = (place.parent / "earlier" / place.stem).iterdir()
+    path = stored(served) / "works" / register.books[2].file
+    (before,) = (path.parent / "earlier" / path.stem).iterdir()
     assert before.read_bytes() == half
     until(student, "document.querySelector('#earlier')?.textContent.includes('хранятся')")
-    counted, told = place.read_bytes(), student.inner_text("#state")
+    counted, message = path.read_bytes(), student.inner_text("#state")
     for foreign in (next(iter({*issued.values()} - {own})), b"PK\x03\x04 broken"):
         student.set_input_files("#work", {"name": "ч.xlsx", "mimeType": "", "buffer": foreign})
         student.wait_for_selector("#errors li")
-        assert place.read_bytes() == counted and student.inner_text("#state") == told
+        assert path.read_bytes() == counted and student.inner_text("#state") == message
         assert len(list(before.parent.iterdir())) == 1
     student.set_input_files("#work", {"name": "р.xlsx", "mimeType": "", "buffer": counted})
     until(student, "!document.querySelector('#errors li')")
@@ -222,8 +222,8 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
             (2, "Петров_102", {"omega": ["=regime_speed_rpm"]}),
             (4, "Кузнецов_104", UNKNOWN),
         ):
-            place = register.books[number - 1]
-            book = issued[f"{place.folder}/{place.file}"]
+            path = register.books[number - 1]
+            book = issued[f"{path.folder}/{path.file}"]
             archive.writestr(
                 f"Имя {word}_assignsubmission_file_/р.xlsx", solved(number, book, **changes)
             )
@@ -233,11 +233,13 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     )
     until(teacher, "document.querySelector('#class').textContent.includes('works.zip: загружено')")
     for wrong, said in (("moodle.zip", "загрузите архив .zip"), ("worksheet.csv", "не ведомость")):
-        told = teacher.context.request.post(
+        message = teacher.context.request.post(
             f"{served.page}api/teacher/{name}/file/{wrong}", data=b"a;b\n1;2\n",
             headers={**MARK, "content-type": "application/octet-stream"},
         )  # fmt: skip
-        assert told.status == 422 and said in told.text()  # it would stand in the way for ever
+        assert (
+            message.status == 422 and said in message.text()
+        )  # it would stand in the way for ever
     sheet = ("\ufeff" + worksheet(ENGLISH)).encode()
     uploads.nth(1).set_input_files({"name": "moodle.csv", "mimeType": "", "buffer": sheet})
     until(teacher, "document.querySelector('#class').textContent.includes('moodle.csv: загружено')")
@@ -249,10 +251,10 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     )
     assert again.status == 422  # one at a time
     teacher.wait_for_selector("#class [aria-label=Ведомость] table", timeout=WAIT)
-    found = points(teacher)
-    assert found["Иванов"] == found["Сидорова"] == "100" and found["Попова"] == ""
-    assert 0 < float(found["Петров"].replace(",", ".")) < 100
-    assert float(found["Кузнецов"].replace(",", ".")) < 100
+    actual = points(teacher)
+    assert actual["Иванов"] == actual["Сидорова"] == "100" and actual["Попова"] == ""
+    assert 0 < float(actual["Петров"].replace(",", ".")) < 100
+    assert float(actual["Кузнецов"].replace(",", ".")) < 100
     waiting = teacher.locator("tr.odd").all_inner_texts()
     assert [row.split()[:2] for row in waiting] == [["4.", "Кузнецов"]]  # a person has to look
     assert teacher.inner_text("#links summary").startswith("4 из 5 сдали")  # three by the archive
@@ -270,8 +272,8 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert unknown.evaluate("option => option.value") == "geometry.V_c"
     decide(teacher, "Кузнецов", "geometry.V_c", "0,21")
     decide(teacher, "Петров", "всё", "77", remark="=1+1")
-    found = points(teacher)
-    assert found["Петров"] == "77" and found["Кузнецов"] == "99,99"
+    actual = points(teacher)
+    assert actual["Петров"] == "77" and actual["Кузнецов"] == "99,99"
     assert not teacher.locator("tr.odd").count()
     for file in ("gradebook.xlsx", "moodle.csv", "moodle-feedback.zip"):
         assert taken(teacher, f"#results a[download='{file}']")
@@ -289,10 +291,10 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     assert axe.faults(student) == []
     photo(student, "student")
     assert min(heights(student).values()) >= 44
-    told = [
+    message = [
         ask.get(f"{served.page}{link.replace('s/', 'api/student/', 1)}").json() for link in links
     ]
-    assert [each["handed"] for each in told] == [True] * 4 + [False]  # in Moodle as well as here
+    assert [each["handed"] for each in message] == [True] * 4 + [False]  # in Moodle as well as here
     answer = ask.get(f"{served.page}{links[2].replace('s/', 'api/student/', 1)}page")
     assert "Сидорова" in answer.text() and "Петров" not in answer.text()
     assert answer.headers["content-security-policy"].startswith("sandbox")

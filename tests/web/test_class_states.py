@@ -42,11 +42,11 @@ def page(data: Path) -> Any:
 
 def done(page: Page, name: str) -> dict[str, Any]:
     for _ in range(600):
-        told: dict[str, Any] = page.get(f"/api/teacher/{name}")
-        if told["state"] not in ("waiting", "running"):
-            return told
+        lines: dict[str, Any] = page.get(f"/api/teacher/{name}")
+        if lines["state"] not in ("waiting", "running"):
+            return lines
         time.sleep(0.2)
-    raise AssertionError(told)
+    raise AssertionError(lines)
 
 
 def test_a_held_work_is_held_on_the_server_as_in_every_file(page: Page, data: Path) -> None:
@@ -55,10 +55,10 @@ def test_a_held_work_is_held_on_the_server_as_in_every_file(page: Page, data: Pa
              "rubric.toml": RUBRIC}  # fmt: skip
     sent = {key: text.encode().decode("latin-1") for key, text in group.items()}
     name = page.post("/api/teacher", {**sent, "title": "Г", "seed": "3"})["name"]
-    told = done(page, name)
+    message = done(page, name)
     folder = data / "classes" / name
     register = load_register(folder / "issued")
-    links = [f"/api/student/{each['link']}" for each in told["students"]]
+    links = [f"/api/student/{each['link']}" for each in message["students"]]
     for number, link in enumerate(links, 1):
         assignment = assignment_for(register.books[number - 1], register.rubric)
         own = solved_formulas(assignment, Layout.of(assignment.model))
@@ -70,7 +70,7 @@ def test_a_held_work_is_held_on_the_server_as_in_every_file(page: Page, data: Pa
         assert answer["try"].endswith("на листе Массы") == (number == 3)
         assert page.get(link)["tries"] == [1, 2]
     page.post(f"/api/teacher/{name}/grade", {})
-    told = done(page, name)
+    message = done(page, name)
     page.post(f"/api/teacher/{name}/rules", {"open": True})
     results = folder / "results"
     rows = json.loads((results / "summary.json").read_text(encoding="utf-8"))["rows"]
@@ -82,7 +82,7 @@ def test_a_held_work_is_held_on_the_server_as_in_every_file(page: Page, data: Pa
     cells = [*csv.DictReader(io.StringIO(table), delimiter=";")]
     head, *lines = load_workbook(results / "gradebook.xlsx")["Оценки"].iter_rows(values_only=True)
     moodle = [*csv.DictReader(io.StringIO((results / "moodle.csv").read_text("utf-8")))]
-    assert [row["status"] for row in told["rows"]] == states  # the teacher's page
+    assert [row["status"] for row in message["rows"]] == states  # the teacher's page
     assert [each["state"] for each in files.values()] == states
     assert [each["Состояние"] for each in cells] == states
     assert [line[head.index("Состояние")] for line in lines[:3]] == states
@@ -102,8 +102,8 @@ def test_a_held_work_is_held_on_the_server_as_in_every_file(page: Page, data: Pa
     # Another look is asked for, and its answer stands on the page.
     page.post(f"{links[2]}/ask", {"column": "Массы ω", "text": "так в задании"})
     assert done(page, name)["rows"][2]["status"] == State.BY_HAND
-    asked = {"who": "3", "what": "geometry.omega", "points": "1", "remark": "половина"}
-    page.post(f"/api/teacher/{name}/grade", asked)
+    requested = {"who": "3", "what": "geometry.omega", "points": "1", "remark": "половина"}
+    page.post(f"/api/teacher/{name}/grade", requested)
     assert done(page, name)["rows"][2]["status"] == State.CHECKED
     text = page.client.get(f"{links[2]}/page").text
     assert "так в задании" in text and "половина" in text and "Ответа пока нет" not in text

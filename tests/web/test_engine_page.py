@@ -107,23 +107,25 @@ def test_a_change_changes_the_numbers(page: Page) -> None:
 
 @pytest.mark.parametrize("name", list_samples())
 def test_every_sample_has_fields_sheets_in_words_and_a_file(name: str, tmp_path: Path) -> None:
-    found = engine.start(engine.fresh({"sample": name})["raw"])
-    text = engine.as_toml(found["raw"])["text"]
+    actual = engine.start(engine.fresh({"sample": name})["raw"])
+    text = engine.as_toml(actual["raw"])["text"]
     assert tomllib.loads(text)
     file = tmp_path / "engine.toml"
     file.write_text(text, encoding="utf-8")
-    assert engine.start(engine.read_toml(str(file))["raw"])["raw"] == found["raw"]
-    assert all(words != sheet or not re.match(r"П\d", sheet) for sheet, words, _ in found["sheets"])
-    assert {field["key"] for field in fields(found)} > {
+    assert engine.start(engine.read_toml(str(file))["raw"])["raw"] == actual["raw"]
+    assert all(
+        words != sheet or not re.match(r"П\d", sheet) for sheet, words, _ in actual["sheets"]
+    )
+    assert {field["key"] for field in fields(actual)} > {
         "engine.cylinders", "regime.speed_rpm",
     }  # fmt: skip
 
 
 def _numbers() -> list[tuple[str, str]]:
-    found = engine.start(engine.fresh({"sample": "gots-diesel"})["raw"])
+    actual = engine.start(engine.fresh({"sample": "gots-diesel"})["raw"])
     return [
         (field["key"], bad)
-        for field in fields(found)
+        for field in fields(actual)
         if field["number"] and "[" not in field["key"]
         for bad in ("abc", str(field["max"] * 2 + 1))
     ]
@@ -138,9 +140,9 @@ def test_every_fields_error_stands_at_the_field() -> None:
         section, name = key.split(".")
         raw: dict[str, Any] = {**start["raw"]}
         raw[section] = {**raw[section], name: bad}
-        with pytest.raises(InputError) as found:
+        with pytest.raises(InputError) as actual:
             engine.answer(raw, "")
-        errors = found.value.problems
+        errors = actual.value.problems
         assert key in {error.where for error in errors}, (key, bad, errors)
         assert all(error.where in keys and error.what for error in errors)
 

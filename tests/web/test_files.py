@@ -19,11 +19,11 @@ from tests.web.conftest import MARK, Page
 def made(page: Page, **data: Any) -> tuple[str, dict[str, Any]]:
     job = page.post("/api/files", data)["id"]
     for _ in range(600):
-        found = page.get(f"/api/files/{job}")
-        if found["state"] in ("done", "failed"):
-            return job, found
+        actual = page.get(f"/api/files/{job}")
+        if actual["state"] in ("done", "failed"):
+            return job, actual
         time.sleep(0.1)
-    raise AssertionError(found)
+    raise AssertionError(actual)
 
 
 def test_kinds_are_those_of_the_command() -> None:
@@ -34,8 +34,8 @@ def test_kinds_are_those_of_the_command() -> None:
 def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:
     raw = page.sample()
     raw["regime"]["speed_rpm"] = 3210.0
-    job, found = made(page, raw=raw, kind="xlsx")
-    assert [each["file"] for each in found["files"]] == ["engine.xlsx"]
+    job, actual = made(page, raw=raw, kind="xlsx")
+    assert [each["file"] for each in actual["files"]] == ["engine.xlsx"]
     answer = client.get(f"/api/files/{job}/engine.xlsx")
     assert answer.headers["content-disposition"].startswith("attachment")
     heads = {**MARK, "content-type": "application/octet-stream"}
@@ -61,8 +61,8 @@ def test_tables_and_numbers(page: Page, client: TestClient) -> None:
 def test_a_comparison_needs_two(page: Page) -> None:
     raw = page.sample()
     page.post("/api/files", {"raw": raw, "kind": "compare-xlsx"}, 422)
-    _, found = made(page, raw=raw, other=page.sample("yamz-236"), kind="compare-xlsx")
-    assert [each["file"] for each in found["files"]] == ["compare.xlsx"]
+    _, actual = made(page, raw=raw, other=page.sample("yamz-236"), kind="compare-xlsx")
+    assert [each["file"] for each in actual["files"]] == ["compare.xlsx"]
 
 
 def test_bad_values_make_no_job(page: Page) -> None:

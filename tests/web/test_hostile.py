@@ -117,10 +117,10 @@ ODD = [
 @pytest.mark.parametrize("raw", ODD, ids=range(len(ODD)))
 def test_fields_are_told_of_whatever_comes_and_stay_few(page: Page, raw: dict[str, Any]) -> None:
     answer = page.client.post("/api/start", json={"raw": raw}, headers=MARK)
-    found = answer.json()
-    assert answer.status_code == 200 and found["errors"] and "внутренняя" not in answer.text
+    actual = answer.json()
+    assert answer.status_code == 200 and actual["errors"] and "внутренняя" not in answer.text
     if "не больше 10000" not in answer.text:
-        assert sum(len(entry) for group in found["groups"] for entry in group["entries"]) > 50
+        assert sum(len(entry) for group in actual["groups"] for entry in group["entries"]) > 50
     assert len(answer.content) < 200_000
 
 
@@ -146,10 +146,10 @@ TOML = [
 
 @pytest.mark.parametrize("text", TOML, ids=range(len(TOML)))
 def test_hostile_toml(page: Page, text: Any) -> None:
-    found = page.client.post("/api/read", content=str(text).encode(), headers=FILE)
-    if found.status_code == 200 and "errors" not in found.json():
-        found = page.client.post(SOLVE, json={**found.json(), "sheet": ""}, headers=MARK)
-    is_refused(found, 200, 422)
+    actual = page.client.post("/api/read", content=str(text).encode(), headers=FILE)
+    if actual.status_code == 200 and "errors" not in actual.json():
+        actual = page.client.post(SOLVE, json={**actual.json(), "sheet": ""}, headers=MARK)
+    is_refused(actual, 200, 422)
 
 
 @pytest.mark.parametrize(
@@ -218,9 +218,9 @@ def test_links_that_were_not_given(client: TestClient, link: str) -> None:
 def _books() -> list[tuple[str, bytes]]:
     """A handful of hostile books: each read costs a process of its own."""
     book = filled_book(classroom.handout(), classroom.assignment())
-    found = dict(hostile.hostile_files(book, classroom.book().ticket, "x"))
+    collected = dict(hostile.hostile_files(book, classroom.book().ticket, "x"))
     wanted = [b"not a book", b"MZ", b"PK\x03\x04", hostile.bomb()]
-    chosen = [data for name, data in found.items() if name.endswith(".xlsx")][:4]
+    chosen = [data for name, data in collected.items() if name.endswith(".xlsx")][:4]
     return [(str(i), data) for i, data in enumerate((*wanted, *chosen))]
 
 
@@ -259,14 +259,14 @@ def test_a_seed_is_no_option(page: Page, client: TestClient) -> None:
                     for text in (classroom.base_text(), classroom.roster_text(1)))  # fmt: skip
     wanted = {"title": "x", "base.toml": base, "roster": roster, "seed": "1 --rubric /etc/passwd"}
     name = page.post("/api/teacher", wanted)["name"]
-    told: dict[str, Any] = {}
+    lines: dict[str, Any] = {}
     for _ in range(300):
-        told = page.get(f"/api/teacher/{name}")
-        if told["state"] not in ("waiting", "running"):
+        lines = page.get(f"/api/teacher/{name}")
+        if lines["state"] not in ("waiting", "running"):
             break
         time.sleep(0.1)
     client.cookies.clear()
-    assert told["state"] == "failed" and "нужно число" in told["lines"][0]
+    assert lines["state"] == "failed" and "нужно число" in lines["lines"][0]
 
 
 XSS = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
@@ -355,9 +355,9 @@ def test_a_busy_server_turns_no_work_away(
         raise answer
 
     monkeypatch.setattr(doors, "ask", asked)
-    place = tmp_path / "work.xlsx"
+    path = tmp_path / "work.xlsx"
     routes = doors.shown(
-        "/x", lambda _: doors.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": place})
+        "/x", lambda _: doors.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": path})
     )
     handlers: Any = {InputError: doors.failed}
     session = Middleware(SessionMiddleware, "x")
@@ -365,7 +365,7 @@ def test_a_busy_server_turns_no_work_away(
     app.state.settings, app.state.unfinished = Settings(tmp_path), Unfinished(100)
     app.state.uploading = Turns(1, 1, 1, 1.0)
     assert TestClient(app).post("/x/work", content=b"PK").status_code == code
-    assert place.exists() == (code == 200)
+    assert path.exists() == (code == 200)
 
 
 def test_secrets_lie_closed(client: TestClient) -> None:

@@ -37,10 +37,10 @@ def bore(page: Any, text: str) -> None:
 
 def another(page: Any, address: str) -> Any:
     """A second tab of the same browser."""
-    made = page.context.new_page()
-    made.goto(address)
-    ready(made)
-    return made
+    output = page.context.new_page()
+    output.goto(address)
+    ready(output)
+    return output
 
 
 def link_of(page: Any) -> str:
@@ -54,9 +54,9 @@ def friends(browser: Any, served: Served, text: str = "85") -> str:
     page = opened(browser, served.page)
     ready(page)
     bore(page, text)
-    found = link_of(page)
+    actual = link_of(page)
     page.context.close()
-    return found
+    return actual
 
 
 def test_an_engine_is_there_after_f5_and_only_what_was_changed_is_listed(first: Any) -> None:

@@ -20,11 +20,11 @@ CP1251 = "# Двигатель\n[engine]\nname = 'Д'\n".encode("cp1251")
 
 @pytest.fixture(scope="module", params=[1366, 390])
 def page(browser: Any, served: Served, request: pytest.FixtureRequest) -> Iterator[Any]:
-    found = opened(browser, served.page, request.param)
-    found.wait_for_selector("#checks table")
-    yield found
-    assert not found.faults
-    found.context.close()
+    actual = opened(browser, served.page, request.param)
+    actual.wait_for_selector("#checks table")
+    yield actual
+    assert not actual.faults
+    actual.context.close()
 
 
 @pytest.fixture(autouse=True)

@@ -28,12 +28,12 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no modes")
 @pytest.fixture
 def open_place() -> Iterator[Path]:
     """A folder that every account may enter, as it is usual on a server."""
-    made = Path(tempfile.mkdtemp(prefix="kshm-open-", dir="/tmp"))
-    made.chmod(0o755)
+    built = Path(tempfile.mkdtemp(prefix="kshm-open-", dir="/tmp"))
+    built.chmod(0o755)
     before = os.umask(0o022)
-    yield made
+    yield built
     os.umask(before)
-    shutil.rmtree(made)
+    shutil.rmtree(built)
 
 
 def mode(path: Path) -> int:
@@ -75,9 +75,9 @@ def test_nobody_else_reads_the_data(open_place: Path) -> None:
     try:
         with serving(open_place, "kshm-data") as served:
             raw = asked(f"{served.page}api/new", {"sample": "gots-diesel"})["raw"]
-            made = asked(f"{served.page}api/files", {"kind": "json", "raw": raw})["id"]
+            page = asked(f"{served.page}api/files", {"kind": "json", "raw": raw})["id"]
             for _ in range(300):
-                if asked(f"{served.page}api/files/{made}").get("state") == "done":
+                if asked(f"{served.page}api/files/{page}").get("state") == "done":
                     break
                 time.sleep(0.2)
             kept = [data, *data.rglob("*")]

@@ -28,9 +28,9 @@ from tests.web.test_files import made
 
 
 def waiting(folder: Path) -> Jobs:
-    made = Jobs(folder, b"secret", None)
+    built = Jobs(folder, b"secret", None)
     folder.mkdir(exist_ok=True)
-    return made
+    return built
 
 
 def added(jobs: Jobs, *visitors: str) -> list[str]:
@@ -80,9 +80,9 @@ def test_names_hang_on_the_servers_secret(tmp_path: Path) -> None:
 def until(true: Callable[[], Any], seconds: float = 60.0) -> Any:
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        found = true()
-        if found:
-            return found
+        actual = true()
+        if actual:
+            return actual
         time.sleep(0.05)
     raise AssertionError
 
@@ -117,14 +117,14 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
 
 def _children(job: str) -> list[int]:
     """Processes that work in the folder of a job."""
-    found = []
+    collected = []
     for path in Path("/proc").glob("[0-9]*"):
         try:
             if path.joinpath("cwd").readlink().name == job:
-                found.append(int(path.name))
+                collected.append(int(path.name))
         except OSError:
             continue
-    return found
+    return collected
 
 
 def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
@@ -166,8 +166,8 @@ def test_a_bug_in_a_job_stops_no_other(tmp_path: Path, monkeypatch: pytest.Monke
                 await asyncio.sleep(0.01)
         return [jobs.about(name) for name in names]
 
-    told = {"state": "failed", "lines": ["внутренняя ошибка: повторите"]}
-    assert finished(work()) == [told, told]
+    lines = {"state": "failed", "lines": ["внутренняя ошибка: повторите"]}
+    assert finished(work()) == [lines, lines]
 
     def full(*_: Any) -> None:
         raise OSError(28, "No space left on device")

@@ -93,8 +93,8 @@ def test_bodies_that_do_not_end_are_counted_together() -> None:
 
 
 def test_folders_of_the_server_stand_in_no_message() -> None:
-    place = Path(__file__).resolve().parents[2]
-    assert public_words(f"{place}/data/x/книга.xlsx: не читается") == "книга.xlsx: не читается"
+    path = Path(__file__).resolve().parents[2]
+    assert public_words(f"{path}/data/x/книга.xlsx: не читается") == "книга.xlsx: не читается"
     assert public_words(f"{gettempdir()}/book-1/a.toml, строка 3") == "a.toml, строка 3"
     assert public_words("кг/м²/с, 5/6") == "кг/м²/с, 5/6"
 

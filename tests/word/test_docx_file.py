@@ -212,8 +212,8 @@ def test_columns_are_as_wide_as_on_the_page():
         '<table><colgroup><col style="width:25%"/><col style="width:75%"/></colgroup>'
         "<tbody><tr><td>a</td><td>b</td></tr></tbody></table>"
     )
-    made = table_of(Lines(Bookmarks()), source, 4000)
-    widths = [e.get(f"{W}w") for name in ("gridCol", "tcW") for e in made.iter(f"{W}{name}")]
+    built = table_of(Lines(Bookmarks()), source, 4000)
+    widths = [e.get(f"{W}w") for name in ("gridCol", "tcW") for e in built.iter(f"{W}{name}")]
     assert widths == ["1000", "3000"] * 2
 
 
@@ -232,14 +232,14 @@ def test_headings_stand_in_the_outline_at_their_levels():
 @pytest.mark.parametrize(("pages", "shown"), [(77, "77"), (0, "")])
 def test_the_last_page_is_told_as_it_was_set(pages, shown):
     source = lxml.html.fromstring('<p><a href="#report-end">5</a></p>')
-    made = Lines(Bookmarks(), pages=pages).runs(source)
-    assert "".join(e.text or "" for run in made for e in run.iter(f"{W}t")) == shown
+    page = Lines(Bookmarks(), pages=pages).runs(source)
+    assert "".join(e.text or "" for run in page for e in run.iter(f"{W}t")) == shown
 
 
 def test_letters_of_a_figure_stand_one_after_another():
     """As far apart as the face has them: each letter begins where the last one ends."""
-    made = outlined('<svg xmlns="http://www.w3.org/2000/svg"><text font-size="8">ll</text></svg>')
-    places = [float(x) for x in re.findall(r"M([\d.]+) ", made)]
+    built = outlined('<svg xmlns="http://www.w3.org/2000/svg"><text font-size="8">ll</text></svg>')
+    places = [float(x) for x in re.findall(r"M([\d.]+) ", built)]
     advance = _glyph("normal", "normal", "normal", "l")[1]
     assert places[1] - places[0] == pytest.approx(8 * advance, abs=0.02)
 

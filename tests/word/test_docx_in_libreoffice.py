@@ -52,38 +52,38 @@ def with_chapter(data: bytes) -> bytes:
 def renewed(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, int], Path]:
     """Counts and the PDF of LibreOffice, of the file with a chapter put in."""
     folder = tmp_path_factory.mktemp("word")
-    source, made = folder / "put_in.docx", folder / "put_in.pdf"
+    source, built = folder / "put_in.docx", folder / "put_in.pdf"
     source.write_bytes(with_chapter(docx_of(NAME)))
     script = Path(__file__).with_name("renewed.py")
     done = subprocess.run(
-        [PYTHON, str(script), str(folder / "profile"), str(source), str(made)],
+        [PYTHON, str(script), str(folder / "profile"), str(source), str(built)],
         capture_output=True, text=True, timeout=600, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-2000:]
-    return json.loads(done.stdout.splitlines()[-1]), made
+    return json.loads(done.stdout.splitlines()[-1]), built
 
 
 def pages(pdf: Path) -> int:
-    told = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
-    return int(re.search(r"Pages:\s+(\d+)", told.stdout)[1])
+    message = subprocess.run(["pdfinfo", str(pdf)], capture_output=True, text=True, check=True)
+    return int(re.search(r"Pages:\s+(\d+)", message.stdout)[1])
 
 
 def text_of(pdf: Path) -> str:
-    told = subprocess.run(
+    message = subprocess.run(
         ["pdftotext", "-layout", str(pdf), "-"], capture_output=True, check=True
     )  # fmt: skip
-    return re.sub(r"[ \u00a0]+", " ", told.stdout.decode())
+    return re.sub(r"[ \u00a0]+", " ", message.stdout.decode())
 
 
 def test_nothing_is_lost(tmp_path, renewed):
-    counts, made = renewed
+    counts, built = renewed
     document = part(docx_of(NAME))
     assert counts["formulas"] == len(document.findall(f".//{M}oMath"))
     assert counts["tables"] == len(document.findall(f".//{W}tbl"))
     assert counts["pictures"] == len(root_of(page_of(NAME)).findall(".//figure"))
     usual = tmp_path / "usual.pdf"
     usual.write_bytes(shipped_pdf(NAME))
-    assert abs(pages(made) - 1 - pages(usual)) <= 0.1 * pages(usual)  # one with the chapter
+    assert abs(pages(built) - 1 - pages(usual)) <= 0.1 * pages(usual)  # one with the chapter
 
 
 def file_text(data: bytes) -> str:
@@ -108,5 +108,5 @@ def test_a_chapter_put_in_renumbers_what_follows(renewed):
     for title in re.findall(r"Рисунок \d+ — (Индикаторный крутящий[^\n]*)", old):
         was = int(re.search(rf"Рисунок (\d+) — {re.escape(title)}", old)[1])
         assert f"Рисунок {was + 1} — {title}" in new
-        asked = r"рисунк\w+\s+{}\b"
-        assert re.search(asked.format(was), old) and re.search(asked.format(was + 1), new)
+        requested = r"рисунк\w+\s+{}\b"
+        assert re.search(requested.format(was), old) and re.search(requested.format(was + 1), new)

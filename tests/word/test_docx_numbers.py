@@ -27,8 +27,8 @@ def numbers_of_page(page: str) -> list[str]:
     for path in _UNSAID:
         for element in body.findall(f".//{path}"):
             element.drop_tree()
-    for place in body.xpath(".//div[@class='place']"):  # in a footer
-        place.drop_tree()
+    for position in body.xpath(".//div[@class='place']"):  # in a footer
+        position.drop_tree()
     for image in body.iter("img"):
         words = image.get("alt") if FORMULA in image.get("alt") else ""
         for spoken, power in _POWERS.items():
@@ -50,7 +50,7 @@ def numbers_of_docx(data: bytes) -> list[str]:
         if "NUMPAGES" in words.text:
             shown = words.getparent().getnext().getnext()
             shown.getparent().remove(shown)
-    found = []
+    collected = []
     for paragraph in body.iter(f"{W}p"):
         words = ""
         for element in paragraph.iter(f"{W}t", f"{M}t", f"{W}br"):
@@ -58,8 +58,8 @@ def numbers_of_docx(data: bytes) -> list[str]:
             run = element.getparent()
             low = run.find(f"{W}rPr/{W}vertAlign") is not None
             words += f" {text} " if low or element.tag == f"{M}t" else text
-        found += NUMBER.findall(words)
-    return found
+        collected += NUMBER.findall(words)
+    return collected
 
 
 @pytest.mark.parametrize("name", sparse(samples_with(chapters)))
@@ -68,8 +68,8 @@ def test_every_number_of_the_pdf_stands_in_word(name):
     page, word = numbers_of_page(page_of(name)), numbers_of_docx(docx_of(name))
     assert len(word) == len(page) > 1500
     assert sorted(word) == sorted(page)
-    apart = [i for i, pair in enumerate(zip(word, page, strict=True)) if pair[0] != pair[1]]
-    assert len(apart) < 0.02 * len(page)
+    separate = [i for i, pair in enumerate(zip(word, page, strict=True)) if pair[0] != pair[1]]
+    assert len(separate) < 0.02 * len(page)
 
 
 def test_every_formula_is_an_equation_and_none_a_picture():
@@ -83,10 +83,10 @@ def test_every_formula_is_an_equation_and_none_a_picture():
 def test_tables_are_native_with_a_heading_on_every_sheet():
     root, document = root_of(page_of(NAME)), part(docx_of(NAME))
     sources = root.xpath("//table[contains(@class, 'data')]")
-    made = [t for t in document.iter(f"{W}tbl")
+    values = [t for t in document.iter(f"{W}tbl")
             if t.find(f"{W}tblPr/{W}tblStyle").get(f"{W}val") != "FormulaTable"]  # fmt: skip
-    assert len(made) == len(sources)
-    for table, source in zip(made, sources, strict=True):
+    assert len(values) == len(sources)
+    for table, source in zip(values, sources, strict=True):
         rows = table.findall(f"{W}tr")
         heads = [row for row in rows if row.find(f"{W}trPr/{W}tblHeader") is not None]
         assert heads == rows[: len(heads)] and len(heads) == 2

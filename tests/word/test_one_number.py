@@ -60,16 +60,16 @@ def test_the_same_number_everywhere(name, tmp_path):
         pdfs["PDF"] = shipped_pdf(name)
     document, _ = recover.read(io.BytesIO(files["-sheet.dxf"]))
     assert isinstance(document, ezdxf.document.Drawing)
-    texts = {place: words_of(pdf, tmp_path / "a.pdf") for place, pdf in pdfs.items()}
+    texts = {path: words_of(pdf, tmp_path / "a.pdf") for path, pdf in pdfs.items()}
     texts["Word"] = text_of(part(docx_of(name)))
     texts["page"] = root_of(page_of(name)).body.text_content()
     texts["sheet DXF"] = " \n".join(t.dxf.text for t in document.modelspace().query("TEXT"))
-    for place, text in texts.items():  # nor does a word of the program stand in any of them
+    for position, text in texts.items():  # nor does a word of the program stand in any of them
         said = [text[m.start() - 40 : m.end() + 40] for m in PROGRAM.finditer(text)]
-        assert said == [], place
-    told = {place: shown(text) for place, text in texts.items()}
+        assert said == [], position
+    lines = {position: shown(text) for position, text in texts.items()}
     for key, value in of_workbook(book).items():
         number = of_digits(value, terms.quantity(key).digits)
         assert value == pytest.approx(terms.value(key), rel=1e-9)
-        for place, numbers in told.items():
-            assert number.replace("\u00a0", "") in numbers, (key, number, place)
+        for position, numbers in lines.items():
+            assert number.replace("\u00a0", "") in numbers, (key, number, position)

@@ -159,9 +159,9 @@ def _cells(root: etree._Element) -> Iterator[str]:
     ns = root.nsmap[None]
     columns: dict[str, list[tuple[int, str]]] = {}
     for cell in root.iter(f"{{{ns}}}c"):
-        found = re.fullmatch(r"([A-Z]+)(\d+)", cell.get("r"))
-        text = _content(cell, ns, int(found[2]))
-        columns.setdefault(found[1], []).append((int(found[2]), text))
+        match = re.fullmatch(r"([A-Z]+)(\d+)", cell.get("r"))
+        text = _content(cell, ns, int(match[2]))
+        columns.setdefault(match[1], []).append((int(match[2]), text))
     for column, cells in columns.items():
         start = before = 0
         last = ""
@@ -195,7 +195,7 @@ def relative(formula: str, row: int) -> str:
         return f"{match[1]}{{{int(match[3]) - row:+d}}}"
 
     return "".join(
-        piece if place % 2 else _CELL.sub(shifted, piece) for place, piece in enumerate(pieces)
+        piece if index % 2 else _CELL.sub(shifted, piece) for index, piece in enumerate(pieces)
     )
 
 
@@ -229,23 +229,25 @@ def store(name: str) -> None:
 
 def differences(old: dict[str, list[str]], new: dict[str, list[str]]) -> dict[str, list[str]]:
     """Part → what changed in it, as a unified difference."""
-    found = {}
+    collected = {}
     for part in dict.fromkeys([*old, *new]):
         before, after = old.get(part), new.get(part)
         if before is None or after is None:
-            found[part] = ["the part is new" if before is None else "the part has gone"]
+            collected[part] = ["the part is new" if before is None else "the part has gone"]
         elif before != after:
             listed = list(difflib.unified_diff(before, after, "stored", "now", lineterm="", n=1))
             more = len(listed) - _LIMIT
-            found[part] = listed[:_LIMIT] + ([f"… and {more} lines more"] if more > 0 else [])
-    return found
+            collected[part] = listed[:_LIMIT] + ([f"… and {more} lines more"] if more > 0 else [])
+    return collected
 
 
-def report(found: dict[str, list[str]]) -> str:
+def report(collected: dict[str, list[str]]) -> str:
     """Differences to be read by a person, and the command that accepts them."""
-    shown = [f"== {part}\n" + "\n".join(lines) for part, lines in list(found.items())[:_PARTS]]
-    if len(found) > _PARTS:
-        shown.append(f"… and {len(found) - _PARTS} parts more: {', '.join(list(found)[_PARTS:])}")
+    shown = [f"== {part}\n" + "\n".join(lines) for part, lines in list(collected.items())[:_PARTS]]
+    if len(collected) > _PARTS:
+        shown.append(
+            f"… and {len(collected) - _PARTS} parts more: {', '.join(list(collected)[_PARTS:])}"
+        )
     return "\n".join([*shown, "to accept: python -m tests.workbook.golden --renew"])
 
 
@@ -254,8 +256,8 @@ def main() -> None:
     for name in BOOKS:
         if "--renew" in sys.argv[1:]:
             store(name)
-        elif found := differences(stored(name), describe(book(name))):
-            print(f"{name}: {report(found)}")
+        elif actual := differences(stored(name), describe(book(name))):
+            print(f"{name}: {report(actual)}")
 
 
 if __name__ == "__main__":

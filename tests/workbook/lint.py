@@ -45,12 +45,12 @@ _RANGE = re.compile(r"\$?[A-Z]{1,3}\$?\d+:\$?[A-Z]{1,3}\$?\d+")
 
 def chart_problems(root: etree._Element) -> list[str]:
     """What a picture made by LibreOffice cannot show of Excel."""
-    found = [*_axis_problems(root), *_title_problems(root), *_series_problems(root)]
+    collected = [*_axis_problems(root), *_title_problems(root), *_series_problems(root)]
     if _val(root, "roundedCorners") != "0":
-        found.append("rounded corners")
+        collected.append("rounded corners")
     if _val(root, ".//" + C + "scatterStyle", whole=True) != "lineMarker":
-        found.append("scatterStyle")
-    return found + _cache_problems(root) + _polar_problems(root)
+        collected.append("scatterStyle")
+    return collected + _cache_problems(root) + _polar_problems(root)
 
 
 def _val(element: etree._Element, path: str, *, whole: bool = False) -> str | None:
@@ -96,40 +96,40 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
     titles = {
         "".join(t.text or "" for t in title.iter(f"{A}t")) for title in root.iter(f"{C}title")
     }
-    for place, one in enumerate(series):
+    for index, one in enumerate(series):
         where = one.findtext(f"{C}xVal/{C}numRef/{C}f", "")
         try:
             round_too = chapter_of(where.rpartition("!")[0].strip("'")).smooth
         except LookupError:  # a sheet of a study
             round_too = False
         if _val(one, "smooth") not in (("0", "1") if round_too else ("0",)):
-            yield f"series {place} is smoothed"
+            yield f"series {index} is smoothed"
         symbol = one.find(f"{C}marker/{C}symbol")
         ends = where.rpartition("!")[2].split(":")
         moving = ends[0] == ends[-1]  # a point by one cell
         stem = one.find(f"{C}errBars") is not None
         if stem != bool({"порядок k", "ν"} & titles):
-            yield f"series {place}: orders stand on stems, nothing lies between them"
+            yield f"series {index}: orders stand on stems, nothing lies between them"
         dotted = moving or stem
         if symbol is None or symbol.get("val") != ("circle" if dotted else "none"):
-            yield f"series {place} has markers"
+            yield f"series {index} has markers"
         line = one.find(f"{C}spPr/{A}ln")
         if line is None or (line.find(f"{A}noFill") is None and line.get("w") not in _LINES):
-            yield f"series {place}: the line is not 1.5 pt"
+            yield f"series {index}: the line is not 1.5 pt"
 
 
 def _cache_problems(root: etree._Element) -> list[str]:
-    found = []
+    collected = []
     for reference in root.iterfind(f".//{C}numRef"):
         where = reference.findtext(f"{C}f")
         points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
         count = reference.find(f"{C}numCache/{C}ptCount")
         least = 2 if len(set(where.rpartition("!")[2].split(":"))) > 1 else 1
         if count is None or not len(points) == int(count.get("val")) >= least:
-            found.append(f"{where}: the cache is not filled")
+            collected.append(f"{where}: the cache is not filled")
         elif not all(_is_number(text) for text in points):
-            found.append(f"{where}: the cache holds no number")
-    return found
+            collected.append(f"{where}: the cache holds no number")
+    return collected
 
 
 def _is_number(text: str | None) -> bool:
@@ -141,13 +141,13 @@ def _polar_problems(root: etree._Element) -> list[str]:
     layout = root.find(f".//{C}plotArea/{C}layout/{C}manualLayout")
     if layout is None:
         return []
-    found = []
+    collected = []
     # In a square chart, or in one of the first sheet's, which are as wide as all others.
     shape = float(_val(layout, "w") or 0) / float(_val(layout, "h") or 1)
     shapes = (1.0, HIGH / WIDE, HIGH / MOVING, MECHANISM * 2 * HIGH / MOVING)
     square = any(math.isclose(shape, wanted, rel_tol=1e-9) for wanted in shapes)
     if not square or _val(layout, "layoutTarget") != "inner":
-        found.append("the plot area is not square")
+        collected.append("the plot area is not square")
     box = [s for s in root.findall(f".//{C}ser") if s.find(f"{C}spPr/{A}ln/{A}noFill") is not None]
     texts = [formula.text for s in box for formula in s.iterfind(f".//{C}f")]
     texts = [
@@ -156,13 +156,13 @@ def _polar_problems(root: etree._Element) -> list[str]:
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
     if math.isclose(shape, shapes[-1], rel_tol=1e-9):
-        return found  # its limits follow from a frame of the plot's shape
+        return collected  # its limits follow from a frame of the plot's shape
     if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
-        found.append("the axes may have different limits")
+        collected.append("the axes may have different limits")
     steps = {_val(axis, "majorUnit") for axis in root.findall(f".//{C}valAx")}
     if len(steps) != 1:  # equal limits end alike where the divisions are the same
-        found.append("the axes are divided differently")
-    return found
+        collected.append("the axes are divided differently")
+    return collected
 
 
 def formula_problems(cell: etree._Element) -> list[str]:
@@ -170,26 +170,28 @@ def formula_problems(cell: etree._Element) -> list[str]:
     formula = cell.find(f"{MAIN}f")
     text = re.sub(r'"[^"]*"', '""', formula.text or "")
     used = set(_NAME.findall(text))
-    found = [f"{name} is volatile" for name in sorted(used & VOLATILE)]
-    found += [f"{name} is not shared by all engines" for name in sorted(used - ALLOWED - VOLATILE)]
+    collected = [f"{name} is volatile" for name in sorted(used & VOLATILE)]
+    collected += [
+        f"{name} is not shared by all engines" for name in sorted(used - ALLOWED - VOLATILE)
+    ]
     if "_xlfn" in text:
-        found.append("newer than Excel 2007")
+        collected.append("newer than Excel 2007")
     # LibreOffice loads array formulas dirty, and the first edit stops there.
     if formula.attrib:
-        found.append(f"array or shared formula {dict(formula.attrib)}")
+        collected.append(f"array or shared formula {dict(formula.attrib)}")
     # Gnumeric lifts a function over a range in array formulas alone.
     if re.search(r"\b(?:SIN|COS)\([^()]*:", text):
-        found.append("a function over a range")
+        collected.append("a function over a range")
     if re.search(r"\dE[+-]?\d", text) or re.search(r"(^=?|[(,*/+^<>=-])-\(", text):
-        found.append("an exponent or a sign before a bracket")
+        collected.append("an exponent or a sign before a bracket")
     if len(formula.text or "") > LONGEST:
-        found.append("too long to be read")
+        collected.append("too long to be read")
     if _GUARD.search(text):
-        found.append("a guard in place of a rounding, or a sentinel")
+        collected.append("a guard in place of a rounding, or a sentinel")
     if "[" in text or "#" in text:
-        found.append("an external link or an error value")
-    found += [f"{name} over a range" for name in _over_ranges(text)]
-    return found if has_value(cell) else [*found, "no cached value"]
+        collected.append("an external link or an error value")
+    collected += [f"{name} over a range" for name in _over_ranges(text)]
+    return collected if has_value(cell) else [*collected, "no cached value"]
 
 
 def has_value(cell: etree._Element) -> bool:
@@ -235,29 +237,31 @@ def literals(formula: str) -> set[float]:
 
 def expressions(model: Model) -> dict[str, str]:
     """Key → expression of every computed column and scalar."""
-    found = {}
+    collected = {}
     for block in model.blocks:
         if isinstance(block, TableSpec):
-            found |= {f"{block.id}.{c.key}": c.expr for c in block.columns if c.expr is not None}
+            collected |= {
+                f"{block.id}.{c.key}": c.expr for c in block.columns if c.expr is not None
+            }
         else:
-            found |= {scalar.key: scalar.expr for scalar in scalars_of(block)}
-    return found
+            collected |= {scalar.key: scalar.expr for scalar in scalars_of(block)}
+    return collected
 
 
 def limits(model: Model) -> set[float]:
     """Numbers by which the sheet of inputs tells whether a cell holds what it may."""
-    found = {0.0, 1.0}
+    collected = {0.0, 1.0}
     for item in model.inputs:
-        found |= {float(end) for end in (item.minimum, item.maximum) if end is not None}
-        found |= {float(value) for value in options(item) if isinstance(value, int)}
-    return found | {abs(end) for end in found}  # a sign is no part of a literal
+        collected |= {float(end) for end in (item.minimum, item.maximum) if end is not None}
+        collected |= {float(value) for value in options(item) if isinstance(value, int)}
+    return collected | {abs(end) for end in collected}  # a sign is no part of a literal
 
 
 def constants(model: Model) -> set[float]:
     """Numbers that the expressions themselves contain, and steps of tables with own rows."""
-    found = {float(table.step) for table in model.tables.values() if table.step is not None}
+    collected = {float(table.step) for table in model.tables.values() if table.step is not None}
     for expression in expressions(model).values():
         for node in ast.walk(parse(expression)):
             if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
-                found.add(float(node.value))
-    return found
+                collected.add(float(node.value))
+    return collected

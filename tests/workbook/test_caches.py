@@ -22,7 +22,7 @@ R = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
 
 def problems(book: bytes) -> set[str]:
     """What some program stumbles over."""
-    found = set()
+    collected = set()
     with zipfile.ZipFile(io.BytesIO(book)) as archive:
         for name in archive.namelist():
             if not name.endswith((".xml", ".rels")):
@@ -30,17 +30,17 @@ def problems(book: bytes) -> set[str]:
             root = etree.fromstring(archive.read(name))
             if name.startswith(("xl/charts/", "xl/drawings/drawing")):
                 inner = [e for e in root.iter(etree.Element) if e.nsmap != root.nsmap]
-                found |= {"namespaces inside"} if inner else set()
+                collected |= {"namespaces inside"} if inner else set()
             if name.endswith(".rels"):
                 paths = [r.get("Target") for r in root if r.get("TargetMode") != "External"]
-                found |= {"absolute"} if any(p.startswith("/") for p in paths) else set()
+                collected |= {"absolute"} if any(p.startswith("/") for p in paths) else set()
             frames = [frame.find(f".//{XDR}cNvPr") for frame in root.iter(f"{XDR}graphicFrame")]
-            found |= {"no text"} if any(not f.get("descr") for f in frames) else set()
+            collected |= {"no text"} if any(not f.get("descr") for f in frames) else set()
             links = list(root.iter(f"{MAIN}hyperlink"))
-            found |= {"foreign link"} if any(k.get(f"{R}id") for k in links) else set()
+            collected |= {"foreign link"} if any(k.get(f"{R}id") for k in links) else set()
             sides = [axis.find(f"{C}axPos").get("val") for axis in root.iter(f"{C}valAx")]
-            found |= {"sides"} if sides and sides != ["b", "l"] else set()
-    return found
+            collected |= {"sides"} if sides and sides != ["b", "l"] else set()
+    return collected
 
 
 def test_our_book_has_no_such_problem() -> None:

@@ -30,8 +30,8 @@ def test_every_chart_of_the_model_is_there() -> None:
 
 
 def test_every_chart_keeps_the_rules() -> None:
-    found = {name: chart_problems(chart(name)) for name in charts()}
-    assert {name: problems for name, problems in found.items() if problems} == {}
+    collected = {name: chart_problems(chart(name)) for name in charts()}
+    assert {name: problems for name, problems in collected.items() if problems} == {}
 
 
 def test_polar_diagrams_are_square() -> None:
@@ -49,9 +49,9 @@ def test_points_of_charts_are_those_of_the_cells() -> None:
         for reference in etree.fromstring(text).iterfind(f".//{C}numRef"):
             where = reference.findtext(f"{C}f") or ""
             cells: list[object] = []
-            for sheet, place in AREA.findall(where):
-                found = opened[sheet.strip("'").replace("''", "'")][place.replace("$", "")]
-                rows = found if isinstance(found, tuple) else ((found,),)
+            for sheet, position in AREA.findall(where):
+                actual = opened[sheet.strip("'").replace("''", "'")][position.replace("$", "")]
+                rows = actual if isinstance(actual, tuple) else ((actual,),)
                 cells += [cell.value for row in rows for cell in row]
             points = [float(p.text) for p in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
             assert points == pytest.approx(cells, rel=5.1e-6, abs=1e-12), (name, where)

@@ -32,13 +32,13 @@ def test_every_column_explains_itself(name: str) -> None:
     """Formula and place in the book, unless the formula only repeats another column."""
     book, model = coarse_opened(name), coarse_model(name)
     layout = Layout.of(model)
-    told = bare = 0
+    message = bare = 0
     for table in (block for block in model.blocks if isinstance(block, TableSpec)):
         for column in table.columns[1:]:
             at = layout.column_of(f"{table.id}.{column.key}")
             text = book[table.sheet].cell(HEADER_ROW, at).comment.text
             assert column.source in text, (table.id, column.key)
             assert "_" not in text.partition("\n")[2], text
-            told += " = " in text
+            message += " = " in text
             bare += " = " not in text
-    assert told > 5 * bare
+    assert message > 5 * bare

@@ -45,14 +45,14 @@ def recalculated(name: str) -> Book:
 @pytest.mark.parametrize("name", RECALCULATED)
 def test_formulas_of_a_short_book_give_the_numbers_of_the_full_one(name: str) -> None:
     short, full = short_model(coarse_model(name)), coarse_model(name)
-    values, layout, found = coarse_values(name), Layout.of(short), recalculated(name)
-    errors = [(sheet, at, value) for sheet, cells in found.items() for at, value in cells.items()
+    values, layout, actual = coarse_values(name), Layout.of(short), recalculated(name)
+    errors = [(sheet, at, value) for sheet, cells in actual.items() for at, value in cells.items()
               if value is None or (isinstance(value, str) and value.startswith("#"))]  # fmt: skip
     assert errors == []
     assert len(short.scalars) < len(full.scalars)
     for key in short.scalars:
         cell = layout.cells[key]
-        number = found[cell.sheet][cell.coordinate]
+        number = actual[cell.sheet][cell.coordinate]
         if isinstance(values.scalars[key], str):
             assert number == values.scalars[key], key
         else:

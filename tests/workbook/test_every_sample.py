@@ -50,8 +50,8 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
     with zipfile.ZipFile(io.BytesIO(book)) as archive:
         charts = [part for part in archive.namelist() if part.startswith("xl/charts/chart")]
         assert len(charts) == len(drawn(model)) + MOVING
-        found = {part: chart_problems(etree.fromstring(archive.read(part))) for part in charts}
-        assert {part: problems for part, problems in found.items() if problems} == {}
+        collected = {part: chart_problems(etree.fromstring(archive.read(part))) for part in charts}
+        assert {part: problems for part, problems in collected.items() if problems} == {}
         known, indexed, shown = constants(model) | COMPILED, symbols(model), set()
         for title, part in sheet_parts(archive).items():
             root = etree.fromstring(archive.read(part))
@@ -119,9 +119,9 @@ def with_every_value_changed(data: InputFile) -> tuple[InputFile, float]:
         tried = (
             with_values(data, [Change(field, value)]) for value in others if value != field.value
         )
-        found = next((changed for changed in tried if changed is not None), None)
-        if found is not None:
-            data, done = found, done + 1
+        measured = next((changed for changed in tried if changed is not None), None)
+        if measured is not None:
+            data, done = measured, done + 1
     return data, done / len(free)
 
 

@@ -49,15 +49,15 @@ def lengths(name: str) -> dict[str, int]:
     """Characters of each formula, of a column in its last row."""
     model = model_of(name)
     layout = Layout.of(model)
-    found = {}
+    collected = {}
     for block in model.blocks:
         table = block if isinstance(block, TableSpec) else None
         refs = RowReferences(layout, table, block.sheet)
         last = layout.rows_of(table)[-1] if table else 0
         for key, node in nodes_in(block):
             if node.expr is not None:
-                found[key] = len(at_row(compile_formula(node.expr, refs), last))
-    return found
+                collected[key] = len(at_row(compile_formula(node.expr, refs), last))
+    return collected
 
 
 @pytest.mark.parametrize("name", sparse(ENGINES))
@@ -72,12 +72,12 @@ _SPACING = re.compile("[\\s·\u0300-\u036f\u20d7]")  # and bars, which a page dr
 
 def levels(pieces: Iterable[tuple[str, str]]) -> dict[str, str]:
     """Letters on the line and of lower and upper indices, each in their order."""
-    found = {BASE: "", LOWER: "", UPPER: ""}
+    collected = {BASE: "", LOWER: "", UPPER: ""}
     for text, level in pieces:
         above = "".join(_UPPER.findall(text))
-        found[level or (UPPER if above else BASE)] += above
-        found[level] += _UPPER.sub("", text)
-    return {k: _SPACING.sub("", normalize("NFKC", text)) for k, text in found.items()}
+        collected[level or (UPPER if above else BASE)] += above
+        collected[level] += _UPPER.sub("", text)
+    return {k: _SPACING.sub("", normalize("NFKC", text)) for k, text in collected.items()}
 
 
 def of_page(html: str) -> Iterator[tuple[str, str]]:

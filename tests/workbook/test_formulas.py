@@ -31,8 +31,8 @@ from tests.workbook.made import book, model
 
 def cell(formula: str, value: str = "1") -> etree._Element:
     root = etree.Element(f"{MAIN}c", r="A9")
-    made = etree.SubElement(root, f"{MAIN}f")
-    made.text = formula
+    built = etree.SubElement(root, f"{MAIN}f")
+    built.text = formula
     etree.SubElement(root, f"{MAIN}v").text = value
     return root
 
@@ -243,8 +243,8 @@ def test_a_running_sum_takes_the_rows_down_to_its_own() -> None:
 
 
 def test_formulas_leave_the_repeated_last_row_out() -> None:
-    made = model()
-    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    built = model()
+    references = RowReferences(Layout.of(built), built.tables["torque_orders"])
     text = compile_formula("fourier_cos(tangential.t_gas_MPa, tangential.phi_deg, 1.5)", references)
     waves = "'Синусы и косинусы'!$D$6:$D$77"
     assert text == f"=2*SUMPRODUCT($B$6:$B$77,{waves})/COUNT($B$6:$B$77)"
@@ -253,8 +253,8 @@ def test_formulas_leave_the_repeated_last_row_out() -> None:
 
 
 def test_each_row_sums_over_the_waves_of_its_order() -> None:
-    made = model()
-    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    built = model()
+    references = RowReferences(Layout.of(built), built.tables["torque_orders"])
     sines = "fourier_sin(tangential.t_gas_MPa, tangential.phi_deg, order)"
     text = compile_formula(sines, references)
     assert "'Синусы и косинусы'!$R$6:$R$77)" in at_row(text, 6)
@@ -262,8 +262,8 @@ def test_each_row_sums_over_the_waves_of_its_order() -> None:
 
 
 def test_sums_over_cylinders_take_the_waves_of_each_order() -> None:
-    made = model()
-    references = RowReferences(Layout.of(made), made.tables["torque_orders"])
+    built = model()
+    references = RowReferences(Layout.of(built), built.tables["torque_orders"])
     text = compile_formula(f"wave_sin({FIRING}, order)", references)
     first, second = at_row(text, 6), at_row(text, 7)
     assert first.startswith("=SUM('Синусы и косинусы'!$B$") and first != second

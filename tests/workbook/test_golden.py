@@ -23,8 +23,8 @@ NAME = "basic"
 
 @pytest.mark.parametrize("name", golden.BOOKS)
 def test_every_part_is_the_stored_one(name: str) -> None:
-    found = golden.differences(golden.stored(name), golden.describe(golden.book(name)))
-    assert not found, golden.report(found)
+    actual = golden.differences(golden.stored(name), golden.describe(golden.book(name)))
+    assert not actual, golden.report(actual)
 
 
 def test_the_stored_texts_are_small() -> None:
@@ -44,14 +44,14 @@ def test_a_changed_formula_is_named_with_its_cell() -> None:
     old = content(part)
     assert old.count(b"<f>B6+C6</f>") == 1
     new = old.replace(b"<f>B6+C6</f>", b"<f>B6-C6</f>")
-    found = golden.differences({part: golden.lines_of(part, old)},
+    actual = golden.differences({part: golden.lines_of(part, old)},
                                {part: golden.lines_of(part, new)})  # fmt: skip
-    assert [line.partition(" ")[0] for line in found[part][3:] if line[0] in "+-"] == [
+    assert [line.partition(" ")[0] for line in actual[part][3:] if line[0] in "+-"] == [
         "-D6:30", "+D6", "+D7:30",
     ]  # fmt: skip
-    assert found[part][4].endswith("=B{+0}+C{+0}")
-    assert found[part][5].endswith("=B{+0}-C{+0}")
-    report = golden.report(found)
+    assert actual[part][4].endswith("=B{+0}+C{+0}")
+    assert actual[part][5].endswith("=B{+0}-C{+0}")
+    report = golden.report(actual)
     assert part in report
     assert "--renew" in report
 
@@ -95,20 +95,20 @@ def test_formulas_with_rows_counted_from_their_own(formula: str, row: int, text:
 
 def formulas(data: bytes) -> dict[tuple[str, str], str]:
     """Sheet and cell → formula without the freedoms of writing it."""
-    found = {}
+    collected = {}
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for title, part in sheet_parts(archive).items():
             for formula in etree.fromstring(archive.read(part)).iter(f"{MAIN}f"):
-                found[title, formula.getparent().get("r")] = plain(formula.text)
-    return found
+                collected[title, formula.getparent().get("r")] = plain(formula.text)
+    return collected
 
 
 def plain(formula: str) -> str:
     """Sheet names without quotes, numbers in one notation."""
     pieces = re.split(r'("[^"]*")', re.sub(r"'([^']+)'!", r"\1!", formula))
     return "".join(
-        piece if place % 2 else LITERAL.sub(lambda match: repr(float(match[0])), piece)
-        for place, piece in enumerate(pieces)
+        piece if index % 2 else LITERAL.sub(lambda match: repr(float(match[0])), piece)
+        for index, piece in enumerate(pieces)
     )
 
 

@@ -98,14 +98,14 @@ def test_points_and_forces_at_72_angles(name: str, cylinder: int) -> None:
             scale = max(1.0, float(np.abs(expected).max()))
             assert abs(shown(f"Сила {force}") - expected[step]) <= TOLERANCE * scale
         total = solution.columns["P4_2"]["Msum_Nm"]
-        found = shown("Суммарный момент ΣM")
-        assert abs(found - total[step]) <= TOLERANCE * np.abs(total).max()
+        actual = shown("Суммарный момент ΣM")
+        assert abs(actual - total[step]) <= TOLERANCE * np.abs(total).max()
 
 
 def at_all_angles(data: bytes, cylinder: int) -> bytes:
     """The book with a sheet of the mechanism for each of 72 angles: «М0», «М10» …"""
-    made = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(data)) as given, zipfile.ZipFile(made, "w") as book:
+    built = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as given, zipfile.ZipFile(built, "w") as book:
         part = sheet_parts(given)[SHEET]
         root = etree.fromstring(given.read(part))
         for name in ("drawing", "legacyDrawing"):
@@ -136,20 +136,20 @@ def at_all_angles(data: bytes, cylinder: int) -> bytes:
                 said = text.decode().replace(end, "".join(lines) + end)
                 text = said.encode()
             book.writestr(name, text)
-    return made.getvalue()
+    return built.getvalue()
 
 
 def test_libreoffice_draws_the_same_at_72_angles(libreoffice: LibreOffice) -> None:
     """Every cell of the sheet as formualizer has it, whose points are held to the solver above."""
     engine = opened("gots-diesel")
     at = rows(engine)
-    (found,) = libreoffice.recalculate([at_all_angles(book(), 3)])
+    (actual,) = libreoffice.recalculate([at_all_angles(book(), 3)])
     engine.set_value(SHEET, at["Цилиндр"], 2, 3)
     letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
     for angle in ANGLES:
         engine.set_value(SHEET, at["Угол поворота вала φ"], 2, angle)
         engine.evaluate_all()
-        cells = found[f"М{angle}"]
+        cells = actual[f"М{angle}"]
         assert len(cells) > 100
         for cell, value in cells.items():
             if len(cell.rstrip("0123456789")) > 1:

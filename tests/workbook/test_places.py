@@ -36,42 +36,42 @@ _EMU = 9525
 
 
 def boxes_of(sheet: Worksheet) -> list[Box]:
-    found = []
+    collected = []
     for chart in sheet._charts:  # openpyxl has no other list of what it read
         at, size = chart.anchor._from, chart.anchor.ext
         x = sum(column_px(sheet, i) for i in range(1, at.col + 1)) + at.colOff // _EMU
         y = sum(row_px(sheet, i) for i in range(1, at.row + 1)) + at.rowOff // _EMU
-        found.append(Box(x, y, size.width // _EMU, size.height // _EMU))
-    return found
+        collected.append(Box(x, y, size.width // _EMU, size.height // _EMU))
+    return collected
 
 
 def problems(boxes: list[Box], sheet: Worksheet | None = None) -> list[str]:
     """What is wrong with the places of a sheet's charts."""
-    found = []
-    for place, box in enumerate(boxes):
-        below = any(b.bottom <= box.y and b.x <= box.x < b.right for b in boxes[:place])
+    collected = []
+    for index, box in enumerate(boxes):
+        below = any(b.bottom <= box.y and b.x <= box.x < b.right for b in boxes[:index])
         if box.right > SCREEN or (box.bottom > FOLD + box.height // 2 and not below):
-            found.append(f"{box} is out of sight")
+            collected.append(f"{box} is out of sight")
     for one, other in itertools.combinations(boxes, 2):
-        apart = (one.right <= other.x or other.right <= one.x
+        separate = (one.right <= other.x or other.right <= one.x
                  or one.bottom <= other.y or other.bottom <= one.y)  # fmt: skip
-        if not apart:
-            found.append(f"{one} and {other} overlap")
+        if not separate:
+            collected.append(f"{one} and {other} overlap")
     if len({box.width for box in boxes}) > 1:
-        found.append("widths differ")
+        collected.append("widths differ")
     if (
         sheet is not None and sheet.title != SHEET and boxes and min(b.x for b in boxes) < 100
     ):  # below the cells, then
         written = extent(sheet)[1]
-        found += [f"{box} lies on cells" for box in boxes if box.y < written]
-    return found
+        collected += [f"{box} lies on cells" for box in boxes if box.y < written]
+    return collected
 
 
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_chart_is_where_one_looks(name: str) -> None:
     book = coarse_opened(name)
-    found = {sheet.title: problems(boxes_of(sheet), sheet) for sheet in book.worksheets}
-    assert {title: said for title, said in found.items() if said} == {}
+    collected = {sheet.title: problems(boxes_of(sheet), sheet) for sheet in book.worksheets}
+    assert {title: said for title, said in collected.items() if said} == {}
     assert len(boxes_of(book.worksheets[0])) == 4
 
 
@@ -184,8 +184,8 @@ def header_problems(text: str, width: int, height: int) -> list[str]:
         if long(f"{lines[-1]} {word}".strip()):
             lines.append("")
         lines[-1] = f"{lines[-1]} {word}".strip()
-    found = [f"«{word}» is broken" for word in text.split(" ") if long(word)]
-    return [*found, f"{len(lines)} lines"] if len(lines) * _LINE > height else found
+    collected = [f"«{word}» is broken" for word in text.split(" ") if long(word)]
+    return [*collected, f"{len(lines)} lines"] if len(lines) * _LINE > height else collected
 
 
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
@@ -195,12 +195,12 @@ def test_headers_of_tables_are_whole(name: str) -> None:
 
 def test_headers_of_twelve_throws_are_whole() -> None:
     """«Mш.ш10 по» has no room in one line where «Mш.ш9 по» has."""
-    made = build_model(load_text(file_text(generate_engine(12)), source="twelve").model)
-    whole_headers(load_workbook(io.BytesIO(workbook_bytes(made))), made)
+    model = build_model(load_text(file_text(generate_engine(12)), source="twelve").model)
+    whole_headers(load_workbook(io.BytesIO(workbook_bytes(model))), model)
 
 
-def whole_headers(book: Workbook, made: Model) -> None:
-    for title in {INPUT_SHEET, *(block.sheet for block in made.blocks)}:
+def whole_headers(book: Workbook, built: Model) -> None:
+    for title in {INPUT_SHEET, *(block.sheet for block in built.blocks)}:
         sheet = book[title]
         for cell in itertools.chain.from_iterable(sheet.iter_rows()):
             width = column_px(sheet, cell.column)
@@ -217,9 +217,9 @@ def test_a_header_too_long_for_its_column_is_seen() -> None:
 
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_group_of_input_data_has_its_title(name: str) -> None:
-    made, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
-    layout = Layout.of(made)
-    for section, run in itertools.groupby(arranged(made.inputs), lambda item: item.section):
+    built, sheet = coarse_model(name), coarse_opened(name)[INPUT_SHEET]
+    layout = Layout.of(built)
+    for section, run in itertools.groupby(arranged(built.inputs), lambda item: item.section):
         first = next(run)
         row = layout.cells[first.name].row - (2 if first.listed else 1)
         assert sheet.cell(row, 1).value == section
@@ -232,18 +232,18 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     raw["report"]["title"] = long
     mass = {"inertia_kg_m2": 0.1, "stiffness_nm_rad": 1e6}
     raw["torsion"] = {"masses": [{"name": name, **mass}, {"name": "вал", **mass}]}
-    made = build_model(load_mapping(raw, source="long").model)
-    layout, book = Layout.of(made), Workbook()
+    model = build_model(load_mapping(raw, source="long").model)
+    layout, book = Layout.of(model), Workbook()
     styles.add_styles(book)
     sheet = book.create_sheet(INPUT_SHEET)
-    write_inputs(sheet, made, BlockWriter(layout, Values({}, {})))
-    set_widths(sheet, made, layout, Values({}, {}))
+    write_inputs(sheet, model, BlockWriter(layout, Values({}, {})))
+    set_widths(sheet, model, layout, Values({}, {}))
     title = layout.cells["report_title"]
     (across,) = sheet.merged_cells.ranges
     room = sum(column_px(sheet, i) for i in range(across.min_col, across.max_col + 1))
     assert (across.min_row, across.max_col) == (title.row, SOURCE_COLUMN)
     assert _REGULAR.getlength(long) * _PX < room * (row_px(sheet, title.row) // _LINE)
-    masses = [item for item in made.inputs if item.value == name]
+    masses = [item for item in model.inputs if item.value == name]
     first = layout.cells[masses[0].name]
     assert _REGULAR.getlength(name) * _PX < column_px(sheet, first.column)
 

@@ -26,7 +26,7 @@ def pages_of(sheet: Worksheet) -> list[tuple[int, int]]:
     boxes = boxes_of(sheet)
     assert not [said for said in problems(boxes) if "overlap" in said]
     assert not sheet.sheet_properties.pageSetUpPr.fitToPage  # it would pass over the breaks
-    ends = [top_of(sheet, found.id + 1) for found in sheet.row_breaks.brk]
+    ends = [top_of(sheet, collected.id + 1) for collected in sheet.row_breaks.brk]
     edges = [0, *ends, max(box.bottom for box in boxes)]
     scale = sheet.page_setup.scale / 100
     wide, high = PAPER["landscape"]

@@ -65,7 +65,7 @@ def test_no_list_is_cut_from_its_heading_by_the_end_of_a_page(name: str) -> None
         if sheet.print_title_rows or (page.fitToWidth, page.fitToHeight) == (1, 1):
             continue
         starts = [cell.row for cell in sheet["A"] if cell.style == SUBTITLE]
-        breaks = [found.id for found in sheet.row_breaks.brk]
+        breaks = [collected.id for collected in sheet.row_breaks.brk]
         ended += [sheet.title] if starts and breaks else []
         for start, following in pairwise([*starts, sheet.max_row + 2]):
             within = [row for row in breaks if start <= row < following - 2]
@@ -100,7 +100,7 @@ def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
             assert not sheet.col_breaks.brk
             assert wide <= PAPER[sheet.page_setup.orientation][0], sheet.title
             continue
-        breaks = [found.id + 1 for found in sheet.col_breaks.brk]
+        breaks = [collected.id + 1 for collected in sheet.col_breaks.brk]
         assert breaks == starts[1:]
         assert not sheet.print_title_cols
         assert sheet.page_setup.orientation == "portrait"
@@ -126,7 +126,7 @@ def test_no_chart_is_cut_by_the_end_of_a_page(name: str) -> None:
             assert max(box.bottom for box in boxes) * own <= high, sheet.title
             continue
         ended.append(sheet.title)
-        edges = [0, *(top_of(sheet, found.id + 1) for found in sheet.row_breaks.brk)]
+        edges = [0, *(top_of(sheet, collected.id + 1) for collected in sheet.row_breaks.brk)]
         edges.append(max(box.bottom for box in boxes))
         assert not sheet.sheet_properties.pageSetUpPr.fitToPage
         assert page.scale / 100 <= scale

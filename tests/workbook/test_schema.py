@@ -28,13 +28,13 @@ def validator() -> Path:
     npx = shutil.which("npx")
     if npx is None:
         missing("node", "nodejs npm")
-    found = subprocess.run(
+    actual = subprocess.run(
         [npx, "--yes", "-p", VALIDATOR, "-c", "command -v ooxml-validate"],
         capture_output=True, text=True, timeout=300, check=False,
     )  # fmt: skip
-    if found.returncode:
+    if actual.returncode:
         pytest.skip("пакет проверки схемой недоступен")
-    return Path(found.stdout.strip()).resolve().parents[1] / "index.js"
+    return Path(actual.stdout.strip()).resolve().parents[1] / "index.js"
 
 
 def validated(files: Mapping[str, bytes], folder: Path) -> dict[str, list[str]]:
@@ -48,8 +48,8 @@ def validated(files: Mapping[str, bytes], folder: Path) -> dict[str, list[str]]:
         capture_output=True, text=True, timeout=600, check=False, cwd=folder,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-3000:]
-    told = json.loads(done.stdout.splitlines()[-1])
-    return {name: [fault["description"] for fault in told[name]] for name in files}
+    message = json.loads(done.stdout.splitlines()[-1])
+    return {name: [fault["description"] for fault in message[name]] for name in files}
 
 
 # What repeats: rows of sheets and of Word's tables, points of charts.
@@ -59,26 +59,26 @@ _OWN = re.compile(rb' (r|idx|spans|[a-z0-9]*:?rsid\w*)="[^"]*"|(?<=>)[^<]+(?=<)'
 
 def thinned(data: bytes) -> bytes:
     """The file with one row or point of each form: the others say nothing new to a schema."""
-    made = io.BytesIO()
+    built = io.BytesIO()
     forms: set[tuple[str, bytes]] = set()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as given,
-        zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as parts,
+        zipfile.ZipFile(built, "w", zipfile.ZIP_DEFLATED) as parts,
     ):
         for name in given.namelist():
             part = given.read(name)
             if name.endswith(".xml"):
                 root = etree.fromstring(part)
                 for outer, inner in _REPEATING.items():
-                    for place in root.iter(f"{{*}}{outer}"):
-                        for child in place.findall(f"{{*}}{inner}"):
+                    for position in root.iter(f"{{*}}{outer}"):
+                        for child in position.findall(f"{{*}}{inner}"):
                             form = outer, _OWN.sub(b"", etree.tostring(child, with_tail=False))
                             if form in forms:
-                                place.remove(child)
+                                position.remove(child)
                             forms.add(form)
                 part = etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True)
             parts.writestr(name, part)
-    return made.getvalue()
+    return built.getvalue()
 
 
 def test_one_row_of_each_form_stays() -> None:
@@ -120,7 +120,7 @@ def test_the_schema_validator_finds_nothing(tmp_path: Path) -> None:
     }
     if ALL:  # what the framed one holds and nothing else
         files["note.docx"] = docx_of(engine)
-    told = validated({name: thinned(data) for name, data in files.items()}, tmp_path)
-    (fault,) = told.pop("framed.docx")
+    lines = validated({name: thinned(data) for name, data in files.items()}, tmp_path)
+    (fault,) = lines.pop("framed.docx")
     assert "wrong" in fault
-    assert told == {name: [] for name in files if name != "framed.docx"}
+    assert lines == {name: [] for name in files if name != "framed.docx"}

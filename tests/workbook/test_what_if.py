@@ -16,12 +16,12 @@ from tools.referees.cells import stripped
 
 def lines(engine: formualizer.Workbook) -> dict[str, tuple[float, float, float]]:
     """Symbol → was, is, difference in percent."""
-    found = {}
+    collected = {}
     for row in range(HEADER_ROW + 1, 130):
         symbol, *numbers = (engine.get_value(SHEET, row, column) for column in range(2, 6))
         if symbol and all(isinstance(n, int | float) for n in numbers):
-            found.setdefault(symbol, tuple(map(float, numbers)))
-    return found
+            collected.setdefault(symbol, tuple(map(float, numbers)))
+    return collected
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "two-stroke"])
@@ -37,8 +37,8 @@ def test_a_lighter_piston(name: str) -> None:
     assert {percent for _, _, percent in before.values()} == {0.0}
 
     lighter = 0.8 * field.value
-    place = Layout.of(model).cells[field.name]
-    engine.set_value(place.sheet, place.row, place.column, lighter)
+    position = Layout.of(model).cells[field.name]
+    engine.set_value(position.sheet, position.row, position.column, lighter)
     engine.evaluate_all()
     changed = with_values(model.input, [Change(field, lighter)])
     assert changed is not None
@@ -53,5 +53,5 @@ def test_a_lighter_piston(name: str) -> None:
         assert percent == pytest.approx((expected[key] / old[key] - 1) * 100, abs=1e-6)
         seen += abs(percent) > 1
     assert seen >= 3
-    own = [found for found in after.values() if found[0] == field.value]
+    own = [collected for collected in after.values() if collected[0] == field.value]
     assert any(now == lighter and percent == pytest.approx(-20) for _, now, percent in own)

@@ -52,8 +52,8 @@ NAME = "two-stroke"
 def changed(field: str, value: float | str | None) -> formualizer.Workbook:
     """The book with another value in a cell."""
     engine = formualizer.load_workbook_bytes(stripped(book(NAME))[0])
-    place = Layout.of(model(NAME)).cells[field]
-    engine.set_value(place.sheet, place.row, place.column, value)
+    position = Layout.of(model(NAME)).cells[field]
+    engine.set_value(position.sheet, position.row, position.column, value)
     engine.evaluate_all()
     return engine
 
@@ -83,26 +83,30 @@ def answers(name: str) -> Iterator[tuple[Field, float | str | None, str, int, bo
 
     Of the other engine's cells those that the first has not; in few rows, as often as it is asked.
     """
-    made, data = coarse_model(name), coarse_book(name)
-    layout = Layout.of(made)
+    built, data = coarse_model(name), coarse_book(name)
+    layout = Layout.of(built)
     engine = formualizer.load_workbook_bytes(stripped(data)[0])
-    ranges = [formula_range(sheet, found) for sheet, found in formula_cells(data).items() if found]
+    ranges = [
+        formula_range(sheet, collected)
+        for sheet, collected in formula_cells(data).items()
+        if collected
+    ]
     reds = red_rows(data)
     known = set() if name == NAME else set(coarse_model(NAME).fields)
-    for item in (item for item in made.inputs if item.name not in known):
-        place = layout.cells[item.name]
+    for item in (item for item in built.inputs if item.name not in known):
+        position = layout.cells[item.name]
         for value in WRONG:
-            engine.set_value(place.sheet, place.row, place.column, value)
+            engine.set_value(position.sheet, position.row, position.column, value)
             engine.evaluate_all()
             errors = sum(errors_in(engine, cells) for cells in ranges)
-            red = engine.get_value(INPUT_SHEET, place.row, reds) in (1, 1 + RESHAPED_ROW)
+            red = engine.get_value(INPUT_SHEET, position.row, reds) in (1, 1 + RESHAPED_ROW)
             yield item, value, verdict(engine), errors, red
-        engine.set_value(place.sheet, place.row, place.column, shown(item))
+        engine.set_value(position.sheet, position.row, position.column, shown(item))
 
 
-def formula_range(sheet: str, found: Collection[str]) -> formualizer.RangeAddress:
+def formula_range(sheet: str, actual: Collection[str]) -> formualizer.RangeAddress:
     """The smallest range with all formulas of a sheet."""
-    rows, columns = zip(*map(row_and_column, found), strict=True)
+    rows, columns = zip(*map(row_and_column, actual), strict=True)
     return formualizer.RangeAddress(sheet, min(rows), min(columns), max(rows), max(columns))
 
 
@@ -142,20 +146,20 @@ def allowed(item: Field, value: float | str | None) -> bool:
 def test_no_wrong_cell_leaves_a_book_that_says_all_is_well(name: str) -> None:
     seen = set()
     for item, value, said, errors, red in answers(name):
-        told = f"{item.name} = {value!r}: «{said}», ошибок {errors}"
+        lines = f"{item.name} = {value!r}: «{said}», ошибок {errors}"
         # A value may contradict another one, as a scavenge that begins before the exhaust.
-        assert red or allowed(item, value), told
+        assert red or allowed(item, value), lines
         assert not (red and allowed(item, value)) or isinstance(door(name, {item: value}), str), (
-            told
+            lines
         )
         if item.structural:
-            assert said == RESHAPED, told
+            assert said == RESHAPED, lines
         elif errors:
-            assert said.startswith(UNKNOWN), told
+            assert said.startswith(UNKNOWN), lines
         elif red:
-            assert said.startswith(BEYOND), told
+            assert said.startswith(BEYOND), lines
         else:
-            assert said.startswith((GOOD, BAD)), told
+            assert said.startswith((GOOD, BAD)), lines
         seen.add((bool(errors), red))
     assert {(True, True), (False, True), (False, False)} <= seen
 
@@ -173,13 +177,13 @@ def door(name: str, changes: dict[Field, float | str | None]) -> str | list[str]
 
 @pytest.mark.parametrize("name", [NAME, "d-240-bearings"])
 def test_values_that_contradict_each_other_turn_red_as_the_door_refuses_them(name: str) -> None:
-    made, data = coarse_model(name), coarse_book(name)
-    layout = Layout.of(made)
+    built, data = coarse_model(name), coarse_book(name)
+    layout = Layout.of(built)
     engine = formualizer.load_workbook_bytes(stripped(data)[0])
-    reds, told = red_rows(data), set()
+    reds, lines = red_rows(data), set()
     engine.evaluate_all()
     rows = {engine.get_value("Проверки", row, 1): row for row in range(1, 90)}
-    for condition in conditions(made, layout, coarse_values(name).scalars):
+    for condition in conditions(built, layout, coarse_values(name).scalars):
         pair, verdict_row = condition.pair, rows[condition.title]
         if len(condition.fields) != 2:
             continue
@@ -191,31 +195,33 @@ def test_values_that_contradict_each_other_turn_red_as_the_door_refuses_them(nam
         if pair.holds(float(change[less] or 0.0), float(more.value)):  # ρ up to 6, ε of 16
             change[more] = more.minimum
         for item, value in change.items():
-            place = layout.cells[item.name]
-            engine.set_value(place.sheet, place.row, place.column, value)
+            position = layout.cells[item.name]
+            engine.set_value(position.sheet, position.row, position.column, value)
         engine.evaluate_all()
         wrong = ODD if pair.warning else NO
         assert engine.get_value("Проверки", verdict_row, 4) == wrong, condition.title
         for item in condition.fields:
-            place = layout.cells[item.name]
-            assert engine.get_value(place.sheet, place.row, reds) == (2 if pair.warning else 1)
+            position = layout.cells[item.name]
+            assert engine.get_value(position.sheet, position.row, reds) == (
+                2 if pair.warning else 1
+            )
         said = door(name, change)
         refused = isinstance(said, str)
         assert refused is not pair.warning, (condition.title, said)
         assert any(key_text(item.path) in said for item in condition.fields), condition.title
         for item in change:
-            place = layout.cells[item.name]
-            engine.set_value(place.sheet, place.row, place.column, item.value)
+            position = layout.cells[item.name]
+            engine.set_value(position.sheet, position.row, position.column, item.value)
         engine.evaluate_all()
-        told.add(pair)
-    assert len(told) > 2
+        lines.add(pair)
+    assert len(lines) > 2
 
 
 def test_a_regime_is_held_to_its_own_gas() -> None:
     """Combustion begins at a given angle in the first regime, after a delay in the others."""
-    made = coarse_model("gots-regimes")
-    found = conditions(made, Layout.of(made), coarse_values("gots-regimes").scalars)
-    delays = [c.pair.warning for c in found if c.pair.less == "gas.ignition_delay_deg"]
+    built = coarse_model("gots-regimes")
+    actual = conditions(built, Layout.of(built), coarse_values("gots-regimes").scalars)
+    delays = [c.pair.warning for c in actual if c.pair.less == "gas.ignition_delay_deg"]
     assert delays == [True, False, False]
 
 
@@ -223,14 +229,14 @@ def test_points_out_of_order_turn_red() -> None:
     raw = to_mapping(coarse(NAME))
     points = [[0.0, 0.1], [90.0, 0.3], [180.0, 6.0], [270.0, 0.4], [360.0, 0.1]]
     raw["gas"] = {"source": "table", "ambient_pressure_mpa": 0.1, "points": points}
-    made = build_model(load_mapping(raw, source="").model)
-    data = workbook_bytes(made)
+    model = build_model(load_mapping(raw, source="").model)
+    data = workbook_bytes(model)
     engine, reds = formualizer.load_workbook_bytes(stripped(data)[0]), red_rows(data)
-    places = Layout.of(made).cells
+    places = Layout.of(model).cells
     rows = [places[f"gas_point_{n}_deg"].row for n in range(1, 6)]
     for angle, state in ((91.0, 0), (90.0, 1), (200.0, 0), (280.0, 1)):
-        place = places["gas_point_3_deg"]
-        engine.set_value(place.sheet, place.row, place.column, angle)
+        position = places["gas_point_3_deg"]
+        engine.set_value(position.sheet, position.row, position.column, angle)
         engine.evaluate_all()
         assert [engine.get_value(INPUT_SHEET, row, reds) for row in rows] == [state] * 5, angle
 
@@ -238,17 +244,17 @@ def test_points_out_of_order_turn_red() -> None:
 def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
     raw = to_mapping(coarse(NAME))
     raw["gas"]["expansion_exponent"] = 1.5  # more than that of compression
-    made = build_model(load_mapping(raw, source="").model)
-    data = workbook_bytes(made)
+    model = build_model(load_mapping(raw, source="").model)
+    data = workbook_bytes(model)
     cached, engine = openpyxl.load_workbook(io.BytesIO(data), data_only=True), stripped(data)[0]
     live = formualizer.load_workbook_bytes(engine)
     live.evaluate_all()
-    place, column = Layout.of(made).cells["gas_expansion_exponent"], red_rows(data)
-    for row in (place.row, place.row + 1):
+    position, column = Layout.of(model).cells["gas_expansion_exponent"], red_rows(data)
+    for row in (position.row, position.row + 1):
         assert cached[INPUT_SHEET].cell(row, column).value == live.get_value(
             INPUT_SHEET, row, column
         ), row
-    assert cached[INPUT_SHEET].cell(place.row, column).value == 2
+    assert cached[INPUT_SHEET].cell(position.row, column).value == 2
     assert ODD in [cell.value for cell in cached["Проверки"]["D"]]
     assert verdict(live).startswith(BAD)  # of the coarse grid, not of what is odd
 
@@ -256,18 +262,18 @@ def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_cell_with_a_range_turns_red_beyond_it(name: str) -> None:
     sheet = coarse_opened(name)[INPUT_SHEET]
-    found = {
+    collected = {
         (area.coord, *map(float, rule.formula))
         for places in sheet.conditional_formatting
         for rule in places.rules
         if rule.operator == "notBetween" and rule.dxf.fill.bgColor.rgb.endswith("FFC7CE")
         for area in places.sqref.ranges
     }
-    made = coarse_model(name)
-    layout = Layout.of(made)
-    assert found == {
+    built = coarse_model(name)
+    layout = Layout.of(built)
+    assert collected == {
         (layout.cells[item.name].coordinate, item.minimum, item.maximum)
-        for item in made.inputs
+        for item in built.inputs
         if item.minimum is not None and item.maximum is not None
     }
 
@@ -297,5 +303,5 @@ def test_a_list_of_a_cell_offers_what_the_cell_holds(name: str) -> None:
     assert len(lists) > 5
     for rule in lists:
         offered = rule.formula1.strip('"').split(",")
-        for place in rule.sqref.ranges:
-            assert str(sheet[place.coord].value) in offered, (place.coord, offered)
+        for position in rule.sqref.ranges:
+            assert str(sheet[position.coord].value) in offered, (position.coord, offered)

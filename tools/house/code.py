@@ -41,8 +41,8 @@ class Code:
     @cached_property
     def books(self) -> dict[str, str]:
         """Text of each book by its name."""
-        found = _texts(self.root / "templates", "*.book")
-        return {path.stem: text for path, text in found.items() if path.parent.name != "templates"}
+        actual = _texts(self.root / "templates", "*.book")
+        return {path.stem: text for path, text in actual.items() if path.parent.name != "templates"}
 
     @cached_property
     def imports(self) -> dict[str, set[str]]:
@@ -84,7 +84,7 @@ def _targets(tree: ast.Module, names: KeysView[str]) -> Iterator[str]:
 
 
 def circles(graph: dict[str, set[str]]) -> list[set[str]]:
-    """Sets of nodes that reach each other: strongly connected, more than one."""
+    """Return sets of nodes that reach each other: strongly connected, more than one."""
     order: list[str] = []
     seen: set[str] = set()
     for start in graph:

@@ -26,7 +26,7 @@ Measure = Callable[[Code], str]
 
 
 def imports(code: Code) -> str:
-    """Imports between files / pairs of rooms that they join."""
+    """Return imports between files / pairs of rooms that they join."""
     edges = {(a, b) for a, targets in code.imports.items() for b in targets}
     rooms = {(code.room(a), code.room(b)) for a, b in edges if code.room(a) != code.room(b)}
     return f"{len(edges)} / {len(rooms)}"
@@ -81,7 +81,7 @@ def vague_names(code: Code) -> str:
 
 
 def vague_names_of_tests(code: Code) -> str:
-    """The first list in the tests."""
+    """Return the first list in the tests."""
     names = _names(ast.parse(text) for text in code.tests.values())
     return str(sum(names[word] for word in VAGUE))
 

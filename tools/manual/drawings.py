@@ -152,7 +152,7 @@ def _circle(x: float, y: float, radius: float, kind: str) -> str:
 
 
 def _arc(x: float, y: float, radius: float, first: float, last: float) -> str:
-    """An arrow by rotation, clockwise from the vertical [deg]."""
+    """Return an arrow by rotation, clockwise from the vertical [deg]."""
     ends = []
     for angle in (math.radians(first), math.radians(last)):
         ends.append(f"{x + radius * math.sin(angle):.1f} {y - radius * math.cos(angle):.1f}")
@@ -160,7 +160,7 @@ def _arc(x: float, y: float, radius: float, first: float, last: float) -> str:
 
 
 def _text(x: float, y: float, text: str, kind: str = "") -> str:
-    """A text; ``h_Л`` has a subscript."""
+    """Return a text; ``h_Л`` has a subscript."""
     return f'<text x="{x:g}" y="{y:g}" class="{kind}">{_lowered(text)}</text>'
 
 

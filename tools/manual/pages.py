@@ -56,7 +56,7 @@ def code(text: str) -> str:
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table."""
+    """Return a table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
@@ -65,7 +65,7 @@ _HEADER = ("Ключ", "Что это", "Обозначение", "Единиц�
 
 
 def input_page() -> str:
-    """The whole page."""
+    """Return the whole page."""
     parts = [INPUT_HEAD]
     for name, section in SECTIONS.items():
         parts.append(f"## [{name}] — {section.title.lower()}")
@@ -91,13 +91,13 @@ def _gases() -> Iterator[str]:
 
 
 def _section(path: str, model: type[Strictly]) -> Iterator[str]:
-    """The keys of a section as one table, those of its lists of records as further ones."""
+    """Yield the keys of a section as one table, those of its lists of records as further ones."""
     inner = dict(records(model))
     yield table(_HEADER, _rows(model, skipped=inner))
-    for key, found in inner.items():
+    for key, item in inner.items():
         yield f"### [[{path}.{key}]]"
         yield from SECTION_NOTES.get(f"{path}.{key}", ())
-        yield table(_HEADER, _rows(found))
+        yield table(_HEADER, _rows(item))
 
 
 def _rows(model: type[Strictly], skipped: Iterable[str] = ()) -> Iterator[tuple[str, ...]]:
@@ -163,7 +163,7 @@ class _Seen:
 
 
 def sheets_page(samples: Sequence[str] = ()) -> str:
-    """The whole page; ``samples`` in the order in which they are read."""
+    """Return the whole page; ``samples`` in the order in which they are read."""
     seen = _Seen()
     parts = [SHEETS_HEAD]
     for name in samples or (FIRST_SAMPLE, *(n for n in list_samples() if n != FIRST_SAMPLE)):

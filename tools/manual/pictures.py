@@ -66,7 +66,7 @@ def write_pictures(folder: Path) -> list[Path]:
 
 
 def _web_page(target: Path) -> Path:
-    """The page of an engine as a browser shows it, at an angle with large forces."""
+    """Return the page of an engine as a browser shows it, at an angle with large forces."""
     from PIL import Image
     from playwright.sync_api import sync_playwright
 
@@ -94,7 +94,7 @@ def _web_page(target: Path) -> Path:
 
 
 def _live_page(target: Path) -> Path:
-    """The live page of a V8 from its file."""
+    """Return the live page of a V8 from its file."""
     from PIL import Image
     from playwright.sync_api import sync_playwright
 

@@ -117,7 +117,9 @@ def _mend(tokens: list[Token], page: Path, pages: Mapping[Path, str]) -> None:
         for child in token.children or ():
             target = child.attrGet("href")
             if target is not None:
-                child.attrs = {"href": found} if (found := _href(str(target), page, pages)) else {}
+                child.attrs = (
+                    {"href": collected} if (collected := _href(str(target), page, pages)) else {}
+                )
             source = str(child.attrGet("src") or "")
             if "/images/" in source:  # of the README, which stands above the pages
                 child.attrSet("src", "images/" + Path(source).name)
@@ -128,5 +130,5 @@ def _href(link: str, page: Path, pages: Mapping[Path, str]) -> str:
     if "://" in link or link.startswith("#"):
         return link
     name, mark, anchor = link.partition("#")
-    found = pages.get((page.parent / unquote(name)).resolve())
-    return "" if found is None else found + mark + anchor
+    actual = pages.get((page.parent / unquote(name)).resolve())
+    return "" if actual is None else actual + mark + anchor

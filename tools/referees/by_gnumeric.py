@@ -37,7 +37,7 @@ class Gnumeric:
             }
 
     def edited(self, book: bytes, values: Mapping[str, float]) -> bytes:
-        """The workbook as it saves it after an edit of cells of the first sheet."""
+        """Return the workbook as it saves it after an edit of cells of the first sheet."""
         typed = [word for at, value in values.items() for word in ("--set", f"{at}={value}")]
         with tempfile.TemporaryDirectory(prefix="kshm-gnumeric-") as name:
             saved = Path(name) / "saved.xlsx"

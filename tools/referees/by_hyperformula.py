@@ -59,9 +59,7 @@ class HyperFormula:
                 {"name": name, "expression": f"={defined.attr_text}"}
                 for name, defined in opened.defined_names.items()
             ],
-            "cells": {
-                title: [row_and_column(at) for at in found] for title, found in cells.items()
-            },
+            "cells": {title: [row_and_column(at) for at in item] for title, item in cells.items()},
         }
         done = subprocess.run(
             ["node", "-e", _SCRIPT, str(self._module)],
@@ -71,7 +69,7 @@ class HyperFormula:
         return {
             title: {
                 at: float(value) if isinstance(value, int) else value
-                for at, value in zip(found, values[title], strict=True)
+                for at, value in zip(item, values[title], strict=True)
             }
-            for title, found in cells.items()
+            for title, item in cells.items()
         }

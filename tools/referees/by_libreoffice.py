@@ -65,7 +65,7 @@ class LibreOffice:
         return results
 
     def converted(self, books: Sequence[bytes], suffix: str = "xlsx") -> list[bytes]:
-        """The workbooks as LibreOffice saves them after recalculating."""
+        """Return the workbooks as LibreOffice saves them after recalculating."""
         names = [f"book{index}.{suffix}" for index in range(len(books))]
         with self._saved(books, suffix, names) as folder:
             return [(folder / name).read_bytes() for name in names]
@@ -89,7 +89,7 @@ class LibreOffice:
 
     @contextmanager
     def _saved(self, books: Sequence[bytes], form: str, names: Sequence[str]) -> Iterator[Path]:
-        """The folder of the files that LibreOffice made of the workbooks."""
+        """Yield the folder of the files that LibreOffice made of the workbooks."""
         command = find_soffice()
         if command is None:
             part = "LibreOffice"
@@ -131,12 +131,12 @@ def taken(path: Path, cells: Sequence[str]) -> dict[str, CellValue]:
     """Values of some cells of a sheet saved as text: numbers where they read as numbers."""
     with path.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.reader(stream))
-    found: dict[str, CellValue] = {}
+    collected: dict[str, CellValue] = {}
     for cell in cells:
         row, column = row_and_column(cell)
         inside = row <= len(rows) and column <= len(rows[row - 1])
-        found[cell] = _read(rows[row - 1][column - 1]) if inside else None
-    return found
+        collected[cell] = _read(rows[row - 1][column - 1]) if inside else None
+    return collected
 
 
 def _read(text: str) -> float | str:

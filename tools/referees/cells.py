@@ -39,7 +39,7 @@ def formula_cells(book: bytes) -> dict[str, list[str]]:
 
 
 def cached_values(book: bytes) -> Book:
-    """Cached values of all formula cells."""
+    """Return cached values of all formula cells."""
     with zipfile.ZipFile(io.BytesIO(book)) as archive:
         return {
             title: {at: _cached(kind, value) for at, kind, value in _formulas(archive.read(part))}
@@ -48,9 +48,9 @@ def cached_values(book: bytes) -> Book:
 
 
 def stripped(book: bytes) -> tuple[bytes, dict[str, list[str]]]:
-    """The workbook without cached values, and its formula cells by sheet."""
+    """Return the workbook without cached values, and its formula cells by sheet."""
     result = io.BytesIO()
-    found: dict[str, list[str]] = {}
+    collected: dict[str, list[str]] = {}
     with (
         zipfile.ZipFile(io.BytesIO(book)) as source,
         zipfile.ZipFile(result, "w") as target,  # read at once: not worth compressing
@@ -59,10 +59,10 @@ def stripped(book: bytes) -> tuple[bytes, dict[str, list[str]]]:
         for name in source.namelist():
             data = source.read(name)
             if name in titles:
-                found[titles[name]] = [at for at, _, _ in _formulas(data)]
+                collected[titles[name]] = [at for at, _, _ in _formulas(data)]
                 data = _CELL.sub(rb"\1\4\5", data)
             target.writestr(name, data)
-    return result.getvalue(), {title: found[title] for title in titles.values()}
+    return result.getvalue(), {title: collected[title] for title in titles.values()}
 
 
 def _formulas(data: bytes) -> list[tuple[str, bytes, bytes]]:
@@ -71,11 +71,11 @@ def _formulas(data: bytes) -> list[tuple[str, bytes, bytes]]:
     Raises:
         ValueError: a formula cell is written in another way.
     """
-    found = _CELL.findall(data)
-    if b"<sheetData" not in data or len(found) != len(_ANY_FORMULA.findall(data)):
+    matches = _CELL.findall(data)
+    if b"<sheetData" not in data or len(matches) != len(_ANY_FORMULA.findall(data)):
         msg = "a sheet whose formula cells are not written as spreadsheet programs write them"
         raise ValueError(msg)
-    return [(at.decode(), kind, value) for _, at, kind, _, _, value in found]
+    return [(at.decode(), kind, value) for _, at, kind, _, _, value in matches]
 
 
 def _cached(kind: bytes, value: bytes) -> CellValue:

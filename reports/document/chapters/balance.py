@@ -148,7 +148,7 @@ def balance(chapter: Chapter) -> Markup:
 
 
 def _flywheel_part(chapter: Chapter) -> dict[str, object]:
-    """What the text on the flywheel's sizes needs."""
+    """Return what the text on the flywheel's sizes needs."""
     section, terms = chapter.input.flywheel, chapter.terms
     if section is None or not terms.has("fw_mass"):
         return {"flywheel_part": False}
@@ -161,14 +161,14 @@ def _flywheel_part(chapter: Chapter) -> dict[str, object]:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's results in a line of the conclusion."""
+    """Return the chapter's results in a line of the conclusion."""
     terms = chapter.terms
     if "balance_orders" not in terms.model.tables:
         return flywheel(chapter)
     stage = "after" if asked_devices(chapter.input) & _DEVICES.keys() else "before"
     free = [
-        Markup("{} {} порядка {}").format(what, rich(f"{order:.0f}-го"), terms.val(name, order))
-        for name, what in (
+        Markup("{} {} порядка {}").format(words, rich(f"{order:.0f}-го"), terms.val(name, order))
+        for name, words in (
             ("balance_orders.F_order_kN", "силу"), ("balance_orders.M_order_Nm", "момент"),
         )
         for order in (1.0, 2.0)
@@ -186,29 +186,29 @@ def concluded(chapter: Chapter) -> Markup:
 
 
 def flywheel(chapter: Chapter) -> Markup:
-    """The flywheel that the evenness needs, beside the given one; empty where none is found."""
+    """Return flywheel that the evenness needs, beside the given one; empty where none is found."""
     terms = chapter.terms
     if not terms.has("I_flywheel"):
         return Markup("")
-    needed, own = is_flywheel_needed(chapter), _own_flywheel(chapter)
+    needed, inertia = is_flywheel_needed(chapter), _own_flywheel(chapter)
     line = Markup("маховик для неравномерности хода {}{} {}").format(
         terms.val("balance_irregularity"), ":" if needed else "",
         terms.val("I_flywheel") if needed else "не нужен",
     )  # fmt: skip
-    if own:
+    if inertia:
         line += Markup(", принятый {} {} требуемого").format(
-            terms.val("torsion_flywheel_kg_m2"), own
+            terms.val("torsion_flywheel_kg_m2"), inertia
         )
     return line
 
 
 def _whole_first(terms: Terms, stage: str) -> Markup:
-    """What the first order and the rotating masses give together, for the conclusion."""
+    """Return what the first order and the rotating masses give together, for the conclusion."""
     parts = [
         Markup("вектор {} {} порядка достигает {}").format(
-            what, rich("1-го"), terms.val(f"{letter}1_{stage}_max")
+            words, rich("1-го"), terms.val(f"{letter}1_{stage}_max")
         )
-        for letter, what in (("F", "силы"), ("L", "момента"))
+        for letter, words in (("F", "силы"), ("L", "момента"))
         if terms.num(f"{letter}1_{stage}_max").strip(_ZERO)
     ]
     if not parts:
@@ -220,14 +220,14 @@ def _whole_first(terms: Terms, stage: str) -> Markup:
 def _own_flywheel(chapter: Chapter) -> str:
     """How the flywheel of the torsional train is to the required one; empty without either."""
     section = chapter.input.torsion
-    given = None if section is None else section.flywheel_kg_m2
-    if given is None or not is_flywheel_needed(chapter):
+    inertia = None if section is None else section.flywheel_kg_m2
+    if inertia is None or not is_flywheel_needed(chapter):
         return ""
-    return "меньше" if given < chapter.terms.value("I_flywheel") else "не меньше"
+    return "меньше" if inertia < chapter.terms.value("I_flywheel") else "не меньше"
 
 
 def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
-    """Forces and moments by orders; what is printed as zero has no direction."""
+    """Return forces and moments by orders; what is printed as zero has no direction."""
     keys = _ORDERS_OF_BANKS if banks else [*_ORDERS, *(_LEFT if left else ())]
     block = counted_table(terms, "balance_orders", keys)
     directions = {keys.index(key): keys.index(key.replace("dir_deg", unit))
@@ -245,7 +245,7 @@ def _orders(terms: Terms, *, banks: bool, left: bool) -> TableBlock:
 
 def asked_devices(model: InputFile) -> set[str]:
     """Devices of balancing that the input itself asks for."""
-    given = model.balance
+    section = model.balance
     return {
         name
         for key in (
@@ -254,7 +254,7 @@ def asked_devices(model: InputFile) -> set[str]:
             "second_shafts_share",
             "suppression",
         )
-        if key in given.asked and getattr(given, key) > 0
+        if key in section.asked and getattr(section, key) > 0
         for name in (key.removesuffix("_share"),)
     }
 
@@ -288,8 +288,8 @@ def _are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:
     """Diagrams over a turn that are not zero: after balancing, or by orders without it."""
     if after:
-        shown = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
-        return [f"balance_{x}_after" for x in shown]
+        unbalanced = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
+        return [f"balance_{x}_after" for x in unbalanced]
     orders = ("1", "2", "4")
     return [f"balance_{x}" for x in "FL" if not _is_balanced(terms, x, sums=orders)]
 
@@ -313,7 +313,7 @@ def _vectors(chapter: Chapter, *, after: bool) -> dict[str, TablePlan | None]:
 
 
 def _without_stage(terms: Terms, keys: Sequence[str]) -> TableBlock:
-    """The values of an engine that nothing balances: there is no before and after."""
+    """Return the values of an engine that nothing balances: there is no before and after."""
     block = scalar_table(terms, [key for key in keys if terms.has(key)])
     return replace(block, rows=tuple((row[0].replace(_BEFORE, ""), *row[1:]) for row in block.rows))
 
@@ -355,7 +355,7 @@ def is_flywheel_needed(chapter: Chapter) -> bool:
 
 
 def _firing(chapter: Chapter) -> TableBlock:
-    """The best firing orders with the greatest load of a main journal."""
+    """Return the best firing orders with the greatest load of a main journal."""
     columns = [
         TableColumn("Порядок работы", 1.7),
         TableColumn("Промежутки, °", 3.2),

@@ -45,25 +45,25 @@ FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
 def after_noun(name: str, *, genitive: bool = True) -> str:
-    """An engine's name to stand after «двигателя» or «двигатель»: the noun is not said twice.
+    """Return engine's name to stand after «двигателя» or «двигатель»: the noun is not said twice.
 
     «Судовой дизель 6Ч 30/38» gives « 6Ч 30/38», «Дизель: рядный» gives « (рядного)».
     """
     noun = _NOUN.match(name)
     if noun is None:
         return f" «{name}»"
-    head, colon, rest = name[noun.end() :].strip().partition(":")
+    head, colon, tail = name[noun.end() :].strip().partition(":")
     ending = "ого" if genitive else "ый"  # «рядный, четырёхтактный»
-    of = re.sub(r"(?<=\w)ый\b", ending, rest.strip())
+    of = re.sub(r"(?<=\w)ый\b", ending, tail.strip())
     words = f"{head.strip()} ({of})" if colon else head
     return f" {words.strip()}" if words.strip() else ""
 
 
 def named_engine(model: InputFile, *, genitive: bool = True) -> str:
-    """The engine's name to stand after the word for it; nothing for an engine without one."""
+    """Return engine's name to stand after the word for it; nothing for an engine without one."""
     name = model.engine.name
-    known = name not in ("", EngineSection.model_fields["name"].default)
-    return after_noun(name, genitive=genitive) if known else ""
+    is_named = name not in ("", EngineSection.model_fields["name"].default)
+    return after_noun(name, genitive=genitive) if is_named else ""
 
 
 def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
@@ -90,12 +90,12 @@ def pin_stems(shape: Shape) -> list[str]:
 
 
 def worst_pin(terms: Terms) -> int:
-    """Number of the most loaded crankpin by the workbook."""
+    """Return the number of the most loaded crankpin by the workbook."""
     return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:
-    """Main journals and crankpins with the greatest range of the running-on torque."""
+    """Return main journals and crankpins with the greatest range of the running-on torque."""
     mains = leaders(terms, [f"dM_main{k}" for k in range(2, throws + 2)])  # journal 1 has none
     pins = [pin_swing(terms, throws, i) for i in range(1, throws + 1)]
     most = max(pins, key=lambda text: float(text.replace(",", ".").replace(NBSP, "")))
@@ -247,35 +247,35 @@ class Chapter:
         return Markup(text.render(**names | context))
 
     def heading(self, level: int, title: str, **manner: bool) -> Markup:
-        """A heading; with a chapter the factors of its formulas are to be explained anew."""
+        """Return a heading; with a chapter the factors of its formulas are to be explained anew."""
         if level == 1:
             self.scales.clear()
         return self.writer.heading(level, title, **manner)
 
     def eq(self, name: str, at: float | None = None, end: str = "",
            zeros: Collection[str] = ()) -> Markup:  # fmt: skip
-        """The formula of a node in symbols, numbered, without the terms of ``zeros``."""
+        """Return the formula of a node in symbols, numbered, without the terms of ``zeros``."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
         return self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
 
     def full(self, name: str, end: str = "") -> Markup:
-        """The formula of a scalar in symbols, with numbers and its result, numbered."""
+        """Return the formula of a scalar in symbols, with numbers and its result, numbered."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
-        shown = self.writer.formula(tex, FORMULA + name, end)
-        return shown + self._explained(name, None, end)
+        formula = self.writer.formula(tex, FORMULA + name, end)
+        return formula + self._explained(name, None, end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
-        """The formula with numbers and its result, not numbered."""
+        """Return the formula with numbers and its result, not numbered."""
         if self.writer.draft:
             return Markup("")
-        shown = self.writer.formula(self.terms.substitution(name, at), None, end)
-        return shown + self._explained(name, at, end)
+        formula = self.writer.formula(self.terms.substitution(name, at), None, end)
+        return formula + self._explained(name, at, end)
 
     def where(self, *names: str) -> Markup:
-        """The «где» list under a formula, with the factors that are not explained yet."""
+        """Return the «где» list under a formula, with the factors that are not explained yet."""
         factors = [WhereItem(power, f"перевод {words}") for power, words in self._factors()]
         return self.writer.where([*self.terms.where(*names), *factors])
 
@@ -303,11 +303,11 @@ class Chapter:
                 yield f"10^{{{exponent_of(scale)}}}", f"{first} в {last}"
 
     def ref(self, name: str) -> Markup:
-        """Number of a node's formula as a link, in brackets."""
+        """Return the number of a node's formula as a link, in brackets."""
         return self.writer.n.eq(FORMULA + name)
 
     def book(self, *names: str, place: str = "") -> Markup:
-        """Reference to the textbook with the place there: «[1, формула (3)]»."""
+        """Return reference to the textbook with the place there: «[1, формула (3)]»."""
         where = place or self.terms.book(*names)
         link = self.writer.n.refer("source", BOOK)
         if not where:
@@ -351,15 +351,15 @@ class Chapter:
     def told_range(self, most: str, least: str) -> Markup:
         """Range of a scalar between two others, with the fine one where either is off."""
         terms, errors = self.terms, {error.key: error.fine for error in self.grid_errors}
-        shown = [
+        ends = [
             with_unit(of_digits(high - low, terms.quantity(most).digits), terms.unit(most))
             for high, low in (
                 (terms.value(most), terms.value(least)),
                 (errors.get(most, terms.value(most)), errors.get(least, terms.value(least))),
             )
         ]
-        told = Markup("{} (при шаге 1° — {})").format(*shown)
-        return shown[0] if shown[0] == shown[1] else told
+        remark = Markup("{} (при шаге 1° — {})").format(*ends)
+        return ends[0] if ends[0] == ends[1] else remark
 
     def _beside_fine(self, value: Markup, name: str, *, angle: bool = False) -> Markup:
         if name.startswith("q_"):  # a pressure is off as its load is
@@ -376,8 +376,8 @@ class Chapter:
 
     def _beside_load(self, value: Markup, name: str, load: GridError) -> Markup:
         fine = self.terms.value(name) * load.fine / load.coarse
-        shown = with_unit(of_digits(fine, self.terms.quantity(name).digits), self.terms.unit(name))
-        return Markup("{} (при шаге 1° — {})").format(value, shown)
+        text = with_unit(of_digits(fine, self.terms.quantity(name).digits), self.terms.unit(name))
+        return Markup("{} (при шаге 1° — {})").format(value, text)
 
     @cached_property
     def grid_errors(self) -> tuple[GridError, ...]:
@@ -391,27 +391,27 @@ class Chapter:
         return tuple(others)
 
     def fine(self, error: GridError) -> Markup:
-        """The value by the fine step with its unit."""
+        """Return the value by the fine step with its unit."""
         digits = error.digits.within(error.coarse)
         return with_unit(of_digits(error.fine, digits), self.terms.unit(error.key))
 
     def fine_value(self, name: str) -> float:
-        """A scalar by the solution with the fine step; on a grid as fine the table's own."""
+        """Return a scalar by the solution with the fine step; on a grid as fine the table's own."""
         if self.input.calculation.step_deg <= FINE_STEP:
             return self.terms.value(name)
         return float(solved(refined(self.input)).scalars[name])
 
     def by_fine(self, name: str, *, symbol: bool = False) -> Markup:
-        """A scalar by the fine step with its unit, after its symbol if asked for."""
+        """Return a scalar by the fine step with its unit, after its symbol if asked for."""
         value, digits = self.fine_value(name), self.terms.quantity(name).digits
-        shown = with_unit(of_digits(value, digits.within(value)), self.terms.unit(name))
+        text = with_unit(of_digits(value, digits.within(value)), self.terms.unit(name))
         if not symbol:
-            return shown
+            return text
         words = Markup('<span class="nb">{}{}={}{}</span>')
-        return words.format(self.terms.sym(name), NBSP, NBSP, shown)
+        return words.format(self.terms.sym(name), NBSP, NBSP, text)
 
     def worst(self, key: str) -> int:
-        """Number of the most loaded journal by a scalar that holds it."""
+        """Return the number of the most loaded journal by a scalar that holds it."""
         return round(self.terms.value(key))
 
     def chart(
@@ -422,7 +422,7 @@ class Chapter:
         key: str = "",
         **more: Any,  # noqa: ANN401
     ) -> Markup:
-        """A chart of the specifications as a figure; see :func:`chart_figure`."""
+        """Return a chart of the specifications as a figure; see :func:`chart_figure`."""
         if self.writer.draft:
             self.figures.setdefault(name, key or name)
             return self.writer.figure(key or name, None)
@@ -444,8 +444,10 @@ class Chapter:
             self.figures.update((name, self.figures.get(name, key)) for name in names)
             return self.writer.figure(key, None)
         charts = [self.model.charts_by_id[name] for name in names]
-        own = series or {}
-        charts = [replace(chart, series=own.get(chart.id, chart.series)) for chart in charts]
+        panel_series = series or {}
+        charts = [
+            replace(chart, series=panel_series.get(chart.id, chart.series)) for chart in charts
+        ]
         return self.writer.figure(key, panels_figure(self.terms, charts, size, **more))
 
     def shared(self, key: str, names: Iterable[str], plan: Callable[[], Figure]) -> Markup:
@@ -456,7 +458,7 @@ class Chapter:
         return self.writer.figure(key, plan())
 
     def scalars(self, caption: str, keys: Iterable[str], **manner: Any) -> TablePlan:  # noqa: ANN401
-        """A list of the scalars and inputs that there are."""
+        """Return a list of the scalars and inputs that there are."""
         present = [key for key in keys if self.terms.has(key)]
         return TablePlan(partial(scalar_table, self.terms, present), caption, **manner)
 
@@ -469,10 +471,10 @@ class Chapter:
         step: float = 0.0,
         **manner: Any,  # noqa: ANN401
     ) -> TablePlan:
-        """A table over the crank angle, whole or some columns and rows of it."""
+        """Return a table over the crank angle, whole or some columns and rows of it."""
         build = partial(angle_table, self.terms, table, keys, step=step)
         return TablePlan(build, caption or self.model.tables[table].title, **manner)
 
     def grid(self, name: str) -> Grid:
-        """A grid of the model."""
+        """Return a grid of the model."""
         return next(b for b in self.model.blocks if isinstance(b, Grid) and b.id == name)

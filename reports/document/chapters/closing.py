@@ -135,19 +135,19 @@ def _grid_table(chapter: Chapter) -> TableBlock:
     for error in _grid_errors(chapter):
         q, percent = error.quantity, error.percent
         unit = f", {q.unit_label}" if q.unit_label else ""
-        shown = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]
-        rows.append([capital(error.title) + unit, *shown, difference(percent, shown[1])])
+        texts = [of_digits(value, error.digits) for value in (error.coarse, error.fine)]
+        rows.append([capital(error.title) + unit, *texts, difference(percent, texts[1])])
     return table_block(columns, rows)
 
 
 def difference(percent: float, fine: str) -> str:
-    """A difference from a value as printed; none from a value that is printed as zero."""
-    known = abs(percent) < _MOST_PERCENT and fine.strip("0,−")
-    return fixed(percent, 1) if known else "—"
+    """Return a difference from a value as printed; none from a value that is printed as zero."""
+    comparable = abs(percent) < _MOST_PERCENT and fine.strip("0,−")
+    return fixed(percent, 1) if comparable else "—"
 
 
 def checked(terms: Terms) -> list[JudgedValue]:
-    """Checks of the calculation in order."""
+    """Return checks of the calculation in order."""
     return [each for each in terms.judged if each.held is Held.CHECK]
 
 
@@ -163,10 +163,10 @@ def failed(terms: Terms, without: Collection[str] = ()) -> list[tuple[Markup, Ma
 def _outcome(title: str, value: str) -> tuple[Markup, Markup]:
     """«Моменты равны: расхождение, %» and a value as title and «расхождение 3 %»."""
     head, colon, result = title.rpartition(": ")
-    what, comma, unit = result.rpartition(", ")
+    words, comma, unit = result.rpartition(", ")
     if not (colon and comma):
         return titled_html(title), Markup("получено {}").format(value)
-    return titled_html(head), Markup("{} {}").format(titled_html(what), with_unit(value, unit))
+    return titled_html(head), Markup("{} {}").format(titled_html(words), with_unit(value, unit))
 
 
 def _check_table(terms: Terms) -> TableBlock:
@@ -189,7 +189,7 @@ def _check_table(terms: Terms) -> TableBlock:
 
 
 def allows(terms: Terms, key: str) -> str:
-    """What a check allows, in words."""
+    """Return what a check allows, in words."""
     verdict = str(terms.model.scalars[f"check_{key}"].expr)
     return tolerance(verdict, f"value_{key}", terms.value, terms.symbol)
 
@@ -259,7 +259,7 @@ def verdict(chapter: Chapter) -> str:
 
 
 def _beyond(terms: Terms) -> str:
-    """What of the results is less than allowed, and how many leave their usual limits."""
+    """Return what of the results is less than allowed, and how many leave their usual limits."""
     outside = [each for each in terms.judged if each.standing is not Standing.INSIDE]
     weak = [f"{uncapital(each.title)} — {fixed(each.value, 2)}"
             for each in outside if each.held is Held.ALLOWED]  # fmt: skip
@@ -282,8 +282,8 @@ def appendices(chapter: Chapter) -> Markup:
     shape, terms = chapter.shape, chapter.terms
     wide = "dense" if shape.cylinders > 6 else ""
     # Statics gives a table of its own only where it differs from the rule.
-    apart = pin_torque(terms, shape.throws, 1).startswith(STATICS)
-    running = ("P4_4", "P4_5", *((STATICS,) if apart else ()))
+    separate = pin_torque(terms, shape.throws, 1).startswith(STATICS)
+    running = ("P4_4", "P4_5", *((STATICS,) if separate else ()))
     reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
     kinematic = [
         ("P3_1", None, ""),
@@ -334,8 +334,8 @@ def _plans(
             own_symbols=key in ("gas", "P4_1"),
             step=chapter.printed_step,
         )
-        own = _TEXTBOOKS.fullmatch(spec.number)
-        title = f"{spec.title} ({spec.number})" if own else spec.title
+        match = _TEXTBOOKS.fullmatch(spec.number)
+        title = f"{spec.title} ({spec.number})" if match else spec.title
         usual = "" if chapter.whole else "dense"
         plan = TablePlan(build, title, number=f"{letter}.{number}", size=size or usual)
         plans.append((key, plan))

@@ -55,7 +55,7 @@ def counterweights(chapter: Chapter) -> Markup:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's result in a line of the conclusion."""
+    """Return the chapter's result in a line of the conclusion."""
     if chapter.input.counterweight is None:
         return Markup("")
     terms = chapter.terms

@@ -64,7 +64,7 @@ _OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
 
 
 def cycle(chapter: Chapter) -> Markup:
-    """The cycle calculation; empty when the pressures are given otherwise."""
+    """Return the cycle calculation; empty when the pressures are given otherwise."""
     section = section_of(chapter.input)
     if section is None:
         return Markup("")
@@ -134,7 +134,7 @@ def _characteristic_plan(terms: Terms) -> Figure:
 
 
 def _with_governor(terms: Terms, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    """A curve of the characteristic, of a diesel with the governor's branch after it."""
+    """Return a curve of the characteristic, of a diesel with the governor's branch after it."""
     curve, beyond = terms.column(f"speed.{name}"), name.replace("speed", "governor.gov")
     if not terms.has(beyond):
         return curve
@@ -146,7 +146,7 @@ def _with_governor(terms: Terms, name: str) -> np.ndarray[tuple[int, ...], np.dt
 
 def _tables(chapter: Chapter) -> dict[str, TablePlan]:
     terms, dense = chapter.terms, {"size": "dense", "keep": True}
-    near = "Последовательные приближения показателя политропы"
+    title_of_passes = "Последовательные приближения показателя политропы"
     return {
         "heat": TablePlan(
             partial(_coefficients, terms),
@@ -155,8 +155,12 @@ def _tables(chapter: Chapter) -> dict[str, TablePlan]:
             keep=True,
         ),
         "energies": chapter.scalars("Величины уравнения сгорания", _ENERGIES, **dense),
-        "n1": TablePlan(partial(_passes, chapter, "cycle_n1"), f"{near} сжатия", keep=True),
-        "n2": TablePlan(partial(_passes, chapter, "cycle_n2"), f"{near} расширения", keep=True),
+        "n1": TablePlan(
+            partial(_passes, chapter, "cycle_n1"), f"{title_of_passes} сжатия", keep=True
+        ),
+        "n2": TablePlan(
+            partial(_passes, chapter, "cycle_n2"), f"{title_of_passes} расширения", keep=True
+        ),
         "effective": chapter.scalars("Эффективные показатели", _EFFECTIVE, **dense),
         "balance": TablePlan(partial(_balance, terms), "Тепловой баланс", keep=True),
         "diagram": chapter.columns(
@@ -190,7 +194,7 @@ def _coefficients(terms: Terms) -> TableBlock:
 
 
 def _passes(chapter: Chapter, name: str) -> TableBlock:
-    """A grid of passes turned: one row a pass."""
+    """Return a grid of passes turned: one row a pass."""
     grid, terms = chapter.grid(name), chapter.terms
     columns = [TableColumn("Приближение", 1.3)]
     cells: list[list[str]] = [[str(i + 1) for i in range(len(grid.labels))]]
@@ -207,7 +211,7 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
 
 
 def _symbols(terms: Terms, grid: Grid, names: Sequence[str]) -> Markup:
-    """What symbols of a grid mean, in the order of its rows."""
+    """Return what symbols of a grid mean, in the order of its rows."""
     words = [
         Markup("{} — {}").format(inline_html(row.quantity.tex), titled_html(row.quantity.title))
         for row in grid.rows if row.of in names
@@ -217,8 +221,8 @@ def _symbols(terms: Terms, grid: Grid, names: Sequence[str]) -> Markup:
 
 def _gap(percent: float) -> str:
     """Size of a difference in print; empty where it prints as zero."""
-    shown = fixed(abs(percent), 1)
-    return "" if shown == fixed(0.0, 1) else shown
+    text = fixed(abs(percent), 1)
+    return "" if text == fixed(0.0, 1) else text
 
 
 def _balance(terms: Terms) -> TableBlock:
@@ -259,17 +263,17 @@ def _range_of(terms: Terms, key: str) -> tuple[str, str, str, str]:
     title, _, unit = scalar.note.partition(", ")
     usual = "…".join(map(short, scalar.usual or ()))
     value = terms.value(f"range_value_{key}")
-    shown = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
-    return title, unit, shown, limits(usual)
+    text = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
+    return title, unit, text, limits(usual)
 
 
-def outside_lines(terms: Terms, told: set[str]) -> list[Markup]:
+def outside_lines(terms: Terms, mentioned: set[str]) -> list[Markup]:
     """Results outside their usual limits, with value and limits, but for those told elsewhere."""
     lines = []
     for key in _outside(terms):
-        if key not in told:
-            title, unit, shown, usual = _range_of(terms, key)
-            words = titled_html(uncapital(title)), with_unit(shown, unit), usual
+        if key not in mentioned:
+            title, unit, text, usual = _range_of(terms, key)
+            words = titled_html(uncapital(title)), with_unit(text, unit), usual
             lines.append(Markup("{} {} (обычно {})").format(*words))
     return lines
 
@@ -283,7 +287,7 @@ def _ranges(terms: Terms) -> TableBlock:
     ]
     rows = []
     for key in _range_keys(terms):
-        title, unit, shown, usual = _range_of(terms, key)
+        title, unit, text, usual = _range_of(terms, key)
         name = titled_html(f"{title}, {unit}" if unit else title)
-        rows.append([name, shown, usual, str(terms.values.scalars[f"range_{key}"])])
+        rows.append([name, text, usual, str(terms.values.scalars[f"range_{key}"])])
     return table_block(columns, rows)

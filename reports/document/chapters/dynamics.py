@@ -83,13 +83,13 @@ def kinematics(chapter: Chapter) -> Markup:
 
 def _given_sizes(terms: Terms) -> set[str]:
     """Sizes of the mechanism that the input gives; those from which they would follow are not."""
-    given = {
+    sizes = {
         "r_crank": terms.has("geometry_crank_radius_mm"),
         "L_rod": terms.has("geometry_rod_length_mm"),
         "lam": terms.has("geometry_lambda"),
         "S_stroke": terms.has("geometry_stroke_mm"),
     }
-    return {key for key, is_given in given.items() if is_given}
+    return {key for key, is_given in sizes.items() if is_given}
 
 
 def reference(chapter: Chapter) -> Markup:
@@ -201,10 +201,10 @@ def _jump(terms: Terms) -> tuple[Markup, Markup] | None:
     name = "cyc_p_z" if terms.has("cyc_p_z") else "gas_max_pressure_mpa"
     text = _BEFORE.format(pz=name, tdc=_TDC if terms.has("phi_tdc_deg") else "360")
     before, after = float(evaluate(text, terms.value)), terms.value(name)
-    shown = [fixed(value, 2) for value in (before, after)]
-    if shown[0] == shown[1]:
+    texts = [fixed(value, 2) for value in (before, after)]
+    if texts[0] == texts[1]:
         return None
-    return with_unit(shown[0], "МПа"), with_unit(shown[1], "МПа")
+    return with_unit(texts[0], "МПа"), with_unit(texts[1], "МПа")
 
 
 def _is_computed(chapter: Chapter, key: str) -> bool:
@@ -215,7 +215,7 @@ def _is_computed(chapter: Chapter, key: str) -> bool:
 
 def _mass_notes(chapter: Chapter) -> Markup:
     """How the masses and the rod were found, Gots 2.2, with their table."""
-    given, scalars = chapter.input.masses, chapter.terms.values.scalars
+    masses, scalars = chapter.input.masses, chapter.terms.values.scalars
     lists = [block for block in chapter.model.blocks if isinstance(block, ScalarTable)]
     sheet = next(block.sheet for block in lists if block.id == "specific_masses")
     listed = [
@@ -234,15 +234,15 @@ def _mass_notes(chapter: Chapter) -> Markup:
     ]
     # What the chapter on the data judges is not judged twice.
     written = "rationale" in chapter.relevant
-    told = {each.reason.key for each in judge(chapter)} if written else set()
-    shown = [v for v in verdicts if _RATIOS[v.key.removesuffix("_fits")] not in told]
+    mentioned = {each.reason.key for each in judge(chapter)} if written else set()
+    shown = [v for v in verdicts if _RATIOS[v.key.removesuffix("_fits")] not in mentioned]
     return chapter.page(
         "masses",
         plan=chapter.scalars("Массы и шатун", keys, size="dense"),
         keys=keys,
-        estimated=given.estimate_fuel is not None,
-        weighed=given.rod_weighed_small_end_kg is not None,
-        swung=given.swing_edges_mm is not None,
+        estimated=masses.estimate_fuel is not None,
+        weighed=masses.rod_weighed_small_end_kg is not None,
+        swung=masses.swing_edges_mm is not None,
         outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in shown],
         of_one_rod=[_RATIOS[v.key.removesuffix("_fits")] for v in shown] == ["throw_mass"]
         and several_rods(chapter.input),
@@ -250,7 +250,7 @@ def _mass_notes(chapter: Chapter) -> Markup:
 
 
 def _outside(terms: Terms, verdict: str, limits: str) -> Markup:
-    """What lies outside the limits of table 4, with its value."""
+    """Return what lies outside the limits of table 4, with its value."""
     name = verdict.removesuffix("_fits")
     said = limits.partition(": ")[2] or limits.rpartition(" ")[2]
     return Markup("{} {} ({})").format(terms.title(name), terms.val(name), rich(said))
@@ -320,10 +320,10 @@ def _pressure_tex(terms: Terms) -> str:
 
 
 def _pressure_at(terms: Terms, at: float) -> str:
-    """The pressure at an angle with numbers, by the process that is in force there."""
+    """Return the pressure at an angle with numbers, by the process that is in force there."""
     symbol = terms.tex(_PRESSURE)
-    shown = terms.formula(_PRESSURE, at).removeprefix(f"{symbol} = ")
-    process = _processes(terms).get(shown, _PRESSURE)
+    formula = terms.formula(_PRESSURE, at).removeprefix(f"{symbol} = ")
+    process = _processes(terms).get(formula, _PRESSURE)
     return symbol + terms.substitution(process, at).removeprefix(terms.tex(process))
 
 
@@ -340,7 +340,7 @@ def _corners(terms: Terms, *, two_stroke: bool) -> list[Row]:
 
 
 def rods_text(chapter: Chapter) -> Markup:
-    """Sums of the forces of two rods on a throw; nothing where throws carry one."""
+    """Return sums of the forces of two rods on a throw; nothing where throws carry one."""
     shape = chapter.shape
     if shape.single_rods:
         return Markup("")
@@ -411,7 +411,7 @@ def _powers(chapter: Chapter) -> TablePlan:
 
 
 def _intervals(chapter: Chapter) -> list[str]:
-    """The different intervals between the beginnings of the power strokes [deg]."""
+    """Return the different intervals between the beginnings of the power strokes [deg]."""
     starts = list(chapter.strokes_at)
     gaps = [b - a for a, b in pairwise([*starts, starts[0] + chapter.shape.period])]
     return [f"{short(gap)}°" for gap in sorted({round(gap, 2) for gap in gaps})]

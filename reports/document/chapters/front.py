@@ -64,7 +64,7 @@ def _department(name: str) -> str:
 
 
 def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
-    """The assignment from the report's data and from what the report and the sheet hold."""
+    """Return the assignment from the report's data and from what the report and the sheet hold."""
     sheet = chapter.input.sheet or SheetSection()
     n, present = chapter.writer.n, chapter.model.fields
     words = _words(chapter.input)
@@ -79,7 +79,7 @@ def assignment(chapter: Chapter, *, with_sheet: bool = False) -> Words:
 
 
 def abstract(chapter: Chapter) -> Words:
-    """Counts of what the report holds, and key words."""
+    """Return counts of what the report holds, and key words."""
     n = chapter.writer.n
     records = [record for record in chapter.records if record.name in chapter.relevant]
     words = [_OBJECT, *(word for record in records for word in record.keywords)]
@@ -128,7 +128,7 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
     report = model.report
     if not has_frame(model, frame):
         return None
-    places = (report.institution, report.department, report.group)
+    lines = (report.institution, report.department, report.group)
     words = {
         "designation": report.designation,
         "title": report.title,
@@ -137,17 +137,17 @@ def title_block(model: InputFile, frame: str | None = None) -> Words | None:
         "checked": report.supervisor,
         "controlled": report.controller,
         "approved": report.approver or report.head,
-        "organisation": [unit for unit in places if unit],
+        "organisation": [unit for unit in lines if unit],
     }
     for cell in _PERSONS:
         name = str(words[cell])
         small = type_pt(name, *_CELLS[cell][1:]) < _READABLE
         words[cell] = surname(name) if small else name
-    shown = words | {
+    fields = words | {
         "name": f"{report.title} {model.engine.name}",
-        "organisation": ", ".join(unit for unit in places if unit),
+        "organisation": ", ".join(unit for unit in lines if unit),
     }
-    types = {cell: type_pt(str(shown[cell]), *sizes) for cell, (_, *sizes) in _CELLS.items()}
+    types = {cell: type_pt(str(fields[cell]), *sizes) for cell, (_, *sizes) in _CELLS.items()}
     return words | {"type": types}
 
 

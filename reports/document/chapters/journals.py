@@ -65,7 +65,7 @@ _BENDING = (
 
 
 def crankpin(chapter: Chapter) -> Markup:
-    """Loads on the crankpins, wear and the best place of the oil hole."""
+    """Return loads on the crankpins, wear and the best place of the oil hole."""
     terms, rays, pins = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.pins
     numbers = range(1, len(pins) + 1)
     names, worst = pin_stems(chapter.shape), worst_pin(terms)
@@ -138,7 +138,7 @@ def _least_rays(terms: Terms, pin: str, rays: int) -> list[str]:
     """Roman numbers of the rays whose sums are the least as printed."""
     sums = [fixed(terms.value(f"{pin}_sum{i}"), _SUM_DIGITS) for i in range(1, rays + 1)]
     least = sums[round(terms.value(f"hole_{pin}_ray")) - 1]
-    return [roman(i) for i, shown in enumerate(sums, 1) if shown == least]
+    return [roman(i) for i, total in enumerate(sums, 1) if total == least]
 
 
 def journals(chapter: Chapter) -> Markup:
@@ -208,7 +208,7 @@ def _absent_ends(chapter: Chapter) -> set[str]:
 
 
 def _read_by_first(chapter: Chapter) -> set[str]:
-    """What the reactions of the first throw are found from."""
+    """Return what the reactions of the first throw are found from."""
     scalars = chapter.model.scalars
     formulas = (scalars[f"throw1_{key}"].expr for key in ("RKCL", "RTCL", "RKCP", "RTCP"))
     return {name for expr in formulas if expr is not None for name in names(expr)}
@@ -234,7 +234,7 @@ def _throws(chapter: Chapter, keys: Iterable[str], caption: str, size: str) -> T
 def _loads(
     terms: Terms, names: Sequence[str], wanted: Sequence[tuple[str, str, str]], last: float
 ) -> TableBlock:
-    """Loads of all crankpins or main journals side by side."""
+    """Return loads of all crankpins or main journals side by side."""
     columns = [TableColumn(symbol_head(tex, unit)) for _, tex, unit in wanted[:-1]]
     _, tex, unit = wanted[-1]
     rows = [
@@ -247,7 +247,7 @@ def _loads(
 
 
 def _load(terms: Terms, key: str, name: str) -> str:
-    """A load as printed; an unloaded journal has no angle."""
+    """Return a load as printed; an unloaded journal has no angle."""
     idle = round(float(terms.value(f"R{name}_max")), 9) == 0
     return "—" if idle and key.endswith("_deg") else terms.num(key.format(name))
 
@@ -266,7 +266,7 @@ def _sums(terms: Terms, numbers: Sequence[int], rays: int) -> TablePlan:
 
 
 def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> TableBlock:
-    """Sums of the forces by rays, a column for each surface."""
+    """Return sums of the forces by rays, a column for each surface."""
     columns = [TableColumn("Луч"), TableColumn(symbol_head(r"\alpha_{\mathrm{л}}", "°"))]
     columns += [TableColumn(symbol_head(head, "МПа")) for head in heads]
     rows = []
@@ -277,13 +277,13 @@ def _ray_sums(terms: Terms, names: list[str], heads: list[str], rays: int) -> Ta
 
 
 def bearings(chapter: Chapter) -> Markup:
-    """Loads on the bearings and what the strength of the shaft needs."""
+    """Return loads on the bearings and what the strength of the shaft needs."""
     terms, first = chapter.terms, " 1" if chapter.shape.throws > 1 else ""
-    schemes, shown = None, []
+    schemes, listed = None, []
     if "continuous" in terms.model.tables:
         build = partial(grid_table, terms, chapter.grid("schemes"))
         schemes = TablePlan(build, "Разрезная и неразрезная схемы", keep=True)
-        shown = [f"continuous_{k}" for k in _supports(terms)]
+        listed = [f"continuous_{k}" for k in _supports(terms)]
     return chapter.page(
         "bearings",
         several=len(chapter.shape.pins[0]) > 1,
@@ -291,14 +291,14 @@ def bearings(chapter: Chapter) -> Markup:
         given=chapter.input.crankshaft.oil_hole_deg is not None,
         bending=chapter.scalars(f"Изгиб шатунной шейки{first}", _BENDING, keep=True),
         schemes=schemes,
-        shown=shown,
+        shown=listed,
         three_moments=_THREE_MOMENTS,
         continuous=concluded(chapter),
     )
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """What the continuous shaft adds: its most loaded supports beside the other scheme."""
+    """Return what the continuous shaft adds: its most loaded supports beside the other scheme."""
     terms = chapter.terms
     if "continuous" not in terms.model.tables:
         return Markup("")

@@ -78,7 +78,7 @@ def oil(chapter: Chapter) -> Markup:
     thin = _worst(cases[thinnest], float(gaps[thinnest]))
     under = float(terms.column("oil_orbits.oil_under")[thinnest])
     critical = terms.value("oil_hcr_um")
-    shown = cases[0].bearing
+    bearing = cases[0].bearing
     pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
     return chapter.page(
         "oil",
@@ -104,8 +104,8 @@ def oil(chapter: Chapter) -> Markup:
         thin=thin, under=fixed(under, 1), touches=thin.value < critical,
         angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),
         open=float(terms.column("oil_orbits.oil_open").max()) > _CLOSED,
-        shown=shown,
-        of=f"коренного подшипника {shown}" if shown else "шатунного подшипника",
+        shown=bearing,
+        of=f"коренного подшипника {bearing}" if bearing else "шатунного подшипника",
         holes=terms.has("oil_load_deg"),
         bent=terms.has("safe_class_Q"),
         strong=min(pin, main) >= section.safety_allowed,
@@ -117,7 +117,7 @@ def oil(chapter: Chapter) -> Markup:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's result in a line of the conclusion."""
+    """Return the chapter's result in a line of the conclusion."""
     terms, section = chapter.terms, chapter.input.bearings
     if section is None:
         return Markup("")
@@ -151,7 +151,7 @@ def _worst(case: FilmCase, value: float) -> Worst:
 
 
 def _weakest(chapter: Chapter) -> str:
-    """The journal or crankpin with the least safety, in words and with its number."""
+    """Return the journal or crankpin with the least safety, in words and with its number."""
     terms = chapter.terms
     part, name = "шатунной", "pin"
     if terms.value("safe_n_main") < terms.value("safe_n_pin"):
@@ -163,9 +163,9 @@ def _weakest(chapter: Chapter) -> str:
 
 def _safety(chapter: Chapter, grid: str, keys: Sequence[str], caption: str) -> TablePlan:
     """Stresses and safety of all journals of a kind side by side."""
-    shown = chapter.grid(grid)
-    build = partial(_beside, chapter.terms, shown, keys)
-    return TablePlan(build, caption, keep=True, size="dense" if len(shown.labels) > 5 else "")
+    block = chapter.grid(grid)
+    build = partial(_beside, chapter.terms, block, keys)
+    return TablePlan(build, caption, keep=True, size="dense" if len(block.labels) > 5 else "")
 
 
 def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:

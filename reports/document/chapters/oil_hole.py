@@ -48,7 +48,7 @@ class Hole:
 
 
 def oil_hole(terms: Terms, pin: int) -> Hole:
-    """The hole as given, by the film, or by wear of the pin."""
+    """Return the hole as given, by the film, or by wear of the pin."""
     model = terms.model.input
     if not terms.has("oil_film1_deg"):
         return _by_wear(terms, pin)

@@ -258,8 +258,10 @@ def _arms(fields: Sequence[Field]) -> TableBlock:
     columns = [TableColumn("Колено", 1.3), *(TableColumn(inline_html(tex)) for tex in heads)]
     rows = _numbered(fields, [f"throw_{{}}_{key}_mm" for key in _ARMS], count)
     # Arms of a second rod and webs that are not given are zero on every throw.
-    shown = [n for n in range(len(columns)) if any(row[n] != "0" for row in rows)]
-    return table_block([columns[n] for n in shown], [[row[n] for n in shown] for row in rows])
+    columns_used = [n for n in range(len(columns)) if any(row[n] != "0" for row in rows)]
+    return table_block(
+        [columns[n] for n in columns_used], [[row[n] for n in columns_used] for row in rows]
+    )
 
 
 def printed(model: InputFile, step: float) -> tuple[Points, float]:

@@ -26,10 +26,10 @@ def own(chapter: Chapter) -> Markup:
     return Markup("\n").join(_chapter(chapter, each) for each in chapter.model.chapters)
 
 
-def _chapter(chapter: Chapter, about: OwnChapter) -> Markup:
-    parts = [chapter.writer.heading(1, about.title)]
+def _chapter(chapter: Chapter, declared: OwnChapter) -> Markup:
+    parts = [chapter.writer.heading(1, declared.title)]
     named: set[str] = set()
-    for line in about.lines:
+    for line in declared.lines:
         named |= {key for word, key in MARK.findall(line.text) if word in _KINDS}
         try:
             parts += _LINES[line.kind](chapter, line, named)
@@ -37,8 +37,8 @@ def _chapter(chapter: Chapter, about: OwnChapter) -> Markup:
             raise
         except Exception as error:
             book = shelf_of(chapter.input.books).called(line.book)
-            what = f"строка главы не печатается: {cause_of(error)}"
-            raise BookError(book, line.number, 1, what, "проверьте, что она называет") from error
+            problem = f"строка главы не печатается: {cause_of(error)}"
+            raise BookError(book, line.number, 1, problem, "проверьте, что она называет") from error
     return Markup("\n").join(parts)
 
 
@@ -60,7 +60,7 @@ def _formula(chapter: Chapter, line: TextLine, _: set[str]) -> Iterable[Markup]:
 
 
 def _show(chapter: Chapter, line: TextLine, named: set[str]) -> Iterable[Markup]:
-    """A block or a chart; what the text has not named yet is named before it."""
+    """Yield a block or a chart; what the text has not named yet is named before it."""
     key, refer = line.text.strip(), chapter.writer.n.refer
     kind = "figure" if key in chapter.model.charts_by_id else "table"
     if key not in named:
@@ -89,7 +89,7 @@ def _value(chapter: Chapter, key: str) -> float | str:
 
 
 def _said(chapter: Chapter, text: str) -> Markup:
-    """A paragraph with its keys replaced by what they stand for."""
+    """Return a paragraph with its keys replaced by what they stand for."""
 
     def put(match: re.Match[str]) -> str:
         word, key = match.groups()

@@ -108,8 +108,8 @@ class Judged:
     def named(self) -> Markup:
         """Title, symbol and value."""
         words = Markup('{} <span class="nb">{}\u00a0=\u00a0{}</span>')
-        shown = with_unit(self.shown, self.reason.unit)
-        return words.format(self.reason.title, inline_html(self.reason.tex), shown)
+        text = with_unit(self.shown, self.reason.unit)
+        return words.format(self.reason.title, inline_html(self.reason.tex), text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +136,7 @@ _MAIN = (
 
 
 def rationale(chapter: Chapter) -> Markup:
-    """The data beside usual ranges and the prototype."""
+    """Return the data beside usual ranges and the prototype."""
     judged = list(judge(chapter))
     prototype = chapter.prototype
     pairs = _pairs(chapter)
@@ -156,7 +156,7 @@ def rationale(chapter: Chapter) -> Markup:
 
 
 def _outside(judged: list[Judged]) -> Iterator[Markup]:
-    """What lies outside; values from which the same follows stand in one sentence."""
+    """Yield what lies outside; values from which the same follows stand in one sentence."""
     groups: dict[tuple[str, str], list[Judged]] = {}
     for each in judged:
         if each.verdict is not Standing.INSIDE:
@@ -173,9 +173,9 @@ def _outside(judged: list[Judged]) -> Iterator[Markup]:
 
 
 def stated(section: PrototypeSection) -> Prototype:
-    """The prototype whose main values the input tells."""
-    known = section.model_dump(exclude_none=True)
-    nodes = {_NODES[key]: float(value) for key, value in known.items() if key in _NODES}
+    """Return the prototype whose main values the input tells."""
+    values = section.model_dump(exclude_none=True)
+    nodes = {_NODES[key]: float(value) for key, value in values.items() if key in _NODES}
 
     def value(name: str) -> float:
         formula = _SIZES.get(name)
@@ -185,26 +185,26 @@ def stated(section: PrototypeSection) -> Prototype:
 
 
 def _pairs(chapter: Chapter) -> list[tuple[Main, float, float]]:
-    """Main values that both engines have."""
+    """Return main values that both engines have."""
     prototype = chapter.prototype
     if prototype is None:
         return []
-    found = ((main, _value(main.value, chapter.terms.value), _value(main.value, prototype.value))
+    pairs = ((main, _value(main.value, chapter.terms.value), _value(main.value, prototype.value))
              for main in _MAIN)  # fmt: skip
-    return [(main, own, other) for main, own, other in found
-            if own is not None and other is not None]  # fmt: skip
+    return [(main, value, other) for main, value, other in pairs
+            if value is not None and other is not None]  # fmt: skip
 
 
 def _denser(pairs: list[tuple[Main, float, float]]) -> str:
     """By how much the power per litre is above the prototype's, in words."""
-    values = {main.tex: (own, other) for main, own, other in pairs}
+    values = {main.tex: (value, other) for main, value, other in pairs}
     if _MAIN[-1].tex not in values:
         return ""
-    own, other = values[_MAIN[-1].tex]
-    percent = fixed(abs(own / other - 1) * 100, 1)
+    value, other = values[_MAIN[-1].tex]
+    percent = fixed(abs(value / other - 1) * 100, 1)
     if not float(percent.replace(",", ".")):
         return "равна литровой мощности прототипа"
-    return f"{'больше' if own > other else 'меньше'}, чем у прототипа, на {percent}{NBSP}%"
+    return f"{'больше' if value > other else 'меньше'}, чем у прототипа, на {percent}{NBSP}%"
 
 
 def concluded(chapter: Chapter) -> Markup:
@@ -215,11 +215,11 @@ def concluded(chapter: Chapter) -> Markup:
         )
         for each in judge(chapter) if each.verdict is not Standing.INSIDE
     ]  # fmt: skip
-    found = "cycle" in chapter.relevant
-    if found:
+    has_cycle = "cycle" in chapter.relevant
+    if has_cycle:
         parts += cycle.outside_lines(chapter.terms, set(_OF_CYCLE.values()))
     if not parts:
-        also = " и результаты расчёта цикла" if found else ""
+        also = " и результаты расчёта цикла" if has_cycle else ""
         return Markup(f"принятые данные{also} лежат в обычных пределах")
     return Markup("вне обычных пределов: ") + Markup("; ").join(parts)
 
@@ -240,13 +240,13 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     section, several = section_of(model), several_rods(model)
     by_cycle = {} if section is None else {r.name: (r.low, r.high) for r in ranges_of(section)}
     for reason in REASONS:
-        own = _of_worst_pin(reason, chapter)
-        value = _value(own.value, number)
+        key = _of_worst_pin(reason, chapter)
+        value = _value(key.value, number)
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
             span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
-            required = _value(own.required, number)
-            yield Judged(own, value, other, *span, bore, required)
+            required = _value(key.required, number)
+            yield Judged(key, value, other, *span, bore, required)
 
 
 def several_rods(model: InputFile) -> bool:
@@ -255,7 +255,7 @@ def several_rods(model: InputFile) -> bool:
 
 
 def _of_worst_pin(reason: Reason, chapter: Chapter) -> Reason:
-    """A reason on the pressure of a big-end bearing: of the greatest among the pins.
+    """Return a reason on the pressure of a big-end bearing: of the greatest among the pins.
 
     Of equal ones it is that of the pin whose loads the chapter tells.
     """
@@ -284,10 +284,10 @@ def _main_table(pairs: list[tuple[Main, float, float]]) -> TableBlock:
         TableColumn("Отличие, %", 1.5),
     ]  # fmt: skip
     rows = []
-    for main, own, other in pairs:
+    for main, value, other in pairs:
         title = rich(f"{main.title}, {main.unit}" if main.unit else main.title)
-        shown = (fixed(own, main.digits), fixed(other, main.digits))
-        rows.append([title, inline_html(main.tex), *shown, fixed((own / other - 1) * 100, 1)])
+        texts = (fixed(value, main.digits), fixed(other, main.digits))
+        rows.append([title, inline_html(main.tex), *texts, fixed((value / other - 1) * 100, 1)])
     return table_block(columns, rows)
 
 

@@ -39,7 +39,7 @@ def regimes(chapter: Chapter) -> Markup:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's result in a line of the conclusion: which regime governs what."""
+    """Return the chapter's result in a line of the conclusion: which regime governs what."""
     if not chapter.input.regimes:
         return Markup("")
     by_regime: dict[str, list[str]] = {}
@@ -78,8 +78,8 @@ def _loads(chapter: Chapter) -> TableBlock:
         q = row.quantity
         values = [scalars[cell.key] for cell in row.cells if cell is not None]
         unit = f", {q.unit_label}" if q.unit_label else ""
-        shown = [of_digits(float(value), q.digits) for value in values[:-1]]
-        rows.append([capital(q.title) + unit, *shown, str(values[-1])])
+        texts = [of_digits(float(value), q.digits) for value in values[:-1]]
+        rows.append([capital(q.title) + unit, *texts, str(values[-1])])
     columns = [
         TableColumn("Величина", 3.0, text=True),
         *(TableColumn(title, 1.6) for title in titles),

@@ -56,7 +56,7 @@ _USUAL_BORE_MM = 160  # of cars, lorries and tractors, which the usual limits ar
 
 
 def strength(chapter: Chapter) -> Markup:
-    """Loads, sizes, each part with its formulas, usual ranges, safety."""
+    """Return loads, sizes, each part with its formulas, usual ranges, safety."""
     section = chapter.input.strength
     if section is None:
         return Markup("")
@@ -100,7 +100,7 @@ def strength(chapter: Chapter) -> Markup:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's result in a line of the conclusion."""
+    """Return the chapter's result in a line of the conclusion."""
     if chapter.input.strength is None:
         return Markup("")
     terms, block = chapter.terms, _block(chapter, "strength_allowed")

@@ -106,7 +106,7 @@ def _names() -> Iterator[str]:
 
 
 def _explicit(engine: Engine) -> Engine:
-    """The engine with every size of its parts as a number, without what has no part in it."""
+    """Return engine with every size of its parts as a number, without what has no part in it."""
     data = engine.strength or PartStrength()
     sizes = data.sizes(engine.geometry.bore, engine.crankshaft.pin_diameters[0])
     own: dict[str, Any] = {
@@ -136,7 +136,7 @@ def _size(engine: Engine, name: str) -> float:
 
 
 def _with(case: Case, name: str, factor: float) -> Case:
-    """The case with a size, or all of the shank's section, larger by a factor."""
+    """Return the case with a size, or all of the shank's section, larger by a factor."""
     engine, data = case.engine, case.engine.strength
     assert data is not None
     if name == "web_width":
@@ -149,14 +149,14 @@ def _with(case: Case, name: str, factor: float) -> Case:
 
 
 def _rounded(size: float, factor: float) -> float:
-    """A size [m] as a drawing has it, rounded to the safe side."""
+    """Return a size [m] as a drawing has it, rounded to the safe side."""
     step = _COARSE if size >= _SMALL else _FINE
     steps = round(size / step, 6)
     return (math.ceil(steps) if factor > 1 else math.floor(steps)) * step
 
 
 def _mended(case: Case, limit: _Limit) -> Case | None:
-    """The case with the least change of the first size that mends a value."""
+    """Return the case with the least change of the first size that mends a value."""
     for name in limit.sizes:
         smaller, key = name.startswith("-"), name.removeprefix("-")
 

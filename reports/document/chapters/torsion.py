@@ -72,11 +72,11 @@ class Peak:
     @property
     def at(self) -> Markup:
         """The speed with its unit, and that it is the end of the range."""
-        shown = with_unit(self.speed, "мин⁻¹")
+        text = with_unit(self.speed, "мин⁻¹")
         if not self.edge:
-            return shown
+            return text
         where = "начале" if self.edge < 0 else "конце"
-        return Markup("{}, в {} рабочего диапазона").format(shown, where)
+        return Markup("{}, в {} рабочего диапазона").format(text, where)
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,19 +166,19 @@ def _assumed(section: TorsionSection) -> str:
 
 def _range_words(section: TorsionSection) -> str:
     """Where the bounds of the working range come from."""
-    given = (section.speed_min_rpm is not None, section.speed_max_rpm is not None)
+    stated = (section.speed_min_rpm is not None, section.speed_max_rpm is not None)
     shares = [short(share) for share in SPEED_RANGE]
-    if all(given):
+    if all(stated):
         return "задан"
-    if not any(given):
+    if not any(stated):
         return f"принят: {shares[0]}…{shares[1]} расчётной частоты вращения"
-    taken = given.index(False)
+    taken = stated.index(False)
     bound = ("нижняя", "верхняя")[taken]
     return f"{bound} граница принята: {shares[taken]} расчётной частоты вращения"
 
 
 def _lighter_than(chapter: Chapter) -> str:
-    """The lightest throw if the flywheel is lighter still; else empty."""
+    """Return the lightest throw if the flywheel is lighter still; else empty."""
     section, inertias = chapter.input.torsion, chapter.terms.column(".".join(INERTIAS))
     if section is None or section.masses:
         return ""
@@ -187,7 +187,7 @@ def _lighter_than(chapter: Chapter) -> str:
 
 
 def concluded(chapter: Chapter) -> Markup:
-    """The chapter's result in a line of the conclusion."""
+    """Return the chapter's result in a line of the conclusion."""
     terms, section = chapter.terms, chapter.input.torsion
     if section is None:
         return Markup("")
@@ -212,7 +212,7 @@ def _peak(terms: Terms, which: str) -> Peak:
 
 
 def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
-    """The order that gives most of the greatest stress, if it has no resonance in the range."""
+    """Return order that gives most of the greatest stress, if it has no resonance in the range."""
     c, r = "torsion_critical", "torsion_response"
     index = int(terms.column(f"{r}.tor_tau_MPa").argmax())
     order = float(terms.column(f"{r}.tor_lead_order")[index])
@@ -223,9 +223,9 @@ def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
         return None
     mode = min(critical, key=lambda m: abs(critical[m] / least - 1) if critical[m] < least
                else critical[m] / most - 1)  # fmt: skip
-    near = _FLANK * critical[mode] <= most and _FLANK * least <= critical[mode]
-    shown = with_unit(fixed(critical[mode], 0), "мин⁻¹")
-    return Lead(fixed(order, 1).removesuffix(",0"), mode, shown, near)
+    is_close = _FLANK * critical[mode] <= most and _FLANK * least <= critical[mode]
+    text = with_unit(fixed(critical[mode], 0), "мин⁻¹")
+    return Lead(fixed(order, 1).removesuffix(",0"), mode, text, is_close)
 
 
 def _forms(terms: Terms, modes: list[int]) -> TableBlock:
@@ -258,22 +258,22 @@ def _nodes(terms: Terms, mode: int) -> list[str]:
 
 
 def _holzer_row(terms: Terms) -> str:
-    """The first step of the chain at the first frequency with its numbers."""
+    """Return the first step of the chain at the first frequency with its numbers."""
     inertia, spring = terms.value("torJ1"), terms.value("torc1")
     omega = 2 * np.pi * terms.value("tor_f1_hz")
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
-    shown = [number_tex(each, 5) for each in (omega, inertia, moment, spring)]
+    numbers = [number_tex(each, 5) for each in (omega, inertia, moment, spring)]
     second = to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
     ground = terms.value("torsion_ground_nm_rad")
     less = rf" - {to_tex(fixed(ground, 0))}" if ground else ""
     return (
-        rf"M_1 = {shown[0]}^2 \cdot {shown[1]}{less} = {shown[2]}\;\mathrm{{Н·м}}, \qquad "
-        rf"a_2 = 1 - \dfrac{{{shown[2]}}}{{{shown[3]}}} = {second}"
+        rf"M_1 = {numbers[0]}^2 \cdot {numbers[1]}{less} = {numbers[2]}\;\mathrm{{Н·м}}, \qquad "
+        rf"a_2 = 1 - \dfrac{{{numbers[2]}}}{{{numbers[3]}}} = {second}"
     )
 
 
 def _hidden(terms: Terms, modes: list[int]) -> int:
-    """Number of the resonances within the working speeds."""
+    """Return the number of the resonances within the working speeds."""
     return sum(
         int(np.count_nonzero(terms.column(f"torsion_critical.tor_in{m}_MPa"))) for m in modes
     )

@@ -67,19 +67,19 @@ def value_ticks(low: float, high: float, *, count: int = 6, zero: bool = True) -
     if high - low <= 1e-12 * max(1.0, abs(high), abs(low)):
         low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
     locator = MaxNLocator(count, steps=_FACTORS, min_n_ticks=1)
-    places = [float(mark) for mark in locator.tick_values(float(low), float(high))]
-    return at_steps(round(places[0] / (places[1] - places[0])), len(places), places[1] - places[0])
+    marks = [float(mark) for mark in locator.tick_values(float(low), float(high))]
+    return at_steps(round(marks[0] / (marks[1] - marks[0])), len(marks), marks[1] - marks[0])
 
 
 def at_steps(first: int, count: int, step: float) -> Ticks:
     """So many marks at multiples of a step, with the decimals that the step needs."""
     digits = max(0, -int(Decimal(f"{step:.3g}").normalize().as_tuple().exponent))
-    places = tuple((first + index) * step for index in range(count))
-    return Ticks(places, tuple(fixed(mark, digits) for mark in places))
+    marks = tuple((first + index) * step for index in range(count))
+    return Ticks(marks, tuple(fixed(mark, digits) for mark in marks))
 
 
 def angle_ticks(low: float, high: float, *, step: float | None = None) -> Ticks:
-    """Marks of an axis of crank angles [deg]; the axis ends where the curves do."""
+    """Return marks of an axis of crank angles [deg]; the axis ends where the curves do."""
     span = high - low
     if step is None:
         step = next((s for s in _ANGLE_STEPS if s >= 30 and span / s < _MOST_ANGLES), 360.0)
@@ -90,8 +90,8 @@ def angle_ticks(low: float, high: float, *, step: float | None = None) -> Ticks:
     for end in (low, high):
         if all(abs(end - mark) > 1e-9 for mark in marks):
             marks[end] = ""
-    places = sorted(marks)
-    return Ticks(tuple(places), tuple(marks[mark] for mark in places))
+    ordered = sorted(marks)
+    return Ticks(tuple(ordered), tuple(marks[mark] for mark in ordered))
 
 
 def bounds(columns: Iterable[Iterable[float]]) -> tuple[float, float]:
@@ -132,14 +132,14 @@ class Axes:
             (left, right, self.x, self.reverse[0], np.asarray(x, dtype=np.float64)),
             (low, high, self.y, self.reverse[1], np.asarray(y, dtype=np.float64)),
         )
-        places = []
+        points = []
         for start, end, ticks, turned, values in ends:
             share = (values - ticks.low) / (ticks.high - ticks.low)
-            places.append(start + (end - start) * (1 - share if turned else share))
-        return np.stack(np.broadcast_arrays(*places), axis=-1)
+            points.append(start + (end - start) * (1 - share if turned else share))
+        return np.stack(np.broadcast_arrays(*points), axis=-1)
 
     def level(self, y: float, look: LineStyle, layer: float = 2) -> None:
-        """A line across the field."""
+        """Draw a line across the field."""
         self.page.line(self.at([self.x.low, self.x.high], [y, y]), look, layer)
 
     def dress(
@@ -201,10 +201,10 @@ class Axes:
         self.page.text(anchor, text, FONT_SIZE, align=0.0, middle=False)
 
 
-def _uncrowded(places: Sequence[float], ticks: Ticks) -> Sequence[str]:
+def _uncrowded(marks: Sequence[float], ticks: Ticks) -> Sequence[str]:
     """Texts of marks; of marks closer than their texts are wide every second or third, with 0."""
     widest = ticks.width() + _MARK_GAP
-    named = [mark for mark, text in zip(places, ticks.texts, strict=True) if text]
+    named = [mark for mark, text in zip(marks, ticks.texts, strict=True) if text]
     nearest = min((abs(b - a) for a, b in pairwise(named)), default=widest)
     every = math.ceil(widest / nearest - 1e-9)
     zero = next((n for n, mark in enumerate(ticks.places) if abs(mark) < 1e-12), 0)

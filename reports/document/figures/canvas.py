@@ -84,7 +84,7 @@ class Sheet:
         self._elements: list[tuple[float, str]] = []
 
     def line(self, points: ArrayLike, look: LineStyle, layer: float = 2) -> None:
-        """A polyline."""
+        """Draw a polyline."""
         self.lines([points], look, layer)
 
     def lines(self, lines: Iterable[ArrayLike], look: LineStyle, layer: float = 2) -> None:
@@ -95,7 +95,7 @@ class Sheet:
     def shape(
         self, points: Sequence[Sequence[float]], fill: str, look: LineStyle | None, layer: float = 3
     ) -> None:
-        """A closed polygon."""
+        """Draw a closed polygon."""
         self._filled(f'<path d="{self._path(points)}z"', fill, look, layer)
 
     def circle(
@@ -106,7 +106,7 @@ class Sheet:
         look: LineStyle | None,
         layer: float,
     ) -> None:
-        """A circle, as four curves."""
+        """Draw a circle, as four curves."""
         ((x, y),) = self._down([centre]).tolist()
         r, h = radius, _CURVE * radius
         data = (
@@ -128,7 +128,7 @@ class Sheet:
         halo: bool = False,
         layer: float = 3,
     ) -> None:
-        """A text; ``$…$`` is set as a formula.
+        """Draw a text; ``$…$`` is set as a formula.
 
         Args:
             at: Where it stands [pt].
@@ -165,7 +165,7 @@ class Sheet:
         )
 
     def svg(self) -> str:
-        """The sheet as an SVG element for HTML, the same bytes each time."""
+        """Return the sheet as an SVG element for HTML, the same bytes each time."""
         body = "".join(element for _, element in sorted(self._elements, key=lambda item: item[0]))
         size = (self.width, self.height)
         return svg_element(
@@ -215,7 +215,7 @@ class Pen:
         width: float = THIN,
         order: float = 3,
     ) -> None:
-        """Closed polygon; one of a lower order lies under the others."""
+        """Draw closed polygon; one of a lower order lies under the others."""
         self.page.shape(points, fill, _edge(width), self.layer + order)
 
     def circle(
@@ -289,7 +289,7 @@ class Pen:
 
 
 def _edge(width: float) -> LineStyle | None:
-    """The outline of a shape."""
+    """Return the outline of a shape."""
     return LineStyle(width, cap="butt", miter=True) if width else None
 
 
@@ -299,7 +299,7 @@ def polar(centre: Point, radius: float, angle: float) -> Point:
 
 
 def direction(start: Point, end: Point) -> Point:
-    """Unit vector from one point to another."""
+    """Return the unit vector from one point to another."""
     norm = math.dist(start, end) or 1.0
     return ((end[0] - start[0]) / norm, (end[1] - start[1]) / norm)
 

@@ -79,7 +79,7 @@ class Panel:
     stems: bool = False
 
     def ordinates(self, size: int) -> list[NDArray[np.float64]]:
-        """The curves as arrays, shape (size,) each.
+        """Return the curves as arrays, shape (size,) each.
 
         Raises:
             ValueError: A curve has another number of values.
@@ -181,7 +181,7 @@ def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
 
 
 def _stems(axes: Axes, tops: NDArray[np.float64], look: LineStyle) -> None:
-    """A line from zero to each value, a dot at its end; nothing where the value is zero."""
+    """Draw a line from zero to each value, a dot at its end; nothing where the value is zero."""
     feet = np.column_stack([tops[:, 0], np.full(len(tops), axes.at(0.0, 0.0)[1])])
     seen = np.abs(tops - feet)[:, 1] > _DOT / 2
     axes.page.lines(np.stack([feet, tops], axis=1)[seen], replace(look, cap="butt"))
@@ -205,19 +205,19 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
             axes.page.text(centre, level.name, halo=True)
     if len(panel.curves) < 2:
         return
-    places = []
+    points = []
     for curve, line in () if panel.stems else zip(panel.curves, lines, strict=True):
         others = [other for other in lines if other is not line]
-        places.append(label_curve(room, line, others, text_size(curve.name, FONT_SIZE)))
-    if places and all(places):
-        for curve, centre in zip(panel.curves, places, strict=True):
+        points.append(label_curve(room, line, others, text_size(curve.name, FONT_SIZE)))
+    if points and all(points):
+        for curve, centre in zip(panel.curves, points, strict=True):
             axes.page.text(centre or (0, 0), curve.name, halo=True)
     else:
         legend(axes, [curve.name for curve in panel.curves])
 
 
 def legend(axes: Axes, names: Sequence[str], *, in_row: int = _IN_ROW, above: float = 0.0) -> None:
-    """Samples of the lines with their names so far above the field [pt], four to a row."""
+    """Draw samples of the lines with their names so far above the field [pt], four to a row."""
     shares = np.array_split(np.arange(len(names)), min(in_row, len(names)))
     columns = [share.tolist() for share in shares]
     x, top = (
@@ -300,8 +300,8 @@ def bands_figure(
     lines = []
     for number, (band, ticks) in enumerate(zip(bands, scales, strict=True)):
         base = field[1] + band.rows[0] * step
-        own = (field[0], base, field[2], base + band.rows[1] * step)
-        axes = Axes(page, own, x_ticks, ticks)
+        frame = (field[0], base, field[2], base + band.rows[1] * step)
+        axes = Axes(page, frame, x_ticks, ticks)
         axes.number_y(right=band.right, title=band.title)
         ordinate = np.asarray(band.curve.y, dtype=np.float64)
         line = axes.at(abscissa[: len(ordinate)], ordinate)
@@ -319,7 +319,7 @@ def bands_figure(
 
 
 def _scale(y: NDArray[np.float64], count: int, *, zero: bool) -> Ticks:
-    """Marks of exactly so many intervals that hold a curve."""
+    """Return marks of exactly so many intervals that hold a curve."""
     low, high = bounds([y.tolist()])
     low = 0.0 if zero else low
     least = max(high - low, 1e-9 * max(1.0, abs(high))) / count
@@ -332,24 +332,24 @@ def _scale(y: NDArray[np.float64], count: int, *, zero: bool) -> Ticks:
 
 
 def _points(axes: Axes, room: LabelField, band: ScaledCurve, foot: float) -> None:
-    """Marked points of a band with thin lines to its scale and to the abscissa."""
-    places = [tuple(axes.at(mark.x, mark.y).tolist()) for mark in band.marks]
-    for x, y in places:
+    """Draw marked points of a band with thin lines to its scale and to the abscissa."""
+    points = [tuple(axes.at(mark.x, mark.y).tolist()) for mark in band.marks]
+    for x, y in points:
         axes.page.lines([[(axes.field[0], y), (x, y)], [(x, y), (x, foot)]], _THIN, 1.2)
         room.curves.append(dense(np.array([(axes.field[0], y), (x, y)])))
-    if band.rise and len(places) > 1:
-        (x, low), top = places[-1], places[0][1]
-        axes.page.lines([[places[0], (x, top)]], _THIN, 1.2)
+    if band.rise and len(points) > 1:
+        (x, low), top = points[-1], points[0][1]
+        axes.page.lines([[points[0], (x, top)]], _THIN, 1.2)
         Pen(axes.page, 3).arrow((x, low), (x, top), 0.8, 6)
-        room.curves.append(dense(np.array([places[0], (x, top), (x, low)])))
-    for (x, y), mark in zip(places, band.marks, strict=True):
+        room.curves.append(dense(np.array([points[0], (x, top), (x, low)])))
+    for (x, y), mark in zip(points, band.marks, strict=True):
         axes.page.circle((x, y), 1.6, "#000000", None, 4)
         across = dense(np.array([(axes.field[0], y), (x, y)]))
         centre = label_curve(room, across, room.curves[:-1], text_size(mark.name, SMALL))
         if centre:
             axes.page.text(centre, mark.name, SMALL, halo=True)
-    if band.rise and len(places) > 1:
-        middle = (places[-1][0], (places[-1][1] + places[0][1]) / 2)
+    if band.rise and len(points) > 1:
+        middle = (points[-1][0], (points[-1][1] + points[0][1]) / 2)
         centre = label_point(room, middle, text_size(band.rise, SMALL), first=(-1.0, 0.0))
         if centre:
             axes.page.text(centre, band.rise, SMALL, halo=True)

@@ -47,7 +47,7 @@ def _measured(words: str) -> tuple[float, float, float]:
 
 @functools.lru_cache(maxsize=2048)
 def shown(text: str) -> str:
-    """A label in mathtext: TeX between dollars translated, «⁻¹» as a superscript."""
+    """Return a label in mathtext: TeX between dollars translated, «⁻¹» as a superscript."""
     parts = text.split("$")
     if len(parts) % 2 == 0:
         msg = f"Непарный знак $ в подписи рисунка: {text!r}"
@@ -108,8 +108,8 @@ def dense(points: Points, spacing: float = 2.0) -> Points:
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     if length[-1] == 0:
         return points[:1]
-    places = np.linspace(0, length[-1], max(2, int(length[-1] / spacing) + 1))
-    return np.column_stack([np.interp(places, length, points[:, axis]) for axis in (0, 1)])
+    distances = np.linspace(0, length[-1], max(2, int(length[-1] / spacing) + 1))
+    return np.column_stack([np.interp(distances, length, points[:, axis]) for axis in (0, 1)])
 
 
 def box_at(point: Sequence[float], size: Place, direction: Place, gap: float) -> Box:
@@ -122,16 +122,16 @@ def box_at(point: Sequence[float], size: Place, direction: Place, gap: float) ->
 
 
 def label_curve(
-    room: LabelField, own: Points, others: Sequence[Points], size: Place
+    room: LabelField, points: Points, others: Sequence[Points], size: Place
 ) -> Place | None:
     """Centre for the name of a curve: beside it, clear of everything, far from the others."""
     best: tuple[float, Box] | None = None
-    tangent = np.gradient(own, axis=0)
+    tangent = np.gradient(points, axis=0)
     for share in np.linspace(0.04, 0.96, 60):
-        index = int(share * (len(own) - 1))
+        index = int(share * (len(points) - 1))
         normal = (-float(tangent[index, 1]), float(tangent[index, 0]))
         for sign in (1.0, -1.0):
-            box = box_at(own[index], size, (sign * normal[0], sign * normal[1]), 3.0)
+            box = box_at(points[index], size, (sign * normal[0], sign * normal[1]), 3.0)
             if not room.free(box, gap=1.5, aside=_WORD):
                 continue
             score = min(room.clearance(box, others), 40.0) - 6 * abs(share - 0.5)

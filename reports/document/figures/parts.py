@@ -58,7 +58,7 @@ def _piston(pen: Pen, corner: Point, k: float, s: Sizes) -> None:
 
 
 def _pin(pen: Pen, middle: Point, k: float, s: Sizes) -> None:
-    """The pin with the eye between the bosses."""
+    """Draw the pin with the eye between the bosses."""
     x, y = middle
     length, outer, bore = s["pin_length"] * k, s["pin"] * k, s["pin_bore"] * k
     left = x - length / 2
@@ -85,7 +85,7 @@ def _pin(pen: Pen, middle: Point, k: float, s: Sizes) -> None:
 
 
 def _rod(pen: Pen, top: Point, k: float, s: Sizes) -> None:
-    """The eye with its bush, the shank, the big end; the big end is drawn nearer than it is."""
+    """Draw eye with its bush, the shank, the big end; the big end is drawn nearer than it is."""
     x, y = top
     outer, bush, pin = (
         s["eye_outer"] * k / 2,

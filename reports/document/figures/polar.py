@@ -149,7 +149,7 @@ def polar_path(
 
 
 def _equal_ticks(*ranges: tuple[float, float]) -> list[Ticks]:
-    """Marks of both axes with one step, zero included."""
+    """Return marks of both axes with one step, zero included."""
     whole = [(min(low, 0.0), max(high, 0.0)) for low, high in ranges]
     marks = value_ticks(0.0, max(high - low for low, high in whole) or 1.0, count=9).places
     step = marks[1] - marks[0]
@@ -312,8 +312,8 @@ def outline(values: NDArray[np.float64], degrees: NDArray[np.float64]) -> list[t
         + part**2 * (3 - 2 * part) * closed[1:]
         + part**2 * (part - 1) * steps * after
     )
-    places = angles[:-1] + part * steps
-    return list(zip(places.T.ravel().tolist(), depths.T.ravel().tolist(), strict=True))
+    angles_of = angles[:-1] + part * steps
+    return list(zip(angles_of.T.ravel().tolist(), depths.T.ravel().tolist(), strict=True))
 
 
 def _hole(pen: Pen, centre: Point, radius: float, degrees: float) -> None:
@@ -334,7 +334,7 @@ def _hole(pen: Pen, centre: Point, radius: float, degrees: float) -> None:
 
 
 def _scale(pen: Pen, corner: Point, factor: float, largest: float) -> None:
-    """A bar of round length in the scale of the diagram."""
+    """Draw a bar of round length in the scale of the diagram."""
     ticks = value_ticks(0.0, largest, count=2)
     text, length = f"{ticks.texts[1]} МПа", ticks.places[1] * factor
     wide = text_size(text, FONT_SIZE)[0]

@@ -179,7 +179,7 @@ class _Mechanism:
 
 
 def velocity_sketch(lam: float, phi: float = 50.0, *, width: float = 90.0) -> str:
-    """The rod's line cuts OH off the diameter square to the cylinder axis, v = rω·OH/OB.
+    """Return the rod's line cuts OH off the diameter square to the cylinder axis, v = rω·OH/OB.
 
     Args:
         lam: λ.
@@ -263,20 +263,20 @@ def _front(
     pen: Pen, centre: Point, axes: Sequence[float], throw_angles: Sequence[float], lean: float
 ) -> None:
     """Rows of cylinders and throws seen from the nose with crank 1 along cylinder 1."""
-    radius, near, far = 26.0, 52.0, 88.0
-    half = _half_width(axes, near)
+    radius, inner, far = 26.0, 52.0, 88.0
+    half = _half_width(axes, inner)
     numbered = sorted((round(axis + lean, 6), n) for n, axis in enumerate(axes, 1))
     for axis, members in itertools.groupby(numbered, key=lambda pair: pair[0]):
         angle = math.radians(axis)
         pen.line([centre, polar(centre, far + 8, angle)], HAIR, CENTRE)
         corners = []
-        for distance, side in ((near, -1), (near, 1), (far, 1), (far, -1)):
+        for distance, side in ((inner, -1), (inner, 1), (far, 1), (far, -1)):
             base = polar(centre, distance, angle)
             corners.append(polar(base, side * half, angle + math.pi / 2))
         pen.shape(corners, fill=_GREY, width=1.2)
         names = [str(number) for _, number in members]
         text = ", ".join(names) if len(names) <= 3 else f"{names[0]}–{names[-1]}"
-        centre_of_name = polar(centre, (near + far) / 2, angle)
+        centre_of_name = polar(centre, (inner + far) / 2, angle)
         if half < _HALF:  # beside a narrow cylinder, on its free side
             aside = half + text_size(text, SMALL)[0] / 2 + 5
             centre_of_name = polar(centre_of_name, math.copysign(aside, axis), angle + math.pi / 2)
@@ -286,11 +286,11 @@ def _front(
     pen.text(polar(centre, radius + 27, math.radians(178)), r"$\omega$", SMALL)
 
 
-def _half_width(axes: Sequence[float], near: float) -> float:
+def _half_width(axes: Sequence[float], inner: float) -> float:
     """Half the width of a cylinder that leaves its neighbours free at their nearest."""
     turns = sorted({round(math.remainder(axis, 360.0), 6) for axis in axes})
     gap = min((b - a for a, b in itertools.pairwise(turns)), default=180.0)
-    return min(_HALF, 0.9 * near * math.tan(math.radians(gap) / 2))
+    return min(_HALF, 0.9 * inner * math.tan(math.radians(gap) / 2))
 
 
 def _strokes(
@@ -322,7 +322,7 @@ def _strokes(
 
 
 def _parts(start: float, length: float, period: float) -> list[tuple[float, float]]:
-    """A stroke within the cycle; one that passes its end goes on at its beginning."""
+    """Return a stroke within the cycle; one that passes its end goes on at its beginning."""
     end = start + length
     if end <= period:
         return [(start, end)]

@@ -81,7 +81,7 @@ class TableBlock:
         return [f"{100 * column.width / total:.2f}%" for column in self.columns]
 
     def tabbed(self, em_px: float, width_px: float) -> Tabbed | None:
-        """The same rows as lines with tab stops, or ``None`` where that will not do.
+        """Return the same rows as lines with tab stops, or ``None`` where that will not do.
 
         A cell costs WeasyPrint half a millisecond and a kilobyte or more; a line of ten
         numbers costs hardly more than one cell.  It serves long tables of numbers in equal
@@ -140,7 +140,7 @@ def symbol_head(symbol_tex: str, unit: str = "") -> Markup:
 
 
 def unbroken(unit: str) -> Markup:
-    """A unit that no line ends within."""
+    """Return a unit that no line ends within."""
     return Markup('<span class="nb">{}</span>' if "/" in unit else "{}").format(rich(unit))
 
 
@@ -164,7 +164,7 @@ def angle_table(
     own_symbols: bool = False,
     step: float = 0.0,
 ) -> TableBlock:
-    """A table over the crank angle, by default with all rows.
+    """Return a table over the crank angle, by default with all rows.
 
     Args:
         terms: symbols and values.
@@ -203,7 +203,7 @@ def scalar_table(terms: Terms, keys: Iterable[str]) -> TableBlock:
 
 
 def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
-    """A list «величина, обозначение, значение, единица»."""
+    """Return a list «величина, обозначение, значение, единица»."""
     columns = (
         TableColumn("Величина", 5.2, text=True),
         TableColumn("Обозначение", 1.6),
@@ -217,12 +217,12 @@ def list_block(rows: Sequence[Sequence[str]]) -> TableBlock:
 
 
 def _printed(value: str) -> str:
-    """A value as text that the font has: a name from the input may hold anything."""
+    """Return a value as text that the font has: a name from the input may hold anything."""
     return value if isinstance(value, Markup) else cleaned(value)
 
 
 def unit_cell(unit: str) -> str:
-    """Unit of a cell, a dash for a pure number."""
+    """Return the unit of a cell, a dash for a pure number."""
     return unit or "—"
 
 
@@ -246,7 +246,7 @@ def grid_table(
 
 
 def counted_table(terms: Terms, table: str, keys: Sequence[str]) -> TableBlock:
-    """A table over the orders; where none of them is a half they are whole numbers."""
+    """Return a table over the orders; where none of them is a half they are whole numbers."""
     block = angle_table(terms, table, keys)
     ends = {str(row[0])[-2:] for row in block.rows}
     if ends != {",0"}:

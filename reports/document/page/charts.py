@@ -64,9 +64,9 @@ def throw_of(terms: Terms, number: int = 1) -> ThrowSizes:
     )
 
 
-def _size(common: float | None, own: tuple[float, ...] | None, number: int) -> float:
-    """A diameter common to all journals or one of its own."""
-    return own[number - 1] if own is not None else common or 0.0
+def _size(common: float | None, sizes: tuple[float, ...] | None, number: int) -> float:
+    """Return a diameter common to all journals or one of its own."""
+    return sizes[number - 1] if sizes is not None else common or 0.0
 
 
 def mechanism_of(terms: Terms) -> MechanismSizes:
@@ -80,7 +80,7 @@ def mechanism_of(terms: Terms) -> MechanismSizes:
 
 
 def sizes_figure(throw: ThrowSizes, mechanism: MechanismSizes, *, size: float = 1.0) -> str:
-    """A throw beside the mechanism, each to a scale of its own, as SVG for the report.
+    """Return a throw beside the mechanism, each to a scale of its own, as SVG for the report.
 
     ``size`` makes the drawings smaller, but not their letters.
     """
@@ -112,7 +112,7 @@ def counterweight_of(terms: Terms) -> CounterweightSizes:
 
 
 def counterweight_figure(terms: Terms) -> str:
-    """A web with its counterweight as SVG for the report."""
+    """Return a web with its counterweight as SVG for the report."""
     return _pictured(partial(counterweight_drawing, counterweight_of(terms), letters=_LETTERS))
 
 
@@ -123,7 +123,7 @@ def flywheel_of(terms: Terms) -> FlywheelSizes:
 
 
 def flywheel_figure(terms: Terms) -> str:
-    """The flywheel as SVG for the report."""
+    """Return the flywheel as SVG for the report."""
     return _pictured(partial(flywheel_drawing, flywheel_of(terms), letters=_LETTERS))
 
 
@@ -134,7 +134,7 @@ def _pictured(draw: Callable[..., list[Item]]) -> str:
 
 
 def _fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:
-    """A drawing to the scale at which it fits a room; letters keep their height."""
+    """Return a drawing to the scale at which it fits a room; letters keep their height."""
     scale = 1.0
     for _ in range(6):  # what letters take does not shrink with the drawing
         left, low, right, high = bounds(draw(scale=scale))
@@ -156,7 +156,7 @@ def chart_figure(
     series: tuple[Series, ...] = (),
     **more: Any,  # noqa: ANN401
 ) -> Figure:
-    """A chart as a figure.
+    """Return a chart as a figure.
 
     Args:
         terms: symbols and values.
@@ -213,7 +213,7 @@ def _curves(
 
 
 def _together(terms: Terms, charts: Sequence[ChartSpec]) -> tuple[str, Column, list[list[Column]]]:
-    """The abscissa of charts, its values and the ordinates of each chart on it."""
+    """Return the abscissa of charts, its values and the ordinates of each chart on it."""
     series = [chart.drawn_by("report") for chart in charts]
     name = series[0][0].x
     abscissa, *columns = terms.curves([name, *(s.y for each in series for s in each)])
@@ -226,15 +226,17 @@ def _something(
 ) -> tuple[Sequence[Series], Sequence[Column]]:
     """Drop curves of zeros beside others."""
     sizes = [float(np.abs(column).max(initial=0.0)) for column in columns]
-    kept = [number for number, size in enumerate(sizes) if size > _NOISE * max(sizes)]
-    places = kept or range(len(columns))
-    return [series[number] for number in places], [columns[number] for number in places]
+    filled = [number for number, size in enumerate(sizes) if size > _NOISE * max(sizes)]
+    columns_shown = filled or range(len(columns))
+    return [series[number] for number in columns_shown], [
+        columns[number] for number in columns_shown
+    ]
 
 
 def _panel(
     terms: Terms, chart: ChartSpec, columns: Sequence[Column], rows: Sequence[Row] = ()
 ) -> Panel:
-    """A panel with its curves; the rows of the table are marked on finer curves."""
+    """Return a panel with its curves; the rows of the table are marked on finer curves."""
     drawn, columns = _something(chart.drawn_by("report"), columns)
     x, y = terms.column(drawn[0].x), terms.column(drawn[0].y)
     marked = len(columns[0]) > len(x)
@@ -317,7 +319,7 @@ def _name(terms: Terms, series: Series) -> str:
 
 
 def _tex(title: str) -> str:
-    """A plain title with its symbols, «p′, МПа», as TeX between dollars."""
+    """Return a plain title with its symbols, «p′, МПа», as TeX between dollars."""
 
     def symbol(match: re.Match[str]) -> str:
         text = match.group().replace("′", "'").replace("²", "^2")

@@ -41,7 +41,7 @@ _LINE = 1.12  # of the type
 
 
 def fitted(block: TableBlock, size: str, style: Style) -> tuple[list[TableBlock], str]:
-    """The table with widths that nothing overflows.
+    """Return the table with widths that nothing overflows.
 
     Args:
         block: The table.
@@ -97,8 +97,8 @@ def _width(piece: str) -> float:
     if not isinstance(piece, Markup) and "<" not in piece:
         return text_em(piece)
     small = sum(text_em(Markup(inner).striptags()) for inner in _SMALL.findall(piece))
-    rest = Markup(_SMALL.sub("", piece)).striptags()
-    return _SLANTED * (text_em(rest.replace(" ", NBSP)) + _SMALLER * small)
+    text = Markup(_SMALL.sub("", piece)).striptags()
+    return _SLANTED * (text_em(text.replace(" ", NBSP)) + _SMALLER * small)
 
 
 def _spread(block: TableBlock, needs: Sequence[float], width: float) -> TableBlock:
@@ -110,12 +110,12 @@ def _spread(block: TableBlock, needs: Sequence[float], width: float) -> TableBlo
     widths = list(needs)
     while True:
         free = [i for i in range(len(needs)) if i not in fixed]
-        rest = width - sum(needs[i] for i in fixed)
+        room = width - sum(needs[i] for i in fixed)
         shares = sum(block.columns[i].width for i in free)
-        short = [i for i in free if rest * block.columns[i].width / shares < needs[i]]
+        short = [i for i in free if room * block.columns[i].width / shares < needs[i]]
         if not short or len(short) == len(free):
             for i in free:
-                widths[i] = max(needs[i], rest * block.columns[i].width / shares)
+                widths[i] = max(needs[i], room * block.columns[i].width / shares)
             break
         fixed.update(short)
     columns = [replace(c, width=w) for c, w in zip(block.columns, widths, strict=True)]
@@ -133,16 +133,16 @@ def _parts(block: TableBlock, needs: Sequence[float], width: float) -> list[Tabl
     return [_part(block, (0, *group)) for group in groups]
 
 
-def _part(block: TableBlock, places: Sequence[int]) -> TableBlock:
+def _part(block: TableBlock, columns: Sequence[int]) -> TableBlock:
     return TableBlock(
-        tuple(block.columns[i] for i in places),
-        tuple(tuple(row[i] for i in places) for row in block.rows),
-        tuple(i + 1 for i in places),
+        tuple(block.columns[i] for i in columns),
+        tuple(tuple(row[i] for i in columns) for row in block.rows),
+        tuple(i + 1 for i in columns),
     )
 
 
 def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> float:
-    """The type in which a text fits into a cell: smaller in one line, else in several lines.
+    """Return the type in which a text fits into a cell: smaller in one line, else in several lines.
 
     Returns:
         Size [pt]; 0 if the text does not fit even in the smallest type.
@@ -188,8 +188,8 @@ def line_count(html: str, room: float, *, indent: float = 0.0, divided: bool = T
         if used + width <= room or not used:
             used += width + space
             continue
-        rest = _divided(text, room - used) if text and divided else 0.0
-        lines, used = lines + 1, (rest or width) + space
+        remainder = _divided(text, room - used) if text and divided else 0.0
+        lines, used = lines + 1, (remainder or width) + space
     return lines
 
 

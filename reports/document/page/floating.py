@@ -55,7 +55,7 @@ _NEARLY = 0.07  # of a page: too little for a heading and what must follow it
 
 
 def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, str], str]) -> str:
-    """The text with every reduced figure drawn within its new height.
+    """Return the text with every reduced figure drawn within its new height.
 
     Args:
         body: HTML of the chapters, of each figure the picture as an image.
@@ -77,7 +77,7 @@ def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, s
 
 
 def smaller(draw: Callable[[], str], height: float) -> str | None:
-    """A drawing within a height [pt]; ``None`` where its size is not to be chosen."""
+    """Return a drawing within a height [pt]; ``None`` where its size is not to be chosen."""
     key = _size_key(draw)
     if key is None or not isinstance(draw, partial):
         return None
@@ -98,7 +98,7 @@ def smaller(draw: Callable[[], str], height: float) -> str | None:
 
 
 def _size_key(draw: Callable[[], str]) -> str | None:
-    """What a drawing calls its size; ``None`` where that is not to be chosen."""
+    """Return what a drawing calls its size; ``None`` where that is not to be chosen."""
     chosen = draw.keywords if isinstance(draw, partial) else {}
     return next((name for name in _SIZES if name in chosen), None)
 
@@ -111,7 +111,7 @@ def _height(svg: str) -> float:
 def arranged(
     body: str, style: Style, figures: Mapping[str, Figure] | None = None, *, run_on: float = 1.0
 ) -> str:
-    """The text with its figures and small tables where they leave no hole in the page.
+    """Return the text with its figures and small tables where they leave no hole in the page.
 
     Args:
         body: HTML of the chapters.
@@ -161,7 +161,7 @@ def _fuller(
 
 
 def _number(chapter: Block) -> str:
-    """Number in a chapter's heading, empty for introduction, conclusion, appendices."""
+    """Return the number in a chapter's heading, empty for introduction, conclusion, appendices."""
     match = _NUMBERED.search(chapter.html)
     return match[1] if match else ""
 
@@ -300,12 +300,12 @@ def _beside(style: Style) -> float:
 
 def _title_lines(html: str, width: float, *, bold: bool = False) -> int:
     """Lines of a heading or a caption within a width [em], ragged, its words whole."""
-    lines, rest = 1, width - _AFTER_NUMBER * bool(_NUMBERED.search(html))
+    lines, room = 1, width - _AFTER_NUMBER * bool(_NUMBERED.search(html))
     for word in _TAGS.sub("", html).split(" "):
         long = _width_em(word, bold=bold)
-        if long > rest:
-            lines, rest = lines + 1, width
-        rest -= long + text_em(" ")
+        if long > room:
+            lines, room = lines + 1, width
+        room -= long + text_em(" ")
     return lines
 
 

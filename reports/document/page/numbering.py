@@ -42,7 +42,7 @@ class Label:
     anchor: str
 
     def __str__(self) -> str:
-        """What it is, its number and key, for messages."""
+        """Return what it is, its number and key, for messages."""
         return f"{_WORDS[self.kind][0]} {self.number} «{self.key}»"
 
 
@@ -115,7 +115,7 @@ class Numbering:
         return self._labels[kind, key]
 
     def refer(self, kind: Kind, key: str) -> Markup:
-        """Number as a link to its thing, for the text: ``<a href="#ris-x">3</a>``.
+        """Return the number as a link to its thing, for the text: ``<a href="#ris-x">3</a>``.
 
         What stands in a chapter that is left out has its words instead of a number.
         """
@@ -160,7 +160,7 @@ class Numbering:
         return label
 
     def section(self, level: int, title: str, *, numbered: bool = True) -> Heading:
-        """Number a heading and note it for the contents.
+        """Return the number a heading and note it for the contents.
 
         Args:
             level: 1 for a chapter, 2 and 3 below it.
@@ -237,7 +237,7 @@ class Draft(Numbering):
         return tuple(self._labels)
 
     def numbering(self, elsewhere: Mapping[Name, str] | None = None) -> Numbering:
-        """A numbering in which everything is declared.
+        """Return a numbering in which everything is declared.
 
         Args:
             elsewhere: Words for what stands in chapters that are left out.
@@ -261,7 +261,7 @@ class Figure:
 
 
 def drawn(figure: Figure) -> str:
-    """The figure as SVG."""
+    """Return the figure as SVG."""
     return figure.draw()
 
 
@@ -290,17 +290,17 @@ class Writer:
     def heading(
         self, level: int, title: str, *, numbered: bool = True, runon: bool = False
     ) -> Markup:
-        """A heading for text and contents."""
+        """Return a heading for text and contents."""
         item = self.n.section(level, title, numbered=numbered)
         return Markup(self._macros.heading(item, runon=runon))
 
     def heading_again(self, level: int, title: str, **_: bool) -> Markup:
-        """The heading of that title once more: its chapter is written anew."""
+        """Return the heading of that title once more: its chapter is written anew."""
         items = (item for item in self.n.contents if (item.level, item.title) == (level, title))
         return Markup(self._macros.heading(next(items), runon=False))
 
     def formula(self, tex: str, key: str | None = None, end: str = "") -> Markup:
-        """A displayed formula, numbered if it has a key."""
+        """Return a displayed formula, numbered if it has a key."""
         label = None if key is None else self.n.place("formula", key)
         if self.draft:
             return Markup("")
@@ -308,11 +308,11 @@ class Writer:
         return Markup(self._macros.formula(tex, label, end))
 
     def where(self, items: Sequence[WhereItem]) -> Markup:
-        """The «где» list under a formula."""
+        """Return the «где» list under a formula."""
         return Markup("") if self.draft else Markup(self._macros.where(items))
 
     def figure(self, key: str, plan: Figure | None) -> Markup:
-        """A figure with its caption; a draft needs no plan."""
+        """Return a figure with its caption; a draft needs no plan."""
         label = self.n.place("figure", key)
         if self.draft or plan is None:
             return Markup("")
@@ -320,7 +320,7 @@ class Writer:
         return Markup(self._macros.figure(Markup(drawn(plan)), label, plan.caption, plan.alt))
 
     def table(self, key: str, plan: TablePlan) -> Markup:
-        """A table with its caption."""
+        """Return a table with its caption."""
         label = self.n.place("table", key, number=plan.number)
         if self.draft:
             return Markup("")
@@ -330,7 +330,7 @@ class Writer:
         return Markup(self._macros.table(block, label, plan.caption, **manner))
 
     def sources(self, texts: Iterable[tuple[str, str]]) -> Markup:
-        """The bibliography: keys and texts."""
+        """Return the bibliography: keys and texts."""
         items = [(self.n.place("source", key), text) for key, text in texts]
         return Markup("") if self.draft else Markup(self._macros.bibliography(items))
 

@@ -90,14 +90,14 @@ def in_russian(error: Exception) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A name of the template as it is, a name of Jinja's in Russian."""
+    """Return a name of the template as it is, a name of Jinja's in Russian."""
     text = _TOKENS.get(text, text)
     *most, last = re.split(" or | and ", re.sub("'([^']+)'", r"\1", text))
     return f"{', '.join(most)} или {last}" if most else last
 
 
 def find(given: str, beside: Path) -> Path | None:
-    """The folder named in the input, relative to the input file; ``None`` if none is named.
+    """Return the folder named in the input, relative to the input file; ``None`` if none is named.
 
     Raises:
         InputError: no such folder, or nothing in it replaces a template.
@@ -108,15 +108,15 @@ def find(given: str, beside: Path) -> Path | None:
     try:
         names = sorted(path.name for path in folder.iterdir() if path.is_file())
     except OSError:
-        what = f"нет папки {folder}"
-        raise InputError(Problem(KEY, what, "укажите папку от файла исходных данных")) from None
+        problem = f"нет папки {folder}"
+        raise InputError(Problem(KEY, problem, "укажите папку от файла исходных данных")) from None
     known = {path.name for path in (resources.templates_dir() / "report").glob(f"*{SUFFIX}")}
     given_names = [name for name in names if name.endswith(SUFFIX)]
     unknown = [name for name in given_names if name not in known]
     if unknown or not given_names:
-        what = f"{folder}: {unknown[0]} ничего не заменяет" if unknown else f"{folder}: пусто"
+        problem = f"{folder}: {unknown[0]} ничего не заменяет" if unknown else f"{folder}: пусто"
         hint = "имена шаблонов: " + ", ".join(sorted(known))
-        raise InputError(Problem(KEY, what, hint))
+        raise InputError(Problem(KEY, problem, hint))
     _refuse_links(folder)
     for name in given_names:
         _refuse_nesting(folder / name)
@@ -127,8 +127,8 @@ def _refuse_links(folder: Path) -> None:
     """Refuse links out of the folder: a template is what lies in it."""
     for path in folder.rglob("*"):
         if path.is_symlink() and not path.resolve().is_relative_to(folder):
-            what = f"{path.name} — ссылка из папки шаблонов наружу"
-            raise InputError(Problem(KEY, what, "положите в папку сам файл"))
+            problem = f"{path.name} — ссылка из папки шаблонов наружу"
+            raise InputError(Problem(KEY, problem, "положите в папку сам файл"))
 
 
 def _refuse_nesting(path: Path) -> None:
@@ -138,8 +138,8 @@ def _refuse_nesting(path: Path) -> None:
         kind = word["kind"][:2].strip()
         depth[kind] = max(0, depth[kind] + (-1 if word["end"] else 1))
         if depth[kind] > MOST_NESTED:
-            what = f"{path}: блоки вложены глубже {MOST_NESTED}"
-            raise InputError(Problem(KEY, what, "исправьте шаблон или уберите его из папки"))
+            problem = f"{path}: блоки вложены глубже {MOST_NESTED}"
+            raise InputError(Problem(KEY, problem, "исправьте шаблон или уберите его из папки"))
 
 
 @contextmanager
@@ -166,7 +166,7 @@ def template_errors(folder: Path | None) -> Iterator[None]:
 
 
 def style_error(folder: Path, warnings: str) -> InputError:
-    """The style sheet or the markup of the folder's templates is not understood."""
+    """Refuse a style sheet or a markup of the folder's templates that is not understood."""
     return InputError(Problem(str(folder), warnings, "исправьте шаблон или уберите его из папки"))
 
 

@@ -76,7 +76,7 @@ class _Layout(NamedTuple):
 
 
 def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tuple[list[str], Spot]:
-    """The blocks of one chapter in their new order, and where its last page ends.
+    """Return the blocks of one chapter in their new order, and where its last page ends.
 
     Args:
         blocks: They, in the order of the text.
@@ -95,7 +95,7 @@ def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tup
 def _search(
     blocks: Sequence[Block], spot: Spot, room: float, line: float, together: int
 ) -> _Layout:
-    """The cheapest layout; figures may be reduced for so many blocks that follow them."""
+    """Return the cheapest layout; figures may be reduced for so many blocks that follow them."""
     layouts = [_Layout(spot._replace(cost=0.0))]
     headed = True  # between a heading and its text stands no figure
     for block in _with_tails(blocks):
@@ -110,7 +110,7 @@ def _search(
 
 
 def _with_tails(blocks: Sequence[Block]) -> list[Block]:
-    """The last lines that lead to a formula stand with it, a heading with what follows."""
+    """Return the last lines that lead to a formula stand with it, a heading with what follows."""
     kept: list[Block] = []
     after = Block("", "other", 0.0)
     for block in reversed(blocks):
@@ -129,7 +129,7 @@ def _is_formula(block: Block) -> bool:
 
 
 def _leads(block: Block) -> bool:
-    """A paragraph: a short one goes over whole, of a longer one its last two lines."""
+    """Return a paragraph: a short one goes over whole, of a longer one its last two lines."""
     return block.html.startswith("<p") and block.line > 0
 
 
@@ -141,7 +141,7 @@ def _leading(html: str) -> str:
 
 
 def _beginning(block: Block) -> float:
-    """The least of a block that stands together [px]."""
+    """Return the least of a block that stands together [px]."""
     if block.kind == "table":
         divides = len(block.rows) >= 2 * _TOGETHER
         return block.height - sum(block.rows[_TOGETHER:] if divides else ())
@@ -150,7 +150,7 @@ def _beginning(block: Block) -> float:
 
 
 def _ways(layout: _Layout, room: float, line: float, together: int) -> Iterator[_Layout]:
-    """Some, none or all of the waiting blocks placed here, each series in its order."""
+    """Yield some, none or all of the waiting blocks placed here, each series in its order."""
     yield layout
     for number, block in enumerate(layout.waiting):
         if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:number]):
@@ -167,8 +167,8 @@ def _put(
     begin = spot.used + max(spot.margin, block.above)
     spare = room - begin - block.height
     placed = after(block, spot, room)
-    near = spot.used and block.kind == "float" and 0 <= spare < line
-    risk = _WRONG * _blank(spot.used, room) if near else 0.0
+    is_close = spot.used and block.kind == "float" and 0 <= spare < line
+    risk = _WRONG * _blank(spot.used, room) if is_close else 0.0
     yield block.html, placed._replace(cost=placed.cost + risk)
     margin, figures = block.below, block.figure
     for other in (None, *others) if figures else ():
@@ -183,7 +183,7 @@ def _put(
 
 
 def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
-    """The next block of the text, waiting if it floats."""
+    """Return the next block of the text, waiting if it floats."""
     spot, waiting, _ = layout
     if block.kind == "float" or (waiting and block.kind == "table"):
         return layout._replace(waiting=(*waiting, block))
@@ -194,7 +194,7 @@ def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
 
 
 def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
-    """The cheapest layouts, one for each place on the page and each set that waits."""
+    """Return the cheapest layouts, one for each place on the page and each set that waits."""
     cheapest: dict[tuple[object, ...], _Layout] = {}
     for layout in sorted(layouts, key=lambda each: each.spot.cost):
         spot = layout.spot
@@ -208,7 +208,7 @@ def _cost(layout: _Layout) -> float:
 
 
 def _all_placed(layout: _Layout, room: float, line: float, together: int) -> _Layout:
-    """The cheapest way to place all that waits."""
+    """Return the cheapest way to place all that waits."""
     ways = (way for way in _ways(layout, room, line, together) if not way.waiting)
     return min(ways, key=_cost)
 
@@ -243,7 +243,7 @@ def _blank(used: float, room: float) -> float:
 
 
 def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
-    """A block that goes on over the page's end: its height on its last page, further pages.
+    """Return a block that goes on over the page's end: its height on its last page, further pages.
 
     Also whether nothing of it stands on the page where it was to begin.
     """
@@ -266,7 +266,7 @@ def _over(block: Block, begin: float, room: float) -> tuple[float, int, bool]:
 
 
 def _reduced(block: Block, share: float) -> str:
-    """The figure smaller."""
+    """Return the figure smaller."""
 
     def smaller(match: re.Match[str]) -> str:
         width = float(match[1])

@@ -158,7 +158,7 @@ def _rendered(
     variant: str | None,
     identifier: bytes | None,
 ) -> tuple[bytes, int]:
-    """The file and the number of its pages."""
+    """Return the file and the number of its pages."""
     with _libraries_by_name():
         import weasyprint
 
@@ -224,10 +224,10 @@ def _environment(overrides: Path | None, media: str, style: Style) -> Environmen
 
     from reports.shared import resources
 
-    own = jinja2.FileSystemLoader(resources.templates_dir())
-    loaders: list[jinja2.BaseLoader] = [own]
+    loader = jinja2.FileSystemLoader(resources.templates_dir())
+    loaders: list[jinja2.BaseLoader] = [loader]
     if overrides is not None:
-        replaced = {"report": jinja2.FileSystemLoader(overrides), "kshm": own}
+        replaced = {"report": jinja2.FileSystemLoader(overrides), "kshm": loader}
         loaders.insert(0, jinja2.PrefixLoader(replaced))
     kind = jinja2.Environment if overrides is None else ImmutableSandboxedEnvironment
     result = kind(
@@ -268,7 +268,7 @@ def _environment(overrides: Path | None, media: str, style: Style) -> Environmen
 
 
 def _finalize(value: object) -> object:
-    """What Jinja does to each value put in: foreign text is cleaned, markup is trusted."""
+    """Return what Jinja does to each value put in: foreign text is cleaned, markup is trusted."""
     if isinstance(value, str) and not isinstance(value, Markup):
         return texts.rich(value)
     return value
@@ -302,9 +302,9 @@ def _fetcher() -> URLFetcher:
         """Serves package resources; every other address is refused."""
 
         def fetch(self, url: str, headers: dict[str, str] | None = None) -> URLFetcherResponse:
-            scheme, _, rest = url.partition(":")
+            scheme, _, tail = url.partition(":")
             if scheme == fonts.SCHEME:
-                return URLFetcherResponse(url, fonts.font_bytes(rest), {"Content-Type": "font/ttf"})
+                return URLFetcherResponse(url, fonts.font_bytes(tail), {"Content-Type": "font/ttf"})
             if url.startswith(_DATA_TYPES):
                 return super().fetch(url, headers)
             msg = f"Адрес вне отчёта не открывается: {url[:80]}"

@@ -144,13 +144,13 @@ def read(path: Path) -> Style:
 
 
 def _said(error: ValidationError) -> str:
-    """Validation errors in one line: key, fault, allowed values."""
+    """Return validation errors in one line: key, fault, allowed values."""
     lines = []
     for item in error.errors():
-        what, hint = explain(item, None)
+        problem, hint = explain(item, None)
         limits = {"ge": "не меньше", "le": "не больше", "expected": "допустимо:"}
         allowed = [f"{word} {item['ctx'][name]}" for name, word in limits.items()
                    if name in item.get("ctx", {})]  # fmt: skip
-        said = ", ".join(filter(None, (what, hint, *allowed)))
+        said = ", ".join(filter(None, (problem, hint, *allowed)))
         lines.append(f"{'.'.join(map(str, item['loc']))}: {said}")
     return "; ".join(lines)

@@ -168,7 +168,7 @@ def _moved(x: float, y: float, *parts: Iterable[str]) -> str:
 
 
 def _brace(x: float, height: float) -> str:
-    """A brace as high as what stands behind it."""
+    """Return a brace as high as what stands behind it."""
     tip, spine, end = (x + share * _BRACE for share in (0.15, 0.55, 0.95))
     middle, bend = height / 2, 0.35 * _UNITS
     path = (
@@ -253,8 +253,8 @@ def _broken(tex: str, max_em: float) -> list[FormulaImage]:
             return [line, *_broken(point.carried + tex[point.end :], max_em)]
     if points:  # the first piece is too wide, what follows may not be
         shortest = min(points, key=lambda point: point.end)
-        rest = _broken(shortest.carried + tex[shortest.end :], max_em)
-        return [formula(head(shortest)), *rest]
+        tail = _broken(shortest.carried + tex[shortest.end :], max_em)
+        return [formula(head(shortest)), *tail]
     return [whole or formula(tex)]
 
 
@@ -346,8 +346,8 @@ def texts_of(
 
 def _list(run: list[tuple[str, str, str]], part: int) -> str:
     """Places along one axis; one number serves when all glyphs share it."""
-    places = [corner[part] for corner in run]
-    return places[0] if len(set(places)) == 1 else " ".join(places)
+    corners = [corner[part] for corner in run]
+    return corners[0] if len(set(corners)) == 1 else " ".join(corners)
 
 
 def _rules(rects: Iterable[Any], baseline: float) -> list[str]:
@@ -363,7 +363,7 @@ def _number(value: float) -> str:
 
 
 def plain(tex: str) -> str:
-    """A formula on one line of signs."""
+    """Return a formula on one line of signs."""
     if is_cases(tex):
         tex = case_lines(tex)
     tex = _INVISIBLE.sub("", tex.replace("{,}", ",").replace(r" \\", ";"))

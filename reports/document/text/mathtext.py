@@ -33,7 +33,7 @@ class _Unknown(Exception):  # noqa: N818
 
 
 def read(text: str, size: float) -> VectorParse:
-    """A text with formulas between dollars, set in STIX.
+    """Return a text with formulas between dollars, set in STIX.
 
     Args:
         text: the text.
@@ -66,7 +66,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         self._s, self._at = "", 0
 
     def boxes(self) -> Any:  # noqa: ANN401
-        """The whole text."""
+        """Return the whole text."""
         parts = self._text.split("$")
         if len(parts) % 2 == 0 or "\\$" in self._text or "'" in self._text:
             raise _Unknown
@@ -84,7 +84,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         return lib.Hlist(boxes)
 
     def _next(self) -> str:
-        """The next command or sign that is no space; empty at the end."""
+        """Return the next command or sign that is no space; empty at the end."""
         s = self._s
         while self._at < len(s) and s[self._at] == " ":
             self._at += 1
@@ -110,7 +110,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         return nodes
 
     def _token(self, token: str) -> Any:  # noqa: ANN401
-        """A space, or something with its indices."""
+        """Return a space, or something with its indices."""
         if token in self._space_widths:
             self._at += len(token)
             return _one(self.space({"space": token}))
@@ -121,7 +121,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
             self._at = match.end()
             return _one(self.customspace({"space": float(match[1])}))
         begin = self._at
-        known: dict[str, Any] = {} if token in "_^" else {"nucleus": self._placeable(token)}
+        parts: dict[str, Any] = {} if token in "_^" else {"nucleus": self._placeable(token)}
         indices: list[Any] = []
         while (sign := self._next()) in ("_", "^"):
             self._at += 1
@@ -129,11 +129,11 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
                 raise _Unknown
             indices += [sign, self._placeable(self._next())]
         if indices:
-            known["subsuper"] = indices
-        return _one(self.subsuper(self._s, begin, known))
+            parts["subsuper"] = indices
+        return _one(self.subsuper(self._s, begin, parts))
 
     def _placeable(self, token: str) -> Any:  # noqa: ANN401
-        """A nucleus that may carry indices."""
+        """Return a nucleus that may carry indices."""
         begin = self._at
         rule = _RULES.get(token)
         if rule is not None:
@@ -166,7 +166,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         return lib.Hlist(nodes)
 
     def _part(self) -> Any:  # noqa: ANN401
-        """An argument between braces, which may not be empty."""
+        """Return an argument between braces, which may not be empty."""
         self._take("{")
         nodes = self._tokens()
         self._take("}")

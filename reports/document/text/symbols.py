@@ -112,7 +112,7 @@ def indexed(symbol_tex: str, plain: str) -> str:
 
 @functools.lru_cache(maxsize=4096)
 def with_indices(text: str) -> Markup:
-    """A text with the symbols of ``indexed`` in it, their indices lowered."""
+    """Return a text with the symbols of ``indexed`` in it, their indices lowered."""
     parts = _INDEXED.split(text)
     lowered = (Markup("<sub>{}</sub>").format(part) for part in parts[1::2])
     return Markup("").join(Markup("{}{}").format(*pair) for pair in zip(parts[::2], [*lowered, ""],
@@ -121,7 +121,7 @@ def with_indices(text: str) -> Markup:
 
 @functools.lru_cache(maxsize=4096)
 def titled_html(title: str) -> Markup:
-    """A title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""
+    """Return a title with its symbols as symbols: «давление pa» gives *p* with the index *a*."""
     pieces, end = [], 0
     for match in _IN_TITLE.finditer(title):
         pieces += [rich(title[end : match.start()]), Markup(_in_title(match))]
@@ -136,19 +136,19 @@ def _in_title(match: re.Match[str]) -> str:
     if letter + (index or "") == "ωr":  # a product
         return "<i>ωr</i>"
     upright = letter in _ELEMENTS and index is not None and index.isdigit()
-    shown = letter if upright else f"<i>{letter}</i>"
+    letter_html = letter if upright else f"<i>{letter}</i>"
     if index is None:
-        return shown
+        return letter_html
     small = f"<i>{index}</i>" if index.isascii() and index.isalpha() else index
-    return f"{shown}<sub>{small}</sub>"
+    return f"{letter_html}<sub>{small}</sub>"
 
 
 def _html(nodes: Sequence[TexNode], *, upright: bool) -> str:
     pieces: list[str] = []
-    wanted = [node for node in nodes if not node.token.isspace()]
-    for number, node in enumerate(wanted, 1):
+    tokens = [node for node in nodes if not node.token.isspace()]
+    for number, node in enumerate(tokens, 1):
         piece = _piece(node, upright=upright)
-        if piece in _SPACED and pieces and number < len(wanted) and not pieces[-1].endswith(NBSP):
+        if piece in _SPACED and pieces and number < len(tokens) and not pieces[-1].endswith(NBSP):
             piece = f"{NBSP}{piece}{NBSP}"
         if node.command in _FUNCTIONS and pieces and not pieces[-1].endswith(NBSP):
             piece = f"{NBSP}{piece}{NBSP}"
@@ -183,12 +183,12 @@ def _piece(node: TexNode, *, upright: bool) -> str:
 
 
 def remark_html(text: str) -> Markup:
-    """A remark on the input with its symbols as symbols; no line ends within a unit."""
+    """Return a remark on the input with its symbols as symbols; no line ends within a unit."""
     pieces, end = [], 0
     for match in _OF_REMARK.finditer(text):
         symbol = match["symbol"]
-        shown = inline_html(input_symbol_tex(symbol)) if symbol else rich(match["unit"])
-        whole = Markup('<span class="nb">{}</span>').format(shown)
+        html = inline_html(input_symbol_tex(symbol)) if symbol else rich(match["unit"])
+        whole = Markup('<span class="nb">{}</span>').format(html)
         pieces += [rich(text[end : match.start()]), whole]
         end = match.end()
     return Markup("").join([*pieces, rich(text[end:])])
@@ -202,11 +202,11 @@ _SIGNS |= {"sum": "сумма", "int": "интеграл", "oint": "интегр
 
 @functools.lru_cache(maxsize=4096)
 def spoken(tex: str) -> str:
-    """A formula as a person would read it aloud: «синус в квадрате фи», «бета макс»."""
+    """Return a formula as a person would read it aloud: «синус в квадрате фи», «бета макс»."""
     if is_cases(tex):
         tex = case_lines(tex)
-    for given, said in _INSTEAD:
-        tex = tex.replace(given, said)
+    for sign, said in _INSTEAD:
+        tex = tex.replace(sign, said)
     tex = _INVISIBLE.sub("", tex)
     return _spaced(_said(tree(tex)))
 
@@ -224,7 +224,7 @@ def _said(nodes: Sequence[TexNode]) -> str:
 
 
 def _is_short(node: TexNode) -> bool:
-    """An index that is written with its letter, not as a word of its own."""
+    """Return an index that is written with its letter, not as a word of its own."""
     first = node.parts[0][0] if node.token == "_" and node.parts[0] else None
     return first is not None and (not first.command or first.command in _SPOKEN_UPRIGHT)
 
@@ -261,7 +261,7 @@ def _spoken_piece(node: TexNode) -> str:
 
 
 def _named(command: str) -> str:
-    """A command as a word or a sign; a space where it is one."""
+    """Return a command as a word or a sign; a space where it is one."""
     capital = _GREEK.get(command[0].lower() + command[1:])
     return (
         _SPOKEN_FUNCTIONS.get(command)
@@ -279,12 +279,12 @@ def _power(exponent: str) -> str:
 
 
 def _bracketed(text: str) -> str:
-    """A part of several words or signs in brackets."""
+    """Return a part of several words or signs in brackets."""
     return text if _ATOM.fullmatch(text.removeprefix(MINUS)) else f"({text})"
 
 
 def _upright(nodes: Sequence[TexNode]) -> str:
-    """An index, a unit or a word, letters together: powers of units stand raised."""
+    """Return an index, a unit or a word, letters together: powers of units stand raised."""
     words = []
     for node in nodes:
         inner = [_upright(part) for part in node.parts]

@@ -50,7 +50,7 @@ _ADVANCE = {"diesel": "впрыска", "petrol": "зажигания"}
 
 
 def unit_tex(label: str) -> str:
-    r"""A unit for TeX: ``м/с²`` gives ``\mathrm{м/с}^{2}``."""
+    r"""Return a unit for TeX: ``м/с²`` gives ``\mathrm{м/с}^{2}``."""
     if not label:
         return ""
     if label == "°":
@@ -62,22 +62,22 @@ def unit_tex(label: str) -> str:
 
 
 def material_name(label: str) -> str:
-    """A material with its noun: «сталь 45», «чугун ВЧ 60»; «алюминиевый сплав» has one."""
+    """Return a material with its noun: «сталь 45», «чугун ВЧ 60»; «алюминиевый сплав» has one."""
     if label[:1].islower():
         return label
     return f"{'чугун' if label.startswith(('ВЧ', 'СЧ')) else 'сталь'}{NBSP}{label}"
 
 
-def input_text(given: Field) -> str:
-    """An input value as printed: the label of a choice, a number with decimal comma."""
-    if given.choices is not None:
-        label = given.choices.get(str(given.value), str(given.value))
-        return material_name(label) if str(given.path[-1]).endswith("material") else label
-    return given.value if isinstance(given.value, str) else plain_number(float(given.value))
+def input_text(field: Field) -> str:
+    """Return an input value as printed: the label of a choice, a number with decimal comma."""
+    if field.choices is not None:
+        label = field.choices.get(str(field.value), str(field.value))
+        return material_name(label) if str(field.path[-1]).endswith("material") else label
+    return field.value if isinstance(field.value, str) else plain_number(float(field.value))
 
 
 def plain_number(value: float) -> str:
-    """A number with the digits it was given with; what was calculated for it has no more."""
+    """Return a number with the digits it was given with; what was calculated for it has no more."""
     value = float(f"{value:.{_GIVEN}g}")
     digits = next((d for d in range(12) if round(value, d) == value), 12)
     return fixed(value, digits)
@@ -89,26 +89,26 @@ def crankcase_scavenges(model: InputFile) -> bool:
     return model.engine.strokes == 2 and model.bearings is None and hole is None
 
 
-def field_title(given: Field, model: InputFile) -> str:
+def field_title(field: Field, model: InputFile) -> str:
     """Title of a field of the input as a note has it, of the engine at hand."""
-    title = _HINTS.sub("", given.title)
+    title = _HINTS.sub("", field.title)
     advance = _ADVANCE.get(stated_kind(model), "")
     if advance:
         title = title.replace("впрыска (зажигания)", advance)
-    if given.path[-1] == "ambient_pressure_mpa" and crankcase_scavenges(model):
+    if field.path[-1] == "ambient_pressure_mpa" and crankcase_scavenges(model):
         title = "Давление под поршнем"
-    if given.path[-1] == "pin_length_mm" and Shape.of(model).split:
+    if field.path[-1] == "pin_length_mm" and Shape.of(model).split:
         title = title.replace("всей", "каждой половины")
-    if given.path[-1] == "pin_length_mm" and Shape.of(model).single_rods:
+    if field.path[-1] == "pin_length_mm" and Shape.of(model).single_rods:
         title = title.replace("всей ", "")
-    if is_twice_radius(given, model):
+    if is_twice_radius(field, model):
         title = "Удвоенный радиус кривошипа"
     return title
 
 
-def is_twice_radius(given: Field, model: InputFile) -> bool:
+def is_twice_radius(field: Field, model: InputFile) -> bool:
     """Whether a field is the stroke of an offset engine, whose real stroke is longer than 2r."""
-    return given.path[-1] == "stroke_mm" and Shape.of(model).offset
+    return field.path[-1] == "stroke_mm" and Shape.of(model).offset
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +175,8 @@ class Terms:
 
     def symbol(self, name: str) -> str:
         """Symbol in plain text."""
-        given = self.model.fields.get(name)
-        return self.quantity(name).symbol if given is None else given.symbol or given.title
+        field = self.model.fields.get(name)
+        return self.quantity(name).symbol if field is None else field.symbol or field.title
 
     def sym(self, name: str) -> Markup:
         """Symbol for running text."""
@@ -190,13 +190,13 @@ class Terms:
         return self.quantity(name).title
 
     def unit(self, name: str) -> str:
-        """Unit label of a node."""
+        """Return the unit label of a node."""
         if name in self.model.fields:
             return self.model.fields[name].unit
         return self.quantity(name).unit_label
 
     def value(self, name: str, at: float | None = None) -> float:
-        """Number of a node; of a column the one at an angle [deg].
+        """Return the number of a node; of a column the one at an angle [deg].
 
         Raises:
             KeyError: nothing has that name.
@@ -212,7 +212,7 @@ class Terms:
         return float(self.values.columns[table][key][self.row(table, at)])
 
     def column(self, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-        """A whole column."""
+        """Return a whole column."""
         table, _, key = name.rpartition(".")
         return np.asarray(self.values.columns[table][key], dtype=np.float64)
 
@@ -233,7 +233,7 @@ class Terms:
         return of_digits(value, digits)
 
     def val(self, name: str, at: float | None = None, beside: str = "") -> Markup:
-        """Number with unit: ``829 Н·м``, ``30°``."""
+        """Return the number with unit: ``829 Н·м``, ``30°``."""
         return with_unit(self.num(name, at, beside), self.unit(name))
 
     def eqv(self, name: str, at: float | None = None) -> Markup:
@@ -273,15 +273,15 @@ class Terms:
 
     def scales(self, name: str, at: float | None = None) -> list[str]:
         """Scale functions whose factors the substitution shows."""
-        shown = self.substitution(name, at)
+        formula = self.substitution(name, at)
         return [
             scale
             for scale in scales(self._expr(name, at))
-            if rf"10^{{{formulas.exponent_of(scale)}}}" in shown
+            if rf"10^{{{formulas.exponent_of(scale)}}}" in formula
         ]
 
     def result_tex(self, name: str, at: float | None = None) -> str:
-        """Result with unit for TeX."""
+        """Return the result with unit for TeX."""
         if name in self.model.fields:
             return to_tex(self.num(name, at)) + unit_tex(self.unit(name))
         return self._result_tex(name, self.value(name, at)) + unit_tex(self.unit(name))
@@ -343,9 +343,9 @@ class Terms:
 
         def lookup(inner: str) -> float | str:
             node = self._global(inner, table)
-            given = self.model.fields.get(node)
-            if given is not None and isinstance(given.value, str):
-                return (given.choices or {}).get(given.value, given.value)
+            field = self.model.fields.get(node)
+            if field is not None and isinstance(field.value, str):
+                return (field.choices or {}).get(field.value, field.value)
             return self.value(node, at)
 
         return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
@@ -353,7 +353,7 @@ class Terms:
     def _significant(self, name: str, expr: str, at: float | None) -> int:
         """Fewest digits of the numbers put in that give the printed result."""
         table = name.rpartition(".")[0]
-        shown = self._result_tex(name, self.value(name, at))
+        tex = self._result_tex(name, self.value(name, at))
 
         def rounded(inner: str) -> float:
             node = self._global(inner, table)
@@ -369,7 +369,7 @@ class Terms:
                 value = float(evaluate(expr, rounded))
             except (KeyError, TypeError, ValueError):  # whole columns, choices
                 break
-            if self._result_tex(name, value) == shown:
+            if self._result_tex(name, value) == tex:
                 return digits
         return _SIGNIFICANT
 
@@ -381,13 +381,15 @@ class Terms:
         value = self.value(name, at)
         if name in self.model.fields:
             return formulas.Raw(_number_tex(value, digits))
-        about = self.quantity(name)
-        if about.unit == "rad":
+        quantity = self.quantity(name)
+        if quantity.unit == "rad":
             text = to_tex(fixed(float(np.degrees(value)), _decimals_deg(digits)))
             return formulas.Raw(text + r"^{\circ}")
         # A force of a throw that its table prints as zero is none.
         least = 0.5 if name.startswith("throw") else 1e-9
-        noise = about.digits.kind == "fixed" and abs(value) < least * 10.0**-about.digits.decimals
+        noise = (
+            quantity.digits.kind == "fixed" and abs(value) < least * 10.0**-quantity.digits.decimals
+        )
         return formulas.Raw(_number_tex(0.0 if noise else value, digits))
 
 
@@ -402,7 +404,7 @@ def _number_tex(value: float, digits: int) -> str:
 
 
 def with_unit(number: str, unit: str) -> Markup:
-    """A number with its unit behind a space that does not break."""
+    """Return a number with its unit behind a space that does not break."""
     if not unit:
         return Markup(number)
     space = "" if unit in _NO_SPACE else NBSP
@@ -412,16 +414,24 @@ def with_unit(number: str, unit: str) -> Markup:
 
 def book_place(*sources: str) -> str:
     """Places in the textbook from sources of specifications; empty for other sources."""
-    own = [source for source in sources if source.startswith("Гоц")]
-    named = list(dict.fromkeys(n for source in own for n in re.findall(r"\(\d+[а-я]?\)", source)))
+    sources_of_textbook = [source for source in sources if source.startswith("Гоц")]
+    named = list(
+        dict.fromkeys(
+            n for source in sources_of_textbook for n in re.findall(r"\(\d+[а-я]?\)", source)
+        )
+    )
     word = "формула" if len(named) == 1 else "формулы"
-    places = [f"{word}\u00a0{', '.join(named)}"] if named else []
-    others = (_section_place(source) for source in own if not re.search(r"\(\d+[а-я]?\)", source))
-    return ", ".join([*places, *dict.fromkeys(reference for reference in others if reference)])
+    parts = [f"{word}\u00a0{', '.join(named)}"] if named else []
+    others = (
+        _section_place(source)
+        for source in sources_of_textbook
+        if not re.search(r"\(\d+[а-я]?\)", source)
+    )
+    return ", ".join([*parts, *dict.fromkeys(reference for reference in others if reference)])
 
 
 def _section_place(source: str) -> str:
-    """A figure, a table or a section that a source names instead of a formula."""
+    """Return a figure, a table or a section that a source names instead of a formula."""
     match = re.search(r"(рис|табл)\.\s*(\d+)", source)
     if match:
         return f"{match.group(1)}.\u00a0{match.group(2)}"

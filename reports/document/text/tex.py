@@ -177,7 +177,7 @@ def _place(token: str, match: re.Match[str], previous: str) -> tuple[int, str, s
 
 
 def written(nodes: Sequence[TexNode]) -> str:
-    """The TeX of some nodes."""
+    """Return the TeX of some nodes."""
     return _LOOSE.sub(r"\1", "".join(_written(node) for node in nodes))
 
 
@@ -188,7 +188,7 @@ def _written(node: TexNode) -> str:
 
 
 def steps(tex: str, widest: Callable[[Sequence[TexNode]], bool]) -> list[str]:
-    """The formula with parts too wide for a line named, then each part by its name.
+    """Return the formula with parts too wide for a line named, then each part by its name.
 
     Args:
         tex: One line of TeX.
@@ -225,7 +225,7 @@ def cases(lead: str, branches: Iterable[tuple[str, str]]) -> str:
 
 
 def is_cases(tex: str) -> bool:
-    """A formula that is a value given by branches."""
+    """Return a formula that is a value given by branches."""
     return _CASES.fullmatch(tex) is not None
 
 
@@ -240,7 +240,7 @@ def case_parts(tex: str) -> tuple[str, list[list[str]]]:
 
 
 def case_lines(tex: str) -> str:
-    """The same as lines of their own, without a brace."""
+    """Return the same as lines of their own, without a brace."""
     lead, rows = case_parts(tex)
     return r" \\ ".join(rf"{lead} " + r"\quad ".join(row) for row in rows)
 

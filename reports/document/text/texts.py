@@ -81,15 +81,15 @@ def plain(text: object) -> Markup:
 
 
 def titled(svg: str, title: object) -> Markup:
-    """An inline SVG with an alternative text: a ``<title>`` as its first child."""
-    head, bracket, rest = svg.partition(">")
+    """Return an inline SVG with an alternative text: a ``<title>`` as its first child."""
+    head, bracket, tail = svg.partition(">")
     return Markup("{}{}<title>{}</title>{}").format(
-        Markup(head), Markup(bracket), plain(title), Markup(rest)
+        Markup(head), Markup(bracket), plain(title), Markup(tail)
     )
 
 
 def pictured(svg: str, title: object) -> Markup:
-    """An inline SVG as a picture of its own with an alternative text, for paper.
+    """Return an inline SVG as a picture of its own with an alternative text, for paper.
 
     The parser of the page and its styles then see one element instead of hundreds.
     """
@@ -97,9 +97,9 @@ def pictured(svg: str, title: object) -> Markup:
     if match is None:
         return titled(svg, title)
     kind, before, style, after = match.groups()
-    rest = _OF_PAGE.sub("", before + after)
-    whole = f"<svg{_SVG_NAMESPACE}{rest}>{boxed(svg[match.end() :])}"
-    size = "".join(_SIZE.findall(rest))
+    tail = _OF_PAGE.sub("", before + after)
+    whole = f"<svg{_SVG_NAMESPACE}{tail}>{boxed(svg[match.end() :])}"
+    size = "".join(_SIZE.findall(tail))
     data = base64.b64encode(whole.encode("utf-8")).decode("ascii")
     picture = '<img class="{}" style="{}"{} alt="{}" src="data:image/svg+xml;base64,{}">'
     words = Markup(FORMULA if kind == "tex" else "") + plain(title)
@@ -124,19 +124,19 @@ def spaces_inside(page: str) -> str:
 
 
 def powers(text: str, form: str) -> str:
-    """Raised signs as a formatted power in TeX: ``-1`` for «⁻¹»."""
+    """Return raised signs as a formatted power in TeX: ``-1`` for «⁻¹»."""
     return _RUN.sub(
         lambda match: form.format(match.group().translate(_LOWER).replace(MINUS, "-")), text
     )
 
 
 def raised(text: str) -> str:
-    """The same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
+    """Return the same for labels of figures: raised signs become mathtext (``мин$^{-1}$``)."""
     return powers(text, "$^{{{}}}$")
 
 
 def of_digits(value: float, digits: Digits) -> str:
-    """A value with the digits of its quantity, a power of ten as HTML."""
+    """Return a value with the digits of its quantity, a power of ten as HTML."""
     if digits.kind == "scientific":
         if value == 0:  # the free end of a shaft has no stiffness: no digits are known of it
             return "0"

@@ -18,7 +18,7 @@ _MOST_SPANS = 3
 
 
 def tolerance(verdict: str, value: str, resolve: Resolver, symbol: Callable[[str], str]) -> str:
-    """What a check allows: «±2», «не более 0,01», «0,2…0,3», «720»; else its formula.
+    """Return what a check allows: «±2», «не более 0,01», «0,2…0,3», «720»; else its formula.
 
     Args:
         verdict: the formula of its verdict, or its condition.
@@ -45,7 +45,7 @@ def _is_all_else(spans: tuple[Interval, ...]) -> bool:
 
 
 def _words(span: Interval) -> str:
-    """A span in words; nothing for one without ends."""
+    """Return a span in words; nothing for one without ends."""
     low, high = span.low, span.high
     if math.isfinite(low) and math.isfinite(high):
         if high - low <= _NOISE * abs(low + high):

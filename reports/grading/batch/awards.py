@@ -71,10 +71,10 @@ def award_of(text: str, rubric: Rubric, worth: float | None) -> Award:
     if match := _SHARE.fullmatch(plain):
         share = float(match[1]) / 100
         if worth is None:
-            what = "доля чего: баллов, которые уже есть, или наибольшего балла?"
+            problem = "доля чего: баллов, которые уже есть, или наибольшего балла?"
             hint = f"«×{short(share)}» — умножить баллы каждого, " \
                    f"«{short(share * rubric.maximum)}» — поставить столько всем"  # fmt: skip
-            raise InputError(Problem(one_line(text, 40), what, hint))
+            raise InputError(Problem(one_line(text, 40), problem, hint))
         return Award(round(_within(share, 1, text) * worth, 6))
     return Award(_points(plain, text, rubric))
 

@@ -72,8 +72,8 @@ def load_decisions(folder: Path) -> list[Decision]:
         data = json.loads(path.read_text(encoding="utf-8"))
         return [Decision(**entry) for entry in data["decisions"]]
     except (OSError, ValueError, TypeError, KeyError):
-        what = "файл решений преподавателя повреждён"
-        raise InputError(Problem(str(path), what, "верните его копию или удалите его")) from None
+        problem = "файл решений преподавателя повреждён"
+        raise InputError(Problem(str(path), problem, "верните его копию или удалите его")) from None
 
 
 def save_decisions(folder: Path, decisions: Sequence[Decision]) -> None:
@@ -113,12 +113,12 @@ def refuse_wrong_words(
     Raises:
         InputError: no such student, file or item, or points that are none.
     """
-    for who, what, points, _ in words:
+    for who, decision, points, _ in words:
         if NAME.fullmatch(who):
             continue
         if who not in files:
             student_of(register, (), who)
-        _item(what, items)
+        _item(decision, items)
         if points.strip() != WITHDRAW:
             award_of(points, register.rubric, 1.0)
 
@@ -136,7 +136,7 @@ class Spoken:
 
 def of_groups(
     words: Sequence[tuple[str, str, str, str]], groups: Sequence[WaitingGroup],
-    kept: Sequence[Decision] = (), *, anew: bool = False,
+    earlier: Sequence[Decision] = (), *, anew: bool = False,
 ) -> list[Spoken]:  # fmt: skip
     """Expand a decision on a group into one per work.
 
@@ -147,13 +147,13 @@ def of_groups(
     """
     waiting_ones = {group.name: [(str(n), group.item) for n in group.numbers] for group in groups}
     decided_ones: dict[str, list[tuple[str, str]]] = {}
-    for entry in kept:
+    for entry in earlier:
         if entry.group:
             decided_ones.setdefault(entry.group, []).append((str(entry.number), entry.item))
     spoken = []
-    for who, what, points, remark in words:
+    for who, decision, points, remark in words:
         if not NAME.fullmatch(who):
-            spoken.append(Spoken(who, what, points, remark))
+            spoken.append(Spoken(who, decision, points, remark))
             continue
         is_taken_back = points.strip() == WITHDRAW
         members = [*waiting_ones.get(who, ())]
@@ -170,16 +170,16 @@ def of_groups(
     return spoken
 
 
-def _item(what: str, known: Collection[str]) -> str:
-    item = WHOLE if what.strip().casefold() in _WHOLE_WORDS else what.strip()
-    if item and item not in known:
+def _item(text: str, names: Collection[str]) -> str:
+    item = WHOLE if text.strip().casefold() in _WHOLE_WORDS else text.strip()
+    if item and item not in names:
         hint = "имена столбцов — на странице студента в results/*.json: P3_1.s_mm"
         raise InputError(Problem(item, "в работе нет такого столбца", hint))
     return item
 
 
 def decided(
-    kept: Sequence[Decision], register: Register, works: Sequence[Work],
+    earlier: Sequence[Decision], register: Register, works: Sequence[Work],
     counted: Mapping[int, Work], words: Sequence[Spoken], author: str,
 ) -> list[Decision]:  # fmt: skip
     """Decisions with those of a command added.
@@ -189,11 +189,11 @@ def decided(
     Raises:
         InputError: no such student or item, or points that are none.
     """
-    entries = {entry.key: entry for entry in kept}
+    entries = {entry.key: entry for entry in earlier}
     for said in words:
         book = student_of(register, works, said.who)
-        known = {line.id for work in works if work.number == book.number for line in work.items}
-        item = _item(said.what, known)
+        ids = {line.id for work in works if work.number == book.number for line in work.items}
+        item = _item(said.what, ids)
         if said.points.strip() == WITHDRAW:
             entries = {
                 key: entry for key, entry in entries.items() if key[:2] != (book.number, item)
@@ -226,8 +226,8 @@ def _refuse_idle(who: str, award: Award, item: str, file: str, work: Work | None
         raise InputError(Problem(who, "работа не сдана: решать не о чем", hint))
     is_same = work is not None and work.sha256 == file
     if award.is_change and item == WHOLE and is_same and work and work.points is None:
-        what = "у файла нет баллов программы: принять или изменить нечего"
-        raise InputError(Problem(who, what, "впишите баллы числом"))
+        problem = "у файла нет баллов программы: принять или изменить нечего"
+        raise InputError(Problem(who, problem, "впишите баллы числом"))
 
 
 def student_of(register: Register, works: Iterable[Work], who: str) -> Issued:
@@ -247,8 +247,8 @@ def student_of(register: Register, works: Iterable[Work], who: str) -> Issued:
         numbers = {work.number for work in works if who in (work.file, work.key)}
         hits = [book for book in register.books if book.number in numbers]
     if len(hits) != 1:
-        what = "таких студентов несколько" if hits else "нет такого студента"
-        raise InputError(Problem(who, what, "назовите номер варианта или фамилию с именем"))
+        problem = "таких студентов несколько" if hits else "нет такого студента"
+        raise InputError(Problem(who, problem, "назовите номер варианта или фамилию с именем"))
     return hits[0]
 
 
@@ -304,7 +304,7 @@ def from_gradebook(
 
 
 def words_of_groups(
-    path: Path, kept: Sequence[Decision]
+    path: Path, earlier: Sequence[Decision]
 ) -> tuple[list[tuple[str, str, str, str]], str]:
     """Decisions on groups that a person has written into the gradebook, and who saved it.
 
@@ -314,7 +314,7 @@ def words_of_groups(
     if not lines or any(head not in lines[0] for head in ("Группа", *DECISION)):
         return [], author
     at = [lines[0].index(head) for head in ("Группа", *DECISION)]
-    stand = {entry.group: (written(entry), entry.remark) for entry in kept if entry.group}
+    stand = {entry.group: (written(entry), entry.remark) for entry in earlier if entry.group}
     words = []
     for line in lines[1:]:
         name, points, remark = (str("" if line[i] is None else line[i]).strip() for i in at)
@@ -382,14 +382,14 @@ def _meant(cell: Any) -> Any:  # noqa: ANN401 - a cell of openpyxl and what it h
 
 def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
     """Return a result as the person has decided on its file; without such decisions the same."""
-    own = _of(result, decisions)
-    if not own:
+    entries = _of(result, decisions)
+    if not entries:
         return result
     decided_result = copy.deepcopy(result)
-    decided_result["decisions"] = [asdict(entry) for entry in own]
+    decided_result["decisions"] = [asdict(entry) for entry in entries]
     lines = {line["id"]: line for line in decided_result["items"]}
     settled = set()
-    for entry in own:
+    for entry in entries:
         line = lines.get(entry.item)
         if line is not None:
             base = line["of"] if line["verdict"] == UNKNOWN and entry.word else line["points"]
@@ -402,7 +402,7 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
                 asked["answered"] = True
     if decided_result["status"] == "graded":
         rescored(decided_result)
-    whole = next((entry for entry in own if entry.item == WHOLE), None)
+    whole = next((entry for entry in entries if entry.item == WHOLE), None)
     unknown = [line for line in lines.values() if line["verdict"] == UNKNOWN]
     if whole is not None:
         decided_result["decision"] = asdict(whole)
@@ -436,9 +436,9 @@ def _award(entry: Decision) -> Award:
 
 def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, Any]:
     """Return the result that counts: it waits for a person where another file was decided on."""
-    own = {entry.item for entry in _of(result, decisions)}
-    former = {entry.item for entry in decisions if entry.number == result["number"]} - own
-    if WHOLE in own or not former:
+    items = {entry.item for entry in _of(result, decisions)}
+    former = {entry.item for entry in decisions if entry.number == result["number"]} - items
+    if WHOLE in items or not former:
         return result
     held = copy.deepcopy(result)
     if WHOLE in former:
@@ -451,5 +451,5 @@ def waiting(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
 
 
 def _of(result: dict[str, Any], decisions: Sequence[Decision]) -> list[Decision]:
-    about = result.get("number"), result["sha256"]
-    return [entry for entry in decisions if (entry.number, entry.file) == about]
+    identity = result.get("number"), result["sha256"]
+    return [entry for entry in decisions if (entry.number, entry.file) == identity]

@@ -263,18 +263,18 @@ class _Batch:
         Raises:
             InputError: some of it is no decision, or none under the rubric of today.
         """
-        kept = load_decisions(self.folder)
+        decisions = load_decisions(self.folder)
         rubric, book = self.register.rubric, self.folder / "gradebook.xlsx"
-        seen = [work_of(applied(result, kept), self._shared) for _, result in self._results()]
+        seen = [work_of(applied(result, decisions), self._shared) for _, result in self._results()]
         counted = choose(seen, rubric.attempts)
-        self._kept = from_gradebook(book, kept, counted, rubric)
-        self._by_group, self._group_author = words_of_groups(book, kept)
+        self._kept = from_gradebook(book, decisions, counted, rubric)
+        self._by_group, self._group_author = words_of_groups(book, decisions)
         refuse_too_many(self._kept, self.register)
         if submissions and options.decisions:
             items = Marker(self.register).assignment(self.register.books[0])[0].items
             files = {name for one in submissions for name in (one.key, one.label)}
-            known = {item.id for item in items}
-            refuse_wrong_words(options.decisions, self.register, files, known)
+            ids = {item.id for item in items}
+            refuse_wrong_words(options.decisions, self.register, files, ids)
 
     def decide(self, options: GradeSetup) -> InputError | None:
         """Take in what people have decided, and what the command says; why not, if it cannot be."""
@@ -346,11 +346,11 @@ class _Batch:
             if is_plain and work.number not in touched and work.key not in self._settled:
                 continue
             program = self._result(work)
-            shown = applied(copy.deepcopy(program), decisions)
-            shown = waiting(shown, decisions) if row else shown
-            final = settled(program, shown, state, why)
+            decided = applied(copy.deepcopy(program), decisions)
+            decided = waiting(decided, decisions) if row else decided
+            final = settled(program, decided, state, why)
             page = self.shown(
-                student_page({**shown, "state": state}, self.register.rubric), shown["file"]
+                student_page({**decided, "state": state}, self.register.rubric), decided["file"]
             )
             write_text(self.folder / work.page, page)
             write_text(self._json_of(work), result_text(final))
@@ -409,8 +409,8 @@ class _Batch:
         except InputError as error:
             data = str(error)
         self._sha256[submission.key] = data
-        about = f"{data} {submission.key} {submission.time} {submission.clock} {self._rules}"
-        return hashlib.sha256(about.encode()).hexdigest()
+        parts = f"{data} {submission.key} {submission.time} {submission.clock} {self._rules}"
+        return hashlib.sha256(parts.encode()).hexdigest()
 
     def take(self, outcome: Outcome) -> None:
         """Write one result and its page."""

@@ -47,12 +47,12 @@ def remember(folder: Path, batch: str, works: Sequence[Work]) -> None:
     """
     make_dir(folder)
     month = f"{date.today():%Y-%m}"
-    known = next(folder.glob(f"*-{batch}.json"), folder / f"{month}-{batch}.json")
+    target = next(folder.glob(f"*-{batch}.json"), folder / f"{month}-{batch}.json")
     # In the order of the digests: that of the list would tell whose they are.
-    kept = sorted([list(trait) for trait in work.traits] for work in works if work.traits)
+    traits = sorted([list(trait) for trait in work.traits] for work in works if work.traits)
     data = {"format": _FORMAT, "version": _VERSION, "batch": batch,
-            "date": known.name[: len(month)], "works": kept}  # fmt: skip
-    write_text(known, json.dumps(data, ensure_ascii=False) + "\n")
+            "date": target.name[: len(month)], "works": traits}  # fmt: skip
+    write_text(target, json.dumps(data, ensure_ascii=False) + "\n")
 
 
 def kept_past(path: Path) -> list[PastWork]:
@@ -81,6 +81,8 @@ def _read(path: Path) -> dict[str, Any]:
         if not (whole and texts and isinstance(data["batch"], str)):
             raise ValueError
     except (OSError, ValueError, TypeError, KeyError):
-        what = "это не память прошлых лет или она повреждена"
-        raise InputError(Problem(str(path), what, "удалите файл или верните его копию")) from None
+        problem = "это не память прошлых лет или она повреждена"
+        raise InputError(
+            Problem(str(path), problem, "удалите файл или верните его копию")
+        ) from None
     return dict(data)

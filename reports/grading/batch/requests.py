@@ -43,8 +43,8 @@ def load_requests(folder: Path) -> list[LookRequest]:
         data = json.loads(path.read_text(encoding="utf-8"))
         return [LookRequest(**entry) for entry in data["requests"]]
     except (OSError, ValueError, TypeError, KeyError):
-        what = "файл просьб студентов повреждён"
-        raise InputError(Problem(str(path), what, "верните его копию или удалите его")) from None
+        problem = "файл просьб студентов повреждён"
+        raise InputError(Problem(str(path), problem, "верните его копию или удалите его")) from None
 
 
 def add_request(folder: Path, work: Work, column: str, text: str) -> list[LookRequest]:
@@ -56,17 +56,17 @@ def add_request(folder: Path, work: Work, column: str, text: str) -> list[LookRe
     lines = [line for line in work.items if column.strip() in (line.id, line.label)]
     words = one_line(text, _LONGEST)
     if len(lines) != 1 or not words:
-        what = "просьба без слов" if lines else "в работе нет такого столбца"
+        problem = "просьба без слов" if lines else "в работе нет такого столбца"
         hint = "столбец — как на странице студента: «П3.1 v»; и в чём вы не согласны"
-        raise InputError(Problem(one_line(column, 40), what, hint))
+        raise InputError(Problem(one_line(column, 40), problem, hint))
     about = work.number, lines[0].id, work.sha256
     entries = [
         each for each in load_requests(folder) if (each.number, each.item, each.file) != about
     ]
     own = [each for each in entries if (each.number, each.file) == (work.number, work.sha256)]
     if len(own) >= MAX_REQUESTS:
-        what = f"просьб уже {MAX_REQUESTS}"
-        raise InputError(Problem(work.student, what, "дождитесь ответа преподавателя"))
+        problem = f"просьб уже {MAX_REQUESTS}"
+        raise InputError(Problem(work.student, problem, "дождитесь ответа преподавателя"))
     date = datetime.now().isoformat(timespec="minutes")
     seen = next((mark_of(each) for each in work.decisions if each["item"] == lines[0].id), "")
     entries.append(LookRequest(work.number or 0, lines[0].id, words, date, work.sha256, seen))

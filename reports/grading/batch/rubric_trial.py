@@ -85,19 +85,19 @@ def try_rubric(
 
 
 def _samples(path: Path, assignment: Assignment) -> list[Sample]:
-    known = {name for item in assignment.items for name in (item.id, item.block)}
+    names = {name for item in assignment.items for name in (item.id, item.block)}
     try:
         works = tomllib.loads(read_text(path)).get("works", [])
         samples = [Sample.model_validate(work) for work in works]
     except (tomllib.TOMLDecodeError, ValidationError, AttributeError, TypeError):
-        what = "это не список пробных работ"
+        problem = "это не список пробных работ"
         hint = 'нужны разделы [[works]] с ключами name и points; ещё empty, typed, wrong = ["P3_1"]'
-        raise InputError(Problem(path.name, what, hint)) from None
+        raise InputError(Problem(path.name, problem, hint)) from None
     problems = [
         Problem(f"{path.name}: {sample.name}", f"нет таблицы или столбца {name}", "исправьте имя")
         for sample in samples
         for name in (*sample.empty, *sample.typed, *sample.wrong)
-        if not any(fnmatchcase(one, name) for one in known)
+        if not any(fnmatchcase(one, name) for one in names)
     ]
     if not samples:
         problems.append(Problem(path.name, "нет ни одной пробной работы", "впишите [[works]]"))
@@ -160,17 +160,19 @@ class _Solved:
 
     def _wrong(self, item: Item, cells: dict[str, list[Cell]]) -> dict[Cell, Content]:
         return {
-            cell: f"=1.7*({self._formulas[cell][1:]})+3" for own in cells.values() for cell in own
+            cell: f"=1.7*({self._formulas[cell][1:]})+3"
+            for cells_of in cells.values()
+            for cell in cells_of
         }
 
     def _typed(self, item: Item, cells: dict[str, list[Cell]]) -> dict[Cell, Content]:
         typed: dict[Cell, Content] = {}
-        for node, own in cells.items():
+        for node, cells_of in cells.items():
             value: Any = self.values.value(node)
             numbers = [value] if isinstance(value, (str, float, int)) else list(value)
-            typed |= {c: float(v) for c, v in zip(own, numbers, strict=True)}
+            typed |= {c: float(v) for c, v in zip(cells_of, numbers, strict=True)}
         return typed
 
 
 def _nothing(item: Item, cells: dict[str, list[Cell]]) -> dict[Cell, Content]:
-    return {cell: None for own in cells.values() for cell in own}
+    return {cell: None for cells_of in cells.values() for cell in cells_of}

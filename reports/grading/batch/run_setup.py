@@ -66,7 +66,7 @@ def write_copies(
 
 
 def write_questions(
-    folder: Path, works: Sequence[Work], marker: Marker, shown: Callable[..., str]
+    folder: Path, works: Sequence[Work], marker: Marker, page_of: Callable[..., str]
 ) -> None:
     """Questions for the defence: a sheet for each student, one with answers for the class."""
     from reports.grading.pages.questions import questions_for
@@ -83,24 +83,26 @@ def write_questions(
         sheet = {"student": student.full, "group": student.group, "number": book.number,
                  "questions": questions}  # fmt: skip
         sheets.append(sheet)
-        page = shown(questions_page([sheet], rubric, answers=False))
+        page = page_of(questions_page([sheet], rubric, answers=False))
         write_text(folder / QUESTIONS / Path(work.page).name, page)
-    write_text(folder / "questions.html", shown(questions_page(sheets, rubric, answers=True)))
+    write_text(folder / "questions.html", page_of(questions_page(sheets, rubric, answers=True)))
 
 
 def put_off(register: Register, students: Sequence[Student]) -> Register:
     """Return the register with the deadlines of a newer roster; nothing else is taken from it."""
     pairs = matched(register.books, students)
-    given = {book.number: student.extension for student, book in pairs}
-    found = [student for student, _ in pairs]
-    lost = [one.full for one in students if one.extension and one not in found]
+    extensions = {book.number: student.extension for student, book in pairs}
+    late = [student for student, _ in pairs]
+    lost = [one.full for one in students if one.extension and one not in late]
     if lost or not pairs:
         hint = "возьмите список, по которому выданы варианты, и впишите в него столбец «Срок»"
-        what = f"в этой выдаче нет: {', '.join(lost[:5])}" if lost else "в списке нет её студентов"
-        raise InputError(Problem("--roster", what, hint))
+        problem = (
+            f"в этой выдаче нет: {', '.join(lost[:5])}" if lost else "в списке нет её студентов"
+        )
+        raise InputError(Problem("--roster", problem, hint))
     books = (
-        replace(book, student=replace(book.student, extension=given[book.number]))
-        if book.number in given
+        replace(book, student=replace(book.student, extension=extensions[book.number]))
+        if book.number in extensions
         else book
         for book in register.books
     )
@@ -113,8 +115,8 @@ def refuse_overlap(submitted: Path, folder: Path, issued: Path) -> None:
     for read_folder in (submitted, issued):
         source = read_folder.resolve()
         if source.is_dir() and (target == source or source in target.parents):
-            what = f"результаты легли бы в папку {read_folder}"
-            raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
+            problem = f"результаты легли бы в папку {read_folder}"
+            raise InputError(Problem(str(folder), problem, "укажите другую папку ключом -o"))
 
 
 def refuse_another_class(folder: Path, register: Register) -> None:
@@ -124,5 +126,5 @@ def refuse_another_class(folder: Path, register: Register) -> None:
     except InputError:
         return
     if {book.ticket for book in earlier.books}.isdisjoint(book.ticket for book in register.books):
-        what = "здесь результаты и решения другой группы или другой выдачи"
-        raise InputError(Problem(str(folder), what, "укажите другую папку ключом -o"))
+        problem = "здесь результаты и решения другой группы или другой выдачи"
+        raise InputError(Problem(str(folder), problem, "укажите другую папку ключом -o"))

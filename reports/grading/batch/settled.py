@@ -22,21 +22,21 @@ _ITSELF = "program"
 _KEYS = ("points", "raw", "manual", "doubts")
 
 
-def settled(program: Result, shown: Result, state: State, doubts: Sequence[str]) -> Result:
+def settled(program: Result, decided: Result, state: State, doubts: Sequence[str]) -> Result:
     """Return the result for readers: what is held has no points until a person has decided.
 
     Args:
         program: the result as the program has made it.
-        shown: the same as people have decided.
+        decided: the same as people have decided.
         state: what the gradebook says of the work.
         doubts: why it may be another's, by itself and beside the other works.
     """
     lines = {line["id"]: line["points"] for line in program["items"]}
-    changed = {line["id"]: lines[line["id"]] for line in shown["items"] if "decision" in line}
+    changed = {line["id"]: lines[line["id"]] for line in decided["items"] if "decision" in line}
     itself = {key: program[key] for key in _KEYS if key in program} | {"items": changed}
-    points = shown.get("points")
+    points = decided.get("points")
     return {
-        **shown,
+        **decided,
         "state": state,
         "doubts": list(doubts),
         "points": None if state == State.HELD else points,

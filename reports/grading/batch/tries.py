@@ -12,7 +12,7 @@ from reports.grading.reading.submissions import Submission
 
 
 def told_of_try(path: str, issued: str) -> dict[str, str]:
-    """The answer to a try, nothing where the book cannot be graded; ``issued`` is the folder."""
+    """Return answer to a try, nothing where the book cannot be graded; ``issued`` is the folder."""
     book = Path(path)
     register = Path(issued) / FILE
     marker = _marker(str(register), register.stat().st_mtime_ns)

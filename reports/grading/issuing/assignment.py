@@ -185,8 +185,8 @@ class Assignment:
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
         """All blocks of the work-book, in the model's order."""
-        kept = {block.id for block in (*self.fill, *self.given)}
-        return tuple(block for block in self.model.blocks if block.id in kept)
+        ids = {block.id for block in (*self.fill, *self.given)}
+        return tuple(block for block in self.model.blocks if block.id in ids)
 
     @cached_property
     def kept_model(self) -> Model:
@@ -246,11 +246,11 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     """
     problems: list[Problem] = []
 
-    def check(key: str, patterns: Iterable[str], known: Collection[str], what: str) -> None:
+    def check(key: str, patterns: Iterable[str], names: Collection[str], kind: str) -> None:
         for pattern in patterns:
-            if not any(fnmatchcase(id_, pattern) for id_ in known):
-                where, hint = f"{source}: {key}", _near(pattern, known)
-                problems.append(Problem(where, f"нет {what} {pattern}", hint))
+            if not any(fnmatchcase(id_, pattern) for id_ in names):
+                where, hint = f"{source}: {key}", _near(pattern, names)
+                problems.append(Problem(where, f"нет {kind} {pattern}", hint))
 
     ids = [block.id for block in model.blocks]
     check("work.fill", rubric.work.fill, ids, "таблицы")
@@ -260,7 +260,7 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     fill = [block for block in model.blocks if _wanted(block, rubric.work.fill)]
     filled = {block.id for block in fill}
     needed = _needed(model, fill)
-    given = [
+    given_blocks = [
         block
         for block in model.blocks
         if block.id not in filled
@@ -272,18 +272,18 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
         for pattern in rubric.work.given
         if (named := {id_ for id_ in ids if fnmatchcase(id_, pattern)}) and named <= filled
     ]  # fmt: skip
-    assignment = Assignment(model, rubric, tuple(fill), tuple(given))
+    assignment = Assignment(model, rubric, tuple(fill), tuple(given_blocks))
     items = [item.id for block in fill for item in _items(block)]
     check("work.without", rubric.work.without, items, "столбца")
-    known = [*dict.fromkeys(item.id for item in assignment.items), *sorted(filled)]
-    what = "заполняемой таблицы или столбца"
-    check("points", rubric.points, known, what)
-    check("tolerance.items", rubric.tolerance.items, known, what)
-    check("formulas.optional", rubric.formulas.optional, known, what)
-    check("messages.items", (message.items for message in rubric.messages), known, what)
+    names = [*dict.fromkeys(item.id for item in assignment.items), *sorted(filled)]
+    kind = "заполняемой таблицы или столбца"
+    check("points", rubric.points, names, kind)
+    check("tolerance.items", rubric.tolerance.items, names, kind)
+    check("formulas.optional", rubric.formulas.optional, names, kind)
+    check("messages.items", (message.items for message in rubric.messages), names, kind)
     check("minimum.tables", rubric.minimum.tables, sorted(filled), "заполняемой таблицы")
-    check("needs", rubric.needs, known, what)
-    check("needs", (name for needed in rubric.needs.values() for name in needed), known, what)
+    check("needs", rubric.needs, names, kind)
+    check("needs", (name for needed in rubric.needs.values() for name in needed), names, kind)
     if not problems and assignment.rubric.calculated and not sum(assignment.points.values()):
         hint = "исправьте [points] или [work]"
         problems.append(Problem(source, "ни один столбец не оценивается", hint))
@@ -292,10 +292,10 @@ def assignment_of(model: Model, rubric: Rubric, source: str = "рубрика") 
     return assignment
 
 
-def _near(pattern: str, known: Collection[str]) -> str:
+def _near(pattern: str, names: Collection[str]) -> str:
     """Likely name, else the known names."""
-    likely, table = likely_word(pattern, known), pattern.partition(".")[0]
-    beside = sorted(known, key=lambda id_: not id_.startswith(table))  # those of its table first
+    likely, table = likely_word(pattern, names), pattern.partition(".")[0]
+    beside = sorted(names, key=lambda id_: not id_.startswith(table))  # those of its table first
     return f"возможно, {likely}" if likely else f"есть: {', '.join(beside[:12])}…"
 
 
@@ -414,7 +414,7 @@ def with_own_shifts(model: Model, fill: Collection[Block]) -> Model:
         if table in tables_to_fill or _PHASE not in keys or len(table.rows) < 2:
             continue
         phase = np.asarray(run.value(f"{table.id}.{_PHASE}"), dtype=float)
-        tables = [_read_from(table, own, phase, run) for own in tables_to_fill]
+        tables = [_read_from(table, table_of, phase, run) for table_of in tables_to_fill]
         best = max(tables, key=lambda shifted: _count_changed(shifted, table), default=table)
         if best is not table:
             changed[table.id] = best
@@ -433,27 +433,29 @@ def _count_changed(shifted: TableSpec, table: TableSpec) -> int:
     )
 
 
-def _read_from(table: TableSpec, own: TableSpec, phase: np.ndarray, run: Evaluation) -> TableSpec:
+def _read_from(
+    table: TableSpec, target: TableSpec, phase: np.ndarray, run: Evaluation
+) -> TableSpec:
     """Return a table with those columns read from another that are the same at the phase."""
-    step = own.rows[1] - own.rows[0] if len(own.rows) > 1 else 0.0
-    if not step or not np.allclose(np.diff(own.rows), step):
+    step = target.rows[1] - target.rows[0] if len(target.rows) > 1 else 0.0
+    if not step or not np.allclose(np.diff(target.rows), step):
         return table
-    at = (phase - own.rows[0]) / step
+    at = (phase - target.rows[0]) / step
     rows = np.rint(at).astype(int)
-    if not np.allclose(at, rows) or rows.min() < 0 or rows.max() >= len(own.rows):
+    if not np.allclose(at, rows) or rows.min() < 0 or rows.max() >= len(target.rows):
         return table
-    first = f" - {own.rows[0]:g}" if own.rows[0] else ""
-    shared = {column.key for column in own.columns if column.expr is not None}
+    first = f" - {target.rows[0]:g}" if target.rows[0] else ""
+    shared = {column.key for column in target.columns if column.expr is not None}
     columns = []
     for given in table.columns:
         column = given
         if column.key in shared and column.key != _PHASE:
             theirs = np.asarray(run.value(f"{table.id}.{column.key}"), dtype=float)
-            mine = np.asarray(run.value(f"{own.id}.{column.key}"), dtype=float)[rows]
+            mine = np.asarray(run.value(f"{target.id}.{column.key}"), dtype=float)[rows]
             scale = float(np.nanmax(np.abs(mine))) or 1.0
             if np.allclose(theirs, mine, rtol=0, atol=1e-9 * scale):
-                expr = f"element({own.id}.{column.key}, round(({_PHASE}{first})/{step:g}) + 1)"
-                column = replace(column, expr=expr, source=f"{own.number} в фазе цилиндра")
+                expr = f"element({target.id}.{column.key}, round(({_PHASE}{first})/{step:g}) + 1)"
+                column = replace(column, expr=expr, source=f"{target.number} в фазе цилиндра")
         columns.append(column)
     return table if columns == list(table.columns) else replace(table, columns=tuple(columns))
 
@@ -470,30 +472,30 @@ def states(
         for column in table.columns
         if column.expr is None
     }
-    known: dict[str, str] = {}
+    states_of: dict[str, str] = {}
 
     def outside(node: str) -> frozenset[str]:
         """Tell what a node refers to; rows that follow from those before them refer in circles."""
         table = model.whole_tables.get(node)
         if table is None:
             return graph.references(node)
-        own = frozenset(f"{table.id}.{column.key}" for column in table.columns)
-        return frozenset().union(*(graph.references(name) for name in own)) - own
+        columns = frozenset(f"{table.id}.{column.key}" for column in table.columns)
+        return frozenset().union(*(graph.references(name) for name in columns)) - columns
 
     def state(node: str) -> str:
         if node in inputs or node in to_fill or node in model.input_runs:
             return LIVE
         if node not in there:
             return HIDDEN
-        if node not in known:
-            known[node] = HIDDEN  # while it is looked at: no circles
-            known[node] = (
+        if node not in states_of:
+            states_of[node] = HIDDEN  # while it is looked at: no circles
+            states_of[node] = (
                 NUMBER
                 if to_fill.isdisjoint(graph.ancestors(node))
                 else LIVE
                 if all(state(name) != HIDDEN for name in outside(node))
                 else HIDDEN
             )
-        return known[node]
+        return states_of[node]
 
     return {node: state(node) for node in sorted(there - to_fill)}

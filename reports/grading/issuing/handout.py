@@ -98,9 +98,9 @@ class _HandoutWriter(BlockWriter):
         if sheet.title == WAVES_SHEET or Cell(sheet.title, row, column) in self.live:
             super().formula(sheet, row, column, text, "")
             return
-        known = value if isinstance(value, str) else float(value)
-        if isinstance(known, str) or np.isfinite(known):
-            sheet.cell(row, column, known or None if isinstance(known, str) else known)
+        cached = value if isinstance(value, str) else float(value)
+        if isinstance(cached, str) or np.isfinite(cached):
+            sheet.cell(row, column, cached or None if isinstance(cached, str) else cached)
 
 
 def anchor_name(table: str, index: int) -> str:
@@ -134,32 +134,32 @@ def handout_bytes(assignment: Assignment, ticket: str) -> bytes:
 
 def _given_values(assignment: Assignment) -> Values:
     """Values that stand in the work-book; what the student finds is not even calculated."""
-    run, given = Evaluation(assignment.model), assignment.given_nodes
+    run, nodes = Evaluation(assignment.model), assignment.given_nodes
     scalars: dict[str, float | str] = {}
     columns: dict[str, dict[str, NDArray[np.float64]]] = {}
     for block in assignment.blocks:
         if isinstance(block, TableSpec):
             columns[block.id] = {
                 column.key: run.value(f"{block.id}.{column.key}")
-                if column.expr is None or f"{block.id}.{column.key}" in given
+                if column.expr is None or f"{block.id}.{column.key}" in nodes
                 else np.full(len(block.rows), np.nan)
                 for column in block.columns
             }
         else:
             for scalar in scalars_of(block):
-                scalars[scalar.key] = run.value(scalar.key) if scalar.key in given else np.nan
+                scalars[scalar.key] = run.value(scalar.key) if scalar.key in nodes else np.nan
     return Values(scalars, columns)
 
 
 def _charts(assignment: Assignment) -> tuple[ChartSpec, ...]:
     """Return the charts whose tables are all in the work-book."""
-    kept = {block.id for block in assignment.blocks}
+    ids = {block.id for block in assignment.blocks}
     sheets = {block.sheet for block in assignment.blocks}
     return tuple(
         chart
         for chart in assignment.model.charts
         if chart.sheet in sheets
-        and all(key.split(".")[0] in kept for s in chart.series for key in (s.x, s.y))
+        and all(key.split(".")[0] in ids for s in chart.series for key in (s.x, s.y))
     )
 
 
@@ -287,7 +287,7 @@ def check_for_leaks(book: bytes, assignment: Assignment, source: str) -> None:
     """
     leaks = leaks_of(book, assignment)
     if leaks:
-        what = "; ".join(f"{leak.item} — {leak.place}" for leak in leaks[:6])
+        problem = "; ".join(f"{leak.item} — {leak.place}" for leak in leaks[:6])
         more = f" и ещё {len(leaks) - 6}" if len(leaks) > 6 else ""
         items = (leak.item.partition(" ")[0] for leak in leaks)
         names = ", ".join(f'"{item}"' for item in dict.fromkeys(items))
@@ -295,7 +295,9 @@ def check_for_leaks(book: bytes, assignment: Assignment, source: str) -> None:
             "уберите эти таблицы из work.given или из work.fill рубрики либо выдайте ответы "
             f"числами: work.without = [{names}]"
         )
-        raise InputError(Problem(source, f"выданная книга содержала бы ответы: {what}{more}", hint))
+        raise InputError(
+            Problem(source, f"выданная книга содержала бы ответы: {problem}{more}", hint)
+        )
 
 
 def leaks_of(book: bytes, assignment: Assignment) -> list[Leak]:
@@ -303,7 +305,7 @@ def leaks_of(book: bytes, assignment: Assignment) -> list[Leak]:
 
     Columns that only serve others may repeat a given one: they are copied by right.
     """
-    places = dict(_places(book))
+    numbers_by_place = dict(_places(book))
     run = Evaluation(assignment.model)
     columns: dict[str, set[str]] = {}
     scalars: dict[str, float] = {}
@@ -314,8 +316,8 @@ def leaks_of(book: bytes, assignment: Assignment) -> list[Leak]:
         elif not item.is_column and values.size:
             scalars |= {f"{item.id} {label}".strip(): float(v)
                         for label, v in zip(item.labels, values, strict=False)}  # fmt: skip
-    return [*_of_columns(columns, places, _known(assignment)),
-            *_of_scalars(scalars, places, _known(assignment))]  # fmt: skip
+    return [*_of_columns(columns, numbers_by_place, _known(assignment)),
+            *_of_scalars(scalars, numbers_by_place, _known(assignment))]  # fmt: skip
 
 
 def _asked(item: Item, run: Evaluation, assignment: Assignment) -> np.ndarray:
@@ -356,14 +358,16 @@ def _digits(values: Iterable[float], count: int) -> set[str]:
 
 
 def _of_columns(
-    answers: Mapping[str, set[str]], places: Mapping[str, list[float]], known: set[str]
+    answers: Mapping[str, set[str]],
+    numbers_by_place: Mapping[str, list[float]],
+    constants: set[str],
 ) -> list[Leak]:
     owners: dict[str, list[str]] = {}
     for item, digits in answers.items():
-        for text in digits - known:
+        for text in digits - constants:
             owners.setdefault(text, []).append(item)
     leaks = []
-    for part, numbers in places.items():
+    for part, numbers in numbers_by_place.items():
         given = _digits(numbers, _DIGITS)
         hits = Counter(item for text in given for item in owners.get(text, ()))
         for item, count in hits.items():
@@ -377,18 +381,18 @@ def _of_columns(
 
 
 def _of_scalars(
-    answers: Mapping[str, float], places: Mapping[str, list[float]], known: set[str]
+    answers: Mapping[str, float], numbers_by_place: Mapping[str, list[float]], constants: set[str]
 ) -> list[Leak]:
     exact = {name: _digits([value], _EXACT) for name, value in answers.items()}
-    shown = {name: _digits([value], 5) for name, value in answers.items()}
+    printed = {name: _digits([value], 5) for name, value in answers.items()}
     leaks = []
     angles = _digits(_TURNS.tolist(), _EXACT)
-    for part, numbers in places.items():
-        given, short = _digits(numbers, _EXACT) - angles - known, _digits(numbers, 5)
-        hits = [n for n, d in exact.items() if d & given and not _short(answers[n])]
-        few = [n for n, d in shown.items() if d & short - known and not _is_round(d)]
+    for part, numbers in numbers_by_place.items():
+        exact_digits, short = _digits(numbers, _EXACT) - angles - constants, _digits(numbers, 5)
+        hits = [n for n, d in exact.items() if d & exact_digits and not _short(answers[n])]
+        few = [n for n, d in printed.items() if d & short - constants and not _is_round(d)]
         chance = len(answers) * len(short) / 90_000
-        alike = set().union(*(shown[n] for n in few)) if few else set()
+        alike = set().union(*(printed[n] for n in few)) if few else set()
         if not hits and len(alike) >= max(3, chance + 5 * sqrt(chance) + 2):
             hits = few
         leaks += [Leak(name, part, 1) for name in hits]

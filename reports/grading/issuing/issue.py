@@ -87,14 +87,14 @@ def load_base(path: Path, beside: Path | None = None) -> Base:
     source = path.name
     if beside is not None:
         if section is not None:
-            what = "диапазоны заданы и в разделе [variants], и ключом --ranges"
-            raise InputError(Problem(path.name, what, "оставьте одно"))
+            problem = "диапазоны заданы и в разделе [variants], и ключом --ranges"
+            raise InputError(Problem(path.name, problem, "оставьте одно"))
         data, source = tables_of(read_text(beside), source=beside.name), beside.name
         section = data.get(SECTION, data)
     if section is None:
-        what = "нет раздела [variants] с диапазонами параметров"
+        problem = "нет раздела [variants] с диапазонами параметров"
         hint = 'пример: [variants] и строка "geometry.bore_mm" = {min = 84, max = 92, step = 1}'
-        raise InputError(Problem(path.name, what, hint))
+        raise InputError(Problem(path.name, problem, hint))
     ranges, problems = read_ranges(section, raw, source)
     if problems:
         raise InputError(problems)
@@ -117,18 +117,20 @@ def draw_variants(
     taken = set(taken)
     total, count = math.prod(len(item.values) for item in base.ranges), len(students) + len(taken)
     if total < count:
-        what = f"вариантов в диапазонах {total}, а студентов {count}"
-        raise InputError(Problem(base.source, what, "расширьте диапазоны или уменьшите шаги"))
+        problem = f"вариантов в диапазонах {total}, а студентов {count}"
+        raise InputError(Problem(base.source, problem, "расширьте диапазоны или уменьшите шаги"))
     variants: list[Variant] = []
     for student in students:
         variant = _draw(base, random.Random(f"{seed}:{student}"), taken)
         if isinstance(variant, str):
-            what = (
+            problem = (
                 f"различных вариантов, проходящих проверку, хватило только на {len(variants)} "
                 f"из {len(students)} студентов"
             )
-            what += f"; один из отказов — {variant}" if variant else ""
-            raise InputError(Problem(base.source, what, "уменьшите шаги или приблизьте их к базе"))
+            problem += f"; один из отказов — {variant}" if variant else ""
+            raise InputError(
+                Problem(base.source, problem, "уменьшите шаги или приблизьте их к базе")
+            )
         taken.add(variant.key)
         variants.append(variant)
     return variants
@@ -170,8 +172,8 @@ def _variant(base: Base, values: Sequence[float | int | str], taken: set[str]) -
     except InputError as error:
         return error.lines()[0]
     # A variant may be as odd as its base, but not odder.
-    known = {problem.where for problem in base.loaded.warnings}
-    odd = [problem.line() for problem in loaded.warnings if problem.where not in known]
+    places_warned = {problem.where for problem in base.loaded.warnings}
+    odd = [problem.line() for problem in loaded.warnings if problem.where not in places_warned]
     return odd[0] if odd else Variant(raw, drawn, loaded)
 
 
@@ -273,7 +275,7 @@ class Handouts:
 
 
 def assignment_for(book: Issued, rubric: Rubric, like: Assignment | None = None) -> Assignment:
-    """The tables of an issued work-book; ``like`` is another student's, for the same rubric."""
+    """Return tables of an issued work-book; ``like`` is another student's, for the same rubric."""
     titled = _with_title(book.raw, book.student, book.number)
     model = load_mapping(titled, source=book.student.full).model
     if like is not None:
@@ -297,11 +299,11 @@ def _issued(number: int, student: Student, variant: Variant, secret: bytes, batc
 
 
 def _write(folder: Path, book: Issued, data: bytes) -> None:
-    own = folder / book.folder
-    own.mkdir()
-    (own / book.file).write_bytes(data)
+    folder_of = folder / book.folder
+    folder_of.mkdir()
+    (folder_of / book.file).write_bytes(data)
     text = tomlkit.dumps(_with_title(book.raw, book.student, book.number))
-    (own / f"{book.folder}.toml").write_text(text, encoding="utf-8")
+    (folder_of / f"{book.folder}.toml").write_text(text, encoding="utf-8")
 
 
 def _slug(name: str) -> str:
@@ -317,19 +319,19 @@ def _batch(base: Base, seed: int) -> str:
 
 def _refuse_foreign(folder: Path) -> None:
     if folder.is_dir() and any(folder.iterdir()) and not (folder / FILE).exists():
-        what = "в папке есть чужие файлы"
-        raise InputError(Problem(str(folder), what, "укажите пустую папку ключом -o"))
+        problem = "в папке есть чужие файлы"
+        raise InputError(Problem(str(folder), problem, "укажите пустую папку ключом -o"))
 
 
 def _refuse_own(read: Path | None, folder: Path) -> None:
     """Refuse a source inside the folder that a new issue replaces."""
     if read is not None and folder.resolve() in read.resolve().parents and folder.is_dir():
-        what = "файл лежит в папке выдачи и пропал бы вместе с прежней выдачей"
-        raise InputError(Problem(str(read), what, "укажите другую папку ключом -o"))
+        problem = "файл лежит в папке выдачи и пропал бы вместе с прежней выдачей"
+        raise InputError(Problem(str(read), problem, "укажите другую папку ключом -o"))
 
 
 def _refuse_inside(secret: Path, folder: Path) -> None:
     """Refuse a secret that would go out with the work-books."""
     if folder.resolve() in secret.resolve().parents:
-        what = "секрет не должен лежать в папке выдачи"
-        raise InputError(Problem(str(secret), what, "укажите другое место ключом --secret"))
+        problem = "секрет не должен лежать в папке выдачи"
+        raise InputError(Problem(str(secret), problem, "укажите другое место ключом --secret"))

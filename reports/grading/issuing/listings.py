@@ -79,9 +79,9 @@ def listings(path: Path) -> list[RosterListing]:
     return [RosterListing(path.name, "", _csv_lines(path, _text(path, data)))]
 
 
-def refused(path: Path, what: str, hint: str) -> InputError:
+def refused(path: Path, problem: str, hint: str) -> InputError:
     """Return the error of a file that is no list."""
-    return InputError(Problem(path.name, what, hint))
+    return InputError(Problem(path.name, problem, hint))
 
 
 def _clean(cell: str) -> str:
@@ -116,8 +116,8 @@ def _text(path: Path, data: bytes) -> str:
     scores = sorted(((_russian(text), text) for text in texts), reverse=True)
     (best, text), (second, other) = scores[:2]
     if best < _LEAST_RUSSIAN or (best == second and text != other):
-        what = "кодировка не UTF-8 и не Windows-1251, cp866, KOI8-R или Mac"
-        raise refused(path, what, "сохраните как «CSV UTF-8»")
+        problem = "кодировка не UTF-8 и не Windows-1251, cp866, KOI8-R или Mac"
+        raise refused(path, problem, "сохраните как «CSV UTF-8»")
     return text
 
 
@@ -146,7 +146,7 @@ def _sheets(path: Path, data: bytes) -> list[RosterListing]:
         data = repacked(data, {_STYLES: _NO_FILL.sub(_EMPTY_FILL, styles)})
     try:
         with warnings.catch_warnings(action="ignore"):  # of what a list does not need
-            shown, written = (
+            cached, written = (
                 load_workbook(io.BytesIO(data), read_only=True, data_only=values)
                 for values in (True, False)
             )
@@ -159,7 +159,7 @@ def _sheets(path: Path, data: bytes) -> list[RosterListing]:
                         list(_sheet_lines(sheet, written[sheet.title])), merged.get(sheet.title, ())
                     ),
                 )
-                for sheet in shown.worksheets
+                for sheet in cached.worksheets
                 if sheet.sheet_state == "visible"
             ]
     except Exception:  # whatever openpyxl meets in a file of a program that it does not know
@@ -196,12 +196,12 @@ def _filled_down(
     return lines
 
 
-def _sheet_lines(shown: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
+def _sheet_lines(cached: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
     """Lines of a sheet with the saved values of its formulas."""
-    for sheet in (shown, written):
+    for sheet in (cached, written):
         sheet.reset_dimensions()  # a claim of the file, and often a wrong one
     edge = {"max_row": _MOST_ROWS, "max_col": _MOST_COLUMNS}
-    rows = (sheet.iter_rows(**edge) for sheet in (shown, written))
+    rows = (sheet.iter_rows(**edge) for sheet in (cached, written))
     for number, (values, sources) in enumerate(zip(*rows, strict=True), 1):
         faults = {
             i: why

@@ -31,14 +31,14 @@ FILE = "register.json"
 MAX_BYTES = 50_000_000
 
 
-def secret_path(given: Path | None) -> Path:
+def secret_path(path: Path | None) -> Path:
     """Path of the secret: the key, the environment, else the user's settings.
 
     Raises:
         KshmError: the user has no home.
     """
-    if given is not None:
-        return given
+    if path is not None:
+        return path
     if os.environ.get(ENVIRONMENT):
         return Path(os.environ[ENVIRONMENT])
     if os.environ.get(NO_HOME):
@@ -90,8 +90,8 @@ def make_secret(path: Path) -> bytes:
             stream.write(secret.hex() + "\n")
     except OSError as error:
         hint = "укажите другое место ключом --secret"
-        what = f"не удаётся записать секрет: {reason(error)}"
-        raise InputError(Problem(str(path), what, hint)) from None
+        problem = f"не удаётся записать секрет: {reason(error)}"
+        raise InputError(Problem(str(path), problem, hint)) from None
     return secret
 
 
@@ -178,9 +178,9 @@ class Register:
         for book in (*self.books, *self.former):
             identifier = ticket_of(secret, self.batch, book.student, book.file, book.raw)
             if not hmac.compare_digest(identifier, book.ticket):
-                what = f"запись {book.number} ({book.student.full}) не соответствует секрету"
+                problem = f"запись {book.number} ({book.student.full}) не соответствует секрету"
                 hint = "реестр изменён или выдан с другим секретом; укажите его ключом --secret"
-                raise InputError(Problem(str(where), what, hint))
+                raise InputError(Problem(str(where), problem, hint))
 
 
 def ticket_of(secret: bytes, batch: str, student: Student, file: str, raw: dict[str, Any]) -> str:
@@ -204,13 +204,13 @@ def load_register(folder: Path) -> Register:
     except (ValueError, RecursionError):
         raise InputError(_damaged(path)) from None
     if size > MAX_BYTES:
-        what = f"файл больше {MAX_BYTES // 10**6} МБ"
-        raise InputError(Problem(str(path), what, "это не реестр kshm"))
+        problem = f"файл больше {MAX_BYTES // 10**6} МБ"
+        raise InputError(Problem(str(path), problem, "это не реестр kshm"))
     if not isinstance(data, dict) or data.get("format") != "kshm-register":
         raise InputError(_damaged(path))
     if data.get("version") != VERSION:
-        what = f"реестр версии {data.get('version')}, а нужна {VERSION}"
-        raise InputError(Problem(str(path), what, "обновите kshm"))
+        problem = f"реестр версии {data.get('version')}, а нужна {VERSION}"
+        raise InputError(Problem(str(path), problem, "обновите kshm"))
     rubric = rubric_of(data.get("rubric") or {}, str(path))
     try:
         books, former = (tuple(map(_issued, data.get(key) or ())) for key in ("books", "former"))

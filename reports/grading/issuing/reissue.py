@@ -42,21 +42,21 @@ def reissue(folder: Path, batch: str, secret: Path, students: Sequence[Student])
         return Reissue(newcomers=tuple(students))
     earlier = load_register(folder)
     if earlier.batch != batch:
-        what = "в папке выдача по другой базе, другим диапазонам или другому зерну"
+        problem = "в папке выдача по другой базе, другим диапазонам или другому зерну"
         hint = "розданные книги перестали бы узнаваться: укажите другую папку ключом -o " \
                "или удалите эту, если книги ещё не розданы"  # fmt: skip
-        raise InputError(Problem(str(folder), what, hint))
+        raise InputError(Problem(str(folder), problem, hint))
     earlier.check(read_secret(secret), folder)
     every = (*earlier.books, *earlier.former)
     books = matched(every, students)
-    kept = {book.number for _, book in books}
+    numbers = {book.number for _, book in books}
     newcomers = [student for student in students if all(one is not student for one, _ in books)]
-    is_alike = not newcomers and kept == {book.number for book in earlier.books}
+    is_alike = not newcomers and numbers == {book.number for book in earlier.books}
     return Reissue(
         tuple(replace(book, student=replace(student, id=book.student.id))
               for student, book in sorted(books, key=lambda pair: pair[1].number)),
         tuple(newcomers),
-        tuple(book for book in every if book.number not in kept),
+        tuple(book for book in every if book.number not in numbers),
         earlier.identity if is_alike else earlier.trial_seed,
         max((book.number for book in every), default=0) + 1,
     )  # fmt: skip

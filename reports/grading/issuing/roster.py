@@ -96,7 +96,7 @@ def read_roster(path: Path) -> list[Student]:
 
 
 def roster_of(path: Path) -> Roster:
-    """The list of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
+    """Return list of a CSV file (any usual encoding; comma, semicolon or tab) or of an Excel book.
 
     Raises:
         InputError: everything that is wrong with it.
@@ -108,8 +108,8 @@ def roster_of(path: Path) -> Roster:
         raise refused(path, "список пуст", "нужны столбцы: Фамилия;Имя;Группа")
     lists = [headed for listing in all_listings if (headed := _headed(listing)) is not None]
     if not lists:
-        what = "нет столбца «Фамилия» или «ФИО»"
-        raise refused(path, what, "первая строка: Фамилия;Имя;Группа;Номер;Email")
+        problem = "нет столбца «Фамилия» или «ФИО»"
+        raise refused(path, problem, "первая строка: Фамилия;Имя;Группа;Номер;Email")
     lists = [headed for headed in lists if headed.people]
     if not lists:
         raise refused(path, "в списке нет ни одного студента", "впишите их под заголовком")
@@ -135,8 +135,8 @@ class _List:
 
     def text(self, line: RosterLine) -> str:
         """Tell what stands under the heads of names."""
-        given = self.given(line)
-        return " ".join(given[key] for key in (*_SURNAMES, "name") if given.get(key))
+        names = self.given(line)
+        return " ".join(names[key] for key in (*_SURNAMES, "name") if names.get(key))
 
     def where(self, line: RosterLine) -> str:
         """Return the cell of a surname, for messages."""
@@ -146,7 +146,7 @@ class _List:
 
 
 def _headed(listing: RosterListing) -> _List | None:
-    """The list of a sheet or file; titles may stand above its head, and a head has two lines."""
+    """Return list of a sheet or file; titles may stand above its head, and a head has two lines."""
     heads = [_columns(line.cells) for line in listing.lines[: _TITLES + 2]]
     named = [not head.keys().isdisjoint(_SURNAMES) for head in heads]
     if True not in named[: _TITLES + 1]:
@@ -155,9 +155,9 @@ def _headed(listing: RosterListing) -> _List | None:
     head = listing.lines[first]
     names = [cell for cell in head.cells if not _columns([cell]).keys().isdisjoint(_SURNAMES)]
     if len(set(names)) < len(names):  # another list stands beside this one
-        what = f"столбец «{names[0]}» назван дважды"
+        problem = f"столбец «{names[0]}» назван дважды"
         hint = "поставьте списки один под другим"
-        raise InputError(Problem(listing.place(head, 0), what, hint))
+        raise InputError(Problem(listing.place(head, 0), problem, hint))
     second = listing.lines[first + 1 : first + 2]
     last = first + 1 if second and _continues(head, second[0]) else first
     columns = heads[first] | heads[last]
@@ -289,9 +289,9 @@ def _order(headed: _List, head: RosterLine, column: int) -> str:
     second = {first for first, last in marks if first != last}
     if len(second) == 1 or not names:
         return "turned" if second == {True} else "full"
-    what = f"столбец «{head.cells[column]}»: не видно, где фамилия, а где имя"
+    problem = f"столбец «{head.cells[column]}»: не видно, где фамилия, а где имя"
     hint = "назовите его «Фамилия Имя» или «Имя Фамилия», как в нём написано"
-    raise InputError(Problem(headed.listing.place(head, column), what, hint))
+    raise InputError(Problem(headed.listing.place(head, column), problem, hint))
 
 
 def _is_patronymic(word: str) -> bool:
@@ -305,24 +305,24 @@ def _is_bare(line: RosterLine) -> bool:
 
 def _refuse_another(path: Path, lists: list[_List]) -> None:
     """Two groups on two sheets must not become one; a sheet of marks repeats the people."""
-    known, *others = ({_named(headed.given(line))[0].casefold() for line in headed.people}
+    people, *others = ({_named(headed.given(line))[0].casefold() for line in headed.people}
                       for headed in lists)  # fmt: skip
     for other, headed in zip(others, lists[1:], strict=True):
-        if other - known - {""}:
+        if other - people - {""}:
             first, second = lists[0].listing.title, headed.listing.title
-            what = f"на листе «{second}» есть студенты, которых нет на листе «{first}»"
-            raise refused(path, what, "оставьте в книге один лист со списком")
+            problem = f"на листе «{second}» есть студенты, которых нет на листе «{first}»"
+            raise refused(path, problem, "оставьте в книге один лист со списком")
 
 
-def _named(given: dict[str, str]) -> tuple[str, str]:
+def _named(fields: dict[str, str]) -> tuple[str, str]:
     """Surname and names."""
-    surname, name = given.get("surname", ""), given.get("name", "")
-    if not surname and "turned" in given:
-        name, _, surname = given["turned"].rpartition(" ")
+    surname, name = fields.get("surname", ""), fields.get("name", "")
+    if not surname and "turned" in fields:
+        name, _, surname = fields["turned"].rpartition(" ")
     elif not surname:
-        full = given.get("full", "")
+        full = fields.get("full", "")
         surname, _, name = full.partition("," if "," in full else " ")
-    return surname.strip(" ,"), f"{name.strip(' ,')} {given.get('patronymic', '')}".strip()
+    return surname.strip(" ,"), f"{name.strip(' ,')} {fields.get('patronymic', '')}".strip()
 
 
 def _students(headed: _List) -> list[Student]:
@@ -338,12 +338,12 @@ def _students(headed: _List) -> list[Student]:
         where, key = headed.where(line), student.id.casefold()
         like = f"{twin(student.full)}, {student.group}"
         if key in seen:
-            what = f"студент «{student.id}» уже есть в строке {seen[key]}"
-            problems.append(Problem(where, what, "однофамильцам добавьте столбец «Номер»"))
+            problem = f"студент «{student.id}» уже есть в строке {seen[key]}"
+            problems.append(Problem(where, problem, "однофамильцам добавьте столбец «Номер»"))
         elif like in twins and not student.number and not student.email:
-            what = f"«{student.full}» и «{twins[like]}»: один это человек или два?"
+            problem = f"«{student.full}» и «{twins[like]}»: один это человек или два?"
             hint = "удалите лишнюю строку или добавьте столбец «Номер»"
-            problems.append(Problem(where, what, hint))
+            problems.append(Problem(where, problem, hint))
         else:
             seen[key] = line.number
             twins.setdefault(like, student.full)
@@ -355,40 +355,40 @@ def _students(headed: _List) -> list[Student]:
 
 def _student(headed: _List, line: RosterLine) -> Student | Problem:
     """Return the student of a line, or what is wrong with it."""
-    given, where = headed.given(line), headed.where(line)
-    surname, name = _named(given)
-    own = headed.columns.get("extension")
-    kept = {i for i, why in line.faults.items() if i != own or why != A_DATE}
-    if faults := sorted(kept & set(headed.columns.values())):
+    fields, where = headed.given(line), headed.where(line)
+    surname, name = _named(fields)
+    column = headed.columns.get("extension")
+    remaining = {i for i, why in line.faults.items() if i != column or why != A_DATE}
+    if faults := sorted(remaining & set(headed.columns.values())):
         where = headed.listing.place(line, faults[0])
         return Problem(where, line.faults[faults[0]], "впишите текст")
-    words = given.get("turned", "").split()
+    words = fields.get("turned", "").split()
     nobody = (words or surname.split(" "))[0].rstrip(":").casefold() in _NOBODY
     nobody = nobody or bool(surname and not name and _columns([surname]))
     if nobody or not surname:
-        what = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
-        return Problem(where, what, "впишите её или удалите строку")
+        problem = f"«{surname}» — не фамилия" if nobody else "нет фамилии"
+        return Problem(where, problem, "впишите её или удалите строку")
     if len(words) > 2 and not _is_patronymic(words[-2]):
-        what, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
-        return Problem(where, f"«{' '.join(words)}»: {what}", hint)
-    if any(len(value) > MAX_FIELD for value in given.values()):
+        problem, hint = "не видно, где кончается имя", "разделите их столбцами «Имя» и «Фамилия»"
+        return Problem(where, f"«{' '.join(words)}»: {problem}", hint)
+    if any(len(value) > MAX_FIELD for value in fields.values()):
         return Problem(where, "слишком длинный текст", "это не список группы")
     if letters := foreign_letters(f"{surname} {name}"):
-        what = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
-        return Problem(where, what, "наберите имя заново в одной раскладке")
-    extension = _extension(given.get("extension", ""))
+        problem = f"«{surname} {name}»: среди букв одного алфавита другие: {letters}"
+        return Problem(where, problem, "наберите имя заново в одной раскладке")
+    extension = _extension(fields.get("extension", ""))
     if extension is None:
-        what = f"срок «{given['extension']}» непонятен"
+        problem = f"срок «{fields['extension']}» непонятен"
         hint = "нужна дата 25.12.2026, дата и время 25.12.2026 18:00 или «+2 дня», «+48 ч»"
-        return Problem(where, what, hint)
-    group = given.get("group", "")
-    key = given.get("id") or given.get("email") or f"{surname} {name}, {group}".strip(" ,")
-    return Student(key, surname, name, group, given.get("email", ""), given.get("id", ""),
+        return Problem(where, problem, hint)
+    group = fields.get("group", "")
+    key = fields.get("id") or fields.get("email") or f"{surname} {name}, {group}".strip(" ,")
+    return Student(key, surname, name, group, fields.get("email", ""), fields.get("id", ""),
                    extension)  # fmt: skip
 
 
 def _extension(text: str) -> str | None:
-    """An own deadline as ISO or hours more, empty where none is given; None: not understood."""
+    """Return own deadline as ISO or hours more, empty where none is given; None: not understood."""
     text = text.strip().casefold()
     if not text:
         return ""

@@ -239,9 +239,9 @@ def load_rubric(path: Path | None) -> Rubric:
     needed = "deadline" if late.deadline is None else "per_day"
     idle = [key for key in ("per_day", "free_days", "least") if getattr(late, key)]
     if idle and not getattr(late, needed):
-        what = f"без ключа {needed} за опоздание ничего не снимается"
+        problem = f"без ключа {needed} за опоздание ничего не снимается"
         hint = f"впишите {needed} или удалите {', '.join(idle)}"
-        raise InputError(Problem(f"{path.name}: late.{idle[0]}", what, hint))
+        raise InputError(Problem(f"{path.name}: late.{idle[0]}", problem, hint))
     return rubric
 
 
@@ -263,13 +263,13 @@ def rubric_of(raw: dict[str, Any], source: str) -> Rubric:
                 hint = f"возможно, имелось в виду {likely}" if likely else "удалите его"
                 problems.append(Problem(where, "неизвестный ключ", hint))
             else:
-                what = f"недопустимое значение {messages.shown(item.get('input'))}"
+                problem = f"недопустимое значение {messages.shown(item.get('input'))}"
                 words = (
                     re.findall(r"'(\w+)'", item["msg"]) if item["type"] == "literal_error" else []
                 )
                 hint = "нужно " + " или ".join(f'"{word}"' for word in words)
-                wanted = _WANTED.get(item["type"], "смотрите образец")
-                problems.append(Problem(where, what, hint if words else wanted))
+                expected = _WANTED.get(item["type"], "смотрите образец")
+                problems.append(Problem(where, problem, hint if words else expected))
         raise InputError(problems) from None
 
 

@@ -35,37 +35,37 @@ def num(value: float) -> Tree:
 def add(*terms: Tree) -> Tree:
     """Return a sum without brackets, in the order of the alphabet."""
     flat: list[Tree] = []
-    known = 0.0
+    total = 0.0
     for term in terms:
         for part in term[1:] if term[0] == "sum" else (term,):
             if part[0] == "num":
-                known += part[1]
+                total += part[1]
             else:
                 flat.append(part)
-    if known or not flat:
-        flat.append(num(known))
+    if total or not flat:
+        flat.append(num(total))
     return flat[0] if len(flat) == 1 else ("sum", *sorted(flat, key=repr))
 
 
 def mul(*factors: Tree) -> Tree:
     """Return a product without brackets: equal factors as one power, numbers as one."""
     powers: dict[Tree, float] = {}
-    known = 1.0
+    product = 1.0
     stack = list(factors)
     while stack:
         part = stack.pop()
         if part[0] == "prod":
             stack += part[1:]
         elif part[0] == "num":
-            known *= part[1]
+            product *= part[1]
         elif part[0] == "pow" and part[2][0] == "num":
             powers[part[1]] = powers.get(part[1], 0.0) + part[2][1]
         else:
             powers[part] = powers.get(part, 0.0) + 1.0
     flat = [base if n == 1 else ("pow", base, num(n)) for base, n in powers.items() if n]
-    known = num(known)[1]
-    if known != 1 or not flat:
-        flat.append(num(known))
+    product = num(product)[1]
+    if product != 1 or not flat:
+        flat.append(num(product))
     return flat[0] if len(flat) == 1 else ("prod", *sorted(flat, key=repr))
 
 
@@ -135,9 +135,9 @@ class Reader:
         self, sheet: str, row: int, column: int, index: int, depth: int, *, fixed: bool
     ) -> Tree:
         """Tell what a reference to one cell stands for."""
-        known = self.node_at(sheet, row, column)
-        if known is not None:
-            node, number, count = known
+        key = self.node_at(sheet, row, column)
+        if key is not None:
+            node, number, count = key
             if count == 1:
                 return ("node", node)
             return ("node", node, number if fixed else number - index, fixed)
@@ -309,8 +309,8 @@ class _Parser:
                               for c in cells))  # fmt: skip
         parts = []
         for column in range(left, min(right, left + 16) + 1):
-            known = self.reader.node_at(sheet, top, column)
-            parts.append(known[0] if known else str(column - self.place[2]))
+            node = self.reader.node_at(sheet, top, column)
+            parts.append(node[0] if node else str(column - self.place[2]))
         return ("range", *parts, bottom - top)
 
 

@@ -103,8 +103,8 @@ class Causes:
     def gives(self, judgement: Judgement, text: str) -> bool:
         """Whether a formula in the language of the tables gives the wrong values of an item."""
         item, values = judgement.item, judgement.values
-        known = self._known(judgement)
-        for base in [known, {}] if known else [{}]:
+        values_read = self._known(judgement)
+        for base in [values_read, {}] if values_read else [{}]:
             run = self.student.expected.fork(base)
             attempt = self._rewritten(item, run, lambda _: parse(text))
             if attempt is not None and explains(
@@ -126,8 +126,8 @@ class Causes:
     def _explained(self, judgement: Judgement, rows: Sequence[int] = ()) -> str:
         """Return the first usual mistake that gives the values, or those of some rows."""
         item, values = judgement.item, judgement.values
-        known = self._known(judgement)
-        for base in [known, {}] if known else [{}]:
+        values_read = self._known(judgement)
+        for base in [values_read, {}] if values_read else [{}]:
             cause = self._first(judgement, values, base, rows)
             if cause:
                 return cause
@@ -139,12 +139,16 @@ class Causes:
         return self._first(judgement, alone, {}, rows)
 
     def _first(
-        self, judgement: Judgement, values: Array, known: Mapping[str, object], rows: Sequence[int]
+        self,
+        judgement: Judgement,
+        values: Array,
+        values_read: Mapping[str, object],
+        rows: Sequence[int],
     ) -> str:
-        item, run = judgement.item, self.student.expected.fork(known)
+        item, run = judgement.item, self.student.expected.fork(values_read)
         # No row explains itself.
         beyond = np.full(len(values), np.nan) if rows else values
-        scene = Scene(run, known, values_of(item, run), beyond)
+        scene = Scene(run, values_read, values_of(item, run), beyond)
         fitting = self._fitting(judgement, values, scene, rows)
         cause = next(fitting, "")
         # What a condition picks, many wrong ones pick.
@@ -215,17 +219,21 @@ class Causes:
     def _known(self, judgement: Judgement) -> dict[str, object]:
         """Return the student's own earlier values, where they are not the right ones."""
         nodes = frozenset().union(*(self.student.precedents(n) for n in judgement.item.nodes))
-        known = known_values(self.student.answers, nodes - set(judgement.item.nodes))
-        return known if any(self._is_off(node, value) for node, value in known.items()) else {}
+        values_read = known_values(self.student.answers, nodes - set(judgement.item.nodes))
+        return (
+            values_read
+            if any(self._is_off(node, value) for node, value in values_read.items())
+            else {}
+        )
 
     def _is_off(self, node: str, value: object) -> bool:
         right = self.student.expected.value(node)
         if isinstance(right, str):
             return False
-        own, wanted = (np.ravel(np.asarray(one, dtype=float)) for one in (value, right))
-        away = distance([node], own, wanted, self.student.expected)
-        near = away <= 1e-8 + 1e-9 * np.abs(wanted)
-        return not (near | (np.isnan(own) & np.isnan(wanted))).all()
+        actual, expected = (np.ravel(np.asarray(one, dtype=float)) for one in (value, right))
+        away = distance([node], actual, expected, self.student.expected)
+        is_close = away <= 1e-8 + 1e-9 * np.abs(expected)
+        return not (is_close | (np.isnan(actual) & np.isnan(expected))).all()
 
     def _likely(self, item: Item, scene: Scene) -> Iterator[Attempt]:
         yield OPPOSITE, lambda s: -s.right
@@ -357,25 +365,27 @@ class Causes:
             yield from self._largest(item, scene)
             return
         model = self.student.assignment.model
-        own = model.tables[item.block]
-        tables = [own, *(table for table in model.tables.values() if table is not own)]
+        spec = model.tables[item.block]
+        tables = [spec, *(table for table in model.tables.values() if table is not spec)]
         for table in tables:
-            rows = row_indices(own, table)
+            rows = row_indices(spec, table)
             if rows is None:
                 continue
             for column in table.columns:
                 node = f"{table.id}.{column.key}"
                 if node == item.nodes[0] or column.expr is None:
                     continue
-                about = column.quantity
-                where = "соседнего столбца" if table is own else "столбца"
-                words = f"это значения {where} {about.symbol} ({about.title})"
+                quantity = column.quantity
+                where = "соседнего столбца" if table is spec else "столбца"
+                words = f"это значения {where} {quantity.symbol} ({quantity.title})"
                 if _EXACT in column.key:
-                    words = f"точная формула вместо двучленной: {about.symbol} ({about.title})"
+                    words = (
+                        f"точная формула вместо двучленной: {quantity.symbol} ({quantity.title})"
+                    )
                 yield words, partial(_at_rows, node, rows)
 
     def _largest(self, item: Item, scene: Scene) -> Iterator[Attempt]:
-        """The largest of a column, whose rows may be on either side of the largest of all."""
+        """Yield the largest of a column, whose rows may be on either side of the largest of all."""
         if not item.quantity.unit:
             return
         for table in self.student.assignment.model.tables.values():
@@ -453,18 +463,18 @@ def moved(right: Array, values: Array, by: int) -> Array:
     return shifted
 
 
-def row_indices(own: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
+def row_indices(table: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
     """For each row of a table the row of another table with the same angle."""
-    if own.rows == other.rows:
-        return np.arange(len(own.rows))
-    places = {angle: i for i, angle in enumerate(other.rows)}
-    if any(angle not in places for angle in own.rows):
+    if table.rows == other.rows:
+        return np.arange(len(table.rows))
+    rows = {angle: i for i, angle in enumerate(other.rows)}
+    if any(angle not in rows for angle in table.rows):
         return None
-    return np.array([places[angle] for angle in own.rows])
+    return np.array([rows[angle] for angle in table.rows])
 
 
 def slips(judgement: Judgement, good: NDArray[np.bool_]) -> list[int]:
-    """The wrong rows where they are few and all others are right; ``good`` are right numbers."""
+    """Return wrong rows where they are few and all others are right; ``good`` are right numbers."""
     rows = list(judgement.rows)
     ready = set(judgement.typed)
     wrong = [i for i in rows if np.isfinite(judgement.values[i]) and not (i in ready and good[i])]

@@ -87,13 +87,13 @@ class Ring:
         counts = Counter(past.batch for past in self.past)
         others += [f"работы прошлых лет ({batch}): {n}" for batch, n in sorted(counts.items())]
         kinds = Counter(kind for kind, *_ in self.shared)
-        what = ", ".join(f"{_WORDS[kind]} {kinds[kind]}" for kind in _KINDS if kinds[kind])
+        listed = ", ".join(f"{_WORDS[kind]} {kinds[kind]}" for kind in _KINDS if kinds[kind])
         labels = {line.id: line.label for work in self.works for line in work.items}
         items = dict.fromkeys(labels[item] for _, item, *_ in self.shared if item in labels)
         named = ", ".join(list(items)[:3]) + (f" и ещё {len(items) - 3}" if len(items) > 3 else "")
         where = f" ({named})" if named else ""
         begin = "общее с" if of is not None else "редкое общее у"
-        return f"{begin}: {', '.join(others)} — {what}{where}, {short(self.bits, 3)} бит"
+        return f"{begin}: {', '.join(others)} — {listed}{where}, {short(self.bits, 3)} бит"
 
 
 def who(work: Work) -> str:
@@ -124,8 +124,8 @@ def rings_of(graded: Sequence[Work], past: Past = (), *, past_holds: bool = True
             near[one, other] = evidence
     pairs: dict[tuple[int, int], _Evidence] = {}
     for group in _groups(near):
-        known = {pair: near[pair] for pair in near if pair[0] in group}
-        pairs |= _as_ring(group, everyone, known, owners, count)
+        within = {pair: near[pair] for pair in near if pair[0] in group}
+        pairs |= _as_ring(group, everyone, within, owners, count)
     pairs = {
         pair: _with_past(evidence, everyone[pair[1]], holds=past_holds)
         for pair, evidence in pairs.items()
@@ -136,7 +136,7 @@ def rings_of(graded: Sequence[Work], past: Past = (), *, past_holds: bool = True
         links = {pair: evidence for pair, evidence in pairs.items() if evidence.held == held}
         for group in _groups(links):
             ring = _ring(group, everyone, links, held=held)
-            if not any(_has(known, ring) for known in rings):  # a part of what is told already
+            if not any(_has(within, ring) for within in rings):  # a part of what is told already
                 rings.append(ring)
     return rings
 
@@ -148,7 +148,7 @@ def _with_past(evidence: _Evidence, other: Work | PastWork, *, holds: bool) -> _
 
 def _as_ring(
     group: Sequence[int], everyone: Sequence[Work | PastWork],
-    known: Mapping[tuple[int, int], _Evidence],
+    evidence: Mapping[tuple[int, int], _Evidence],
     owners: Mapping[tuple[str, str, str], int], count: int,
 ) -> dict[tuple[int, int], _Evidence]:  # fmt: skip
     """Evidence in a group, where what its members share is no less rare for their number.
@@ -157,7 +157,7 @@ def _as_ring(
     """
     size = len({_owner(everyone[index]) for index in group})
     if not _PAIR < size <= max(_LEAST_RING, count // _RING):
-        return dict(known)
+        return dict(evidence)
     inside = _owners([everyone[index] for index in group])
     outside = {key: n - max(0, inside.get(key, 0) - _PAIR) for key, n in owners.items()}
     left = count - (size - _PAIR)
@@ -212,10 +212,10 @@ def _near(
             if at is not None:
                 table[row, at] = _bits(trait, owners, count) ** 0.5
     sums = table[:people] @ table.T
-    near = np.argwhere(sums >= _NEAR - 1e-3)
+    pairs = np.argwhere(sums >= _NEAR - 1e-3)
     return [
         (int(one), int(other))
-        for one, other in near
+        for one, other in pairs
         if one < other and _owner(everyone[one]) != _owner(everyone[other])
     ]
 

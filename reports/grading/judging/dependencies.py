@@ -203,7 +203,7 @@ def carried(judgements: Judgements, grounds: Precedents) -> None:
     owner = {node: j.item.id for j in judgements.values() for node in j.item.nodes}
     wrong: set[str] = set()
     off: dict[str, tuple[int, ...]] = {}
-    near: dict[str, list[str]] = {}
+    feeding: dict[str, list[str]] = {}
     for id_, judgement in judgements.items():
         allowed = tolerance(judgement.item, judgement.expected, student)
         good = close(
@@ -215,12 +215,12 @@ def carried(judgements: Judgements, grounds: Precedents) -> None:
             wrong.add(id_)
         elif not np.isnan(judgement.expected).all():
             off[id_] = tuple(np.flatnonzero(~good).tolist())
-            near[id_] = _earlier(judgement, owner, student)
+            feeding[id_] = _earlier(judgement, owner, student)
     moved: set[str] = set()
-    while more := {n for n in off.keys() - moved if not (wrong | moved).isdisjoint(near[n])}:
+    while more := {n for n in off.keys() - moved if not (wrong | moved).isdisjoint(feeding[n])}:
         moved |= more
     for id_ in moved:
-        guilty = [n for n in near[id_] if n in wrong] or [n for n in near[id_] if n in moved]
+        guilty = [n for n in feeding[id_] if n in wrong] or [n for n in feeding[id_] if n in moved]
         judgements[id_] = replace(
             judgements[id_],
             verdict=CARRIED,
@@ -237,10 +237,10 @@ def _names(judgement: Judgement, student: StudentBook) -> frozenset[str]:
 def _earlier(judgement: Judgement, owner: Mapping[str, str], student: StudentBook) -> list[str]:
     """Items that a formula reads, by way of given formulas too."""
     names, graph = _names(judgement, student), student.assignment.graph
-    near = sorted({owner[n] for n in names if n in owner} - {judgement.item.id})
+    feeding = sorted({owner[n] for n in names if n in owner} - {judgement.item.id})
     for name in sorted(names & student.assignment.live_nodes):
-        near += sorted({owner[n] for n in graph.ancestors(name) if n in owner} - set(near))
-    return near
+        feeding += sorted({owner[n] for n in graph.ancestors(name) if n in owner} - set(feeding))
+    return feeding
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,26 +48,26 @@ class Variants:
         if leading and any(fits(self._of(n, item)) for n in leading):
             yield self._named("исходные данные", leading)
         expected = self.student.expected
-        known, inside = self._near(item)
+        values, inside = self._near(item)
         for (name, value), owners in self._parameters(inside).items():
             if judgement.typed or is_scaled(value, numbers):
-                run = expected.fork({**known, name: value})
+                run = expected.fork({**values, name: value})
                 if fits(values_of(item, run)):
                     title = self.titles.get(name, name)
                     yield f"{self._named(title, owners)}: {short(value)}"
         if "lam" in inside:
             for lam, owners in self._ratios.items():
-                if fits(values_of(item, expected.fork({**known, "lam": lam}))):
+                if fits(values_of(item, expected.fork({**values, "lam": lam}))):
                     yield f"{self._named('λ', owners)}: {short(lam, 4)}"
         owners = [other.number for other in self._tried if fits(self._of(other.number, item))]
         if owners:
             yield self._named("исходные данные", owners)
 
-    def _named(self, what: str, owners: Sequence[int]) -> str:
+    def _named(self, trait: str, owners: Sequence[int]) -> str:
         """Something with its owner, where there is but one: the others are innocent."""
         lead = [n for n in owners if n in self._leading] if len(self._leading) == 1 else owners
-        return f"{what} из варианта {lead[0]}, а не вашего" if len(lead) == 1 else (
-            f"{what} не из вашего варианта")  # fmt: skip
+        return f"{trait} из варианта {lead[0]}, а не вашего" if len(lead) == 1 else (
+            f"{trait} не из вашего варианта")  # fmt: skip
 
     @cached_property
     def _tried(self) -> Sequence[OtherVariant]:
@@ -79,9 +79,11 @@ class Variants:
     def _near(self, item: Item) -> tuple[dict[str, object], frozenset[str]]:
         """Columns that a formula names, with their right values, and all inputs behind the rest."""
         graph = self.student.assignment.graph
-        near = frozenset().union(*(graph.references(node) for node in item.nodes))
-        known = {node: self.student.expected.value(node) for node in near if "." in node}
-        return known, near | frozenset().union(*(graph.ancestors(n) for n in near if "." not in n))
+        references = frozenset().union(*(graph.references(node) for node in item.nodes))
+        values = {node: self.student.expected.value(node) for node in references if "." in node}
+        return values, references | frozenset().union(
+            *(graph.ancestors(n) for n in references if "." not in n)
+        )
 
     def _parameters(self, inside: frozenset[str]) -> dict[tuple[str, float], list[int]]:
         """Owners of each value of each parameter that a formula depends on."""

@@ -58,7 +58,7 @@ def fault(error: Exception) -> str:
 
 
 def part_remark(names: Sequence[str]) -> str:
-    """What is said of parts that wait for a person's points."""
+    """Return what is said of parts that wait for a person's points."""
     return "ставит преподаватель: " + ", ".join(names)
 
 
@@ -171,8 +171,8 @@ def distance(nodes: Sequence[str], values: Array, expected: Array, run: Evaluati
             return difference
         every, nothing = _turns(nodes, run)
         turns = np.where(every > 0, np.round(difference / every), 0)
-        near = np.abs(difference - turns * every)
-        return np.where(nothing & np.isfinite(values), 0.0, near)
+        gaps = np.abs(difference - turns * every)
+        return np.where(nothing & np.isfinite(values), 0.0, gaps)
 
 
 def _turns(nodes: Sequence[str], run: Evaluation) -> tuple[Array, NDArray[np.bool_]]:

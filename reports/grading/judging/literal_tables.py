@@ -86,10 +86,12 @@ def tells_data(student: StudentBook, item: Item) -> bool:
     if typed_numbers(student, item):
         return True
     graph = student.assignment.graph
-    near = frozenset().union(*(graph.references(node) for node in item.nodes))
-    near |= frozenset().union(*(graph.references(name) for name in near if "." not in name))
-    near -= frozenset().union(*(student.precedents(node) for node in item.nodes))
-    values = (student.expected.value(name) for name in near if "." not in name)
+    references = frozenset().union(*(graph.references(node) for node in item.nodes))
+    references |= frozenset().union(
+        *(graph.references(name) for name in references if "." not in name)
+    )
+    references -= frozenset().union(*(student.precedents(node) for node in item.nodes))
+    values = (student.expected.value(name) for name in references if "." not in name)
     data = {float(v) for v in values if not isinstance(v, str) and np.ndim(v) == 0}
     return any(
         is_scaled(n, data) for n in literals(student, item) if _mantissa(n) != _mantissa(1.0)
@@ -129,7 +131,7 @@ def _is_usual(number: float) -> bool:
 
 
 def angles_of(student: StudentBook, node: str) -> tuple[float, ...]:
-    """The angles of a column's rows in degrees, none where it stands beside something else."""
+    """Return angles of a column's rows in degrees, none where it stands beside something else."""
     table = student.assignment.model.tables.get(node.partition(".")[0])
     if table is None or table.columns[0].quantity.unit != "deg":
         return ()
@@ -140,10 +142,10 @@ def of_angles(value: float, angles: tuple[float, ...]) -> float | None:
     """Return an angle, its sine or cosine with all digits, of which a number has the first ones."""
     if not isfinite(value):
         return None
-    known = _functions(angles)
-    at = int(np.searchsorted(known, value))
-    near = known[max(at - 1, 0) : at + 1]
-    exact = float(near[np.abs(near - value).argmin()])
+    functions = _functions(angles)
+    at = int(np.searchsorted(functions, value))
+    neighbours = functions[max(at - 1, 0) : at + 1]
+    exact = float(neighbours[np.abs(neighbours - value).argmin()])
     half = 0.5000001 * 10.0 ** -min(_decimals(value), _EXACT)
     return exact if abs(exact - value) <= half else None
 
@@ -208,7 +210,7 @@ def listed(runs: Sequence[Run], *, cells: bool = False) -> set[int]:
 
 @lru_cache(maxsize=20_000)
 def _parts(formula: Formula, *, cells: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """A formula without what tells a number in it, and that: texts too, rows of ROW, cells."""
+    """Return formula without what tells a number in it, and that: texts too, rows of ROW, cells."""
     tokens: list[Token] = []
     for kind, value in formula.pattern:
         if tokens and tokens[-1][0] == "sheet":

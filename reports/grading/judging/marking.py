@@ -156,19 +156,19 @@ class Marker:
 
     def assignment(self, book: Issued) -> tuple[Assignment, Layout]:
         """Return the tables of a student's work-book and where they were issued."""
-        known = self._assignments.get(book.number)
-        if known is None:
+        cached = self._assignments.get(book.number)
+        if cached is None:
             first = self._first
             assignment = assignment_for(book, self.register.rubric, first.assignment)
             alike = assignment.fill is first.assignment.fill
             layout = first.layout if alike else Layout.of(assignment.model)
             if len(self._assignments) > 8:  # a class must not fill the memory
                 self._assignments.clear()
-            known = self._assignments[book.number] = (
+            cached = self._assignments[book.number] = (
                 assignment,
                 replace(layout, model=assignment.model),
             )
-        return known
+        return cached
 
     @cached_property
     def _first(self) -> _Tables:
@@ -253,14 +253,14 @@ class Marker:
 
     @staticmethod
     def _compare(result: Result, student: StudentBook, tables: _Tables) -> None:
-        """Marks and traits of a work for the comparison with others, and with the program."""
+        """Compare marks and traits of a work with others and with the program."""
         result["formulas"] = formula_marks(student, tables.own)
         if tables.register.rubric.attempts.tries:
             result["spellings"] = spellings(student)
-        own = OwnFormulas(student, tables.textbook)
-        result["traits"] = traits_of(own, result["items"])
+        formulas = OwnFormulas(student, tables.textbook)
+        result["traits"] = traits_of(formulas, result["items"])
         result["texts"] = texts_of(student, result["traits"])
-        for text in _of_the_program(own, result["formulas"]):
+        for text in _of_the_program(formulas, result["formulas"]):
             _doubt(result, text)
 
     def _variant_of(self, student: StudentBook, book: Issued) -> str:
@@ -307,7 +307,7 @@ def _doubt(result: Result, text: str) -> None:
 
 
 def _attempted(result: Result, step: Callable[[], T], otherwise: T) -> T:
-    """The outcome of a step on a whole work; an error of the program's leaves it to a person."""
+    """Return outcome of a step on a whole work; an error of the program's leaves it to a person."""
     try:
         return step()
     except Exception as error:
@@ -326,15 +326,15 @@ def feedback(
         return feedback_line(student, unknown, causes, assignment)
 
 
-def _of_the_program(own: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:
+def _of_the_program(reader: OwnFormulas, formulas: Mapping[str, Sequence[Any]]) -> list[str]:
     """How the work comes of a book that the program has solved: a person decides."""
     doubts = []
-    if sheet := pasted(own):
+    if sheet := pasted(reader):
         doubts.append(
             f"зелёные ячейки только ссылаются на лист «{sheet}» с формулами решённой книги"
         )
     same = sum(bool(mark[2]) for mark in formulas.values())
-    issued = any(name.startswith("col_") for name in own.student.grid.names)
+    issued = any(name.startswith("col_") for name in reader.student.grid.names)
     if not issued and is_verbatim(same, len(formulas)):
         doubts.append(
             f"это книга, решённая программой: слово в слово {same} из {len(formulas)} формул"
@@ -372,9 +372,11 @@ def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
     grid = original or student.grid
     engine = student.engine if original is None else Evaluator(original)
     cells = []
-    places = [student.placement.places.get(node) for node in student.answers]
+    locations = [student.placement.places.get(node) for node in student.answers]
     columns = {
-        (location.sheet, location.column): location for location in places if location is not None
+        (location.sheet, location.column): location
+        for location in locations
+        if location is not None
     }
     turning = {
         (location.sheet, location.column)
@@ -397,8 +399,8 @@ def altered(student: StudentBook, original: CellGrid | None) -> list[str]:
                 away = np.abs(away - float(TURN) * np.round(away / float(TURN)))
             if not (away > 1e-6).any():
                 continue
-            known = np.abs(values[np.isfinite(values)])
-            scale = max(1.0, float(known.max())) if known.size else 1.0
+            finite = np.abs(values[np.isfinite(values)])
+            scale = max(1.0, float(finite.max())) if finite.size else 1.0
             off = away > 1e-6 * scale
             for index in np.flatnonzero(off)[:3]:
                 where = address(run.first + int(index), location.column)
@@ -413,8 +415,8 @@ def disguised(student: StudentBook, judgements: Sequence[Judgement]) -> list[str
     guises = [j for j in judgements if _is_guise(student, j)]
     if len(guises) < _DISGUISED:
         return []
-    what = "столбцов" if all(j.item.is_column for j in guises) else "величин"
-    return [f"число под видом формулы, {what}: {len(guises)}"]
+    kind = "столбцов" if all(j.item.is_column for j in guises) else "величин"
+    return [f"число под видом формулы, {kind}: {len(guises)}"]
 
 
 def _is_guise(student: StudentBook, judgement: Judgement) -> bool:
@@ -430,11 +432,11 @@ def asked_of_blanks(lines: Sequence[Mapping[str, Any]]) -> list[str]:
     """Question to a person where blanks cost more points than they are worth."""
     taken = [line for line in lines if line["verdict"] == GROUNDLESS]
     roots = {origin for line in taken for origin in line["origins"]}
-    own = [line for line in lines if line["id"] in roots]
+    lines_of = [line for line in lines if line["id"] in roots]
     lost = sum(line["of"] for line in taken)
-    if lost <= sum(line["of"] for line in own) + 1e-6:
+    if lost <= sum(line["of"] for line in lines_of) + 1e-6:
         return []
-    names = ", ".join(line["label"] for line in own[:4])
+    names = ", ".join(line["label"] for line in lines_of[:4])
     return [
         f"верные формулы остались без баллов, потому что опираются на пустое или круговое "
         f"({names}): величин {len(taken)}, баллов {short(lost, 4)}; засчитать их?"

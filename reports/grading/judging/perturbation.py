@@ -55,7 +55,7 @@ class Perturbation:
 
     def depending(self, nodes: Sequence[str], on: str) -> dict[str, bool]:
         """Whether the values of some nodes change with those of another, or may."""
-        change = {name: own * 1.37 + 1.0 for name, own in self._values({on}).items()}
+        change = {name: value * 1.37 + 1.0 for name, value in self._values({on}).items()}
         return {
             node: values is None or not np.allclose(values[1], values[0], 1e-12, equal_nan=True)
             for node, values in self._tried(nodes, [change]).items()
@@ -64,12 +64,12 @@ class Perturbation:
     def _shakes(self, names: Collection[str]) -> list[dict[str, Array]]:
         """Each cell otherwise than the one beside it, but the same whoever refers to it."""
         shakes: list[dict[str, Array]] = [{} for _ in FACTORS]
-        for name, own in self._values(names).items():
+        for name, value in self._values(names).items():
             rng = np.random.default_rng(crc32(name.encode()))
             for shake, (times, more) in zip(shakes, FACTORS, strict=True):
-                shake[name] = own * times * rng.uniform(0.8, 1.2, own.size) + more * rng.uniform(
-                    1, 2, own.size
-                )
+                shake[name] = value * times * rng.uniform(
+                    0.8, 1.2, value.size
+                ) + more * rng.uniform(1, 2, value.size)
         return shakes
 
     def _steadied(self, shakes: Sequence[dict[str, Array]]) -> Iterator[dict[str, Array]]:

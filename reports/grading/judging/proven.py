@@ -50,8 +50,8 @@ class Signatures:
         if formula is None or run.problem or run.array is not None:
             return None
         areas = tuple(self.student.grid.precedents(run))
-        known = len(areas) == len(formula.references) and all(map(self._is_known, areas))
-        return areas if known and formula.functions.isdisjoint(_BEYOND) else None
+        complete = len(areas) == len(formula.references) and all(map(self._is_known, areas))
+        return areas if complete and formula.functions.isdisjoint(_BEYOND) else None
 
     def _is_known(self, area: Area) -> bool:
         """Whether all cells of a rectangle hold what was issued, or answers."""
@@ -59,9 +59,9 @@ class Signatures:
         if is_known is None:
             columns = range(area.first_column, area.last_column + 1)
             taken = (self._held.get((area.sheet, column), []) for column in columns)
-            known = all(places and covered(area.first_row, area.last_row, places)
-                        for places in taken)  # fmt: skip
-            is_known = self._areas_known[area] = known
+            covered_all = all(rows and covered(area.first_row, area.last_row, rows)
+                        for rows in taken)  # fmt: skip
+            is_known = self._areas_known[area] = covered_all
         return is_known
 
     @cached_property
@@ -72,11 +72,11 @@ class Signatures:
     def _held(self) -> dict[tuple[str, int], list[tuple[int, int, Location]]]:
         """First and last row of what stands in a column of a sheet and is alike in every book."""
         student, assignment = self.student, self.student.assignment
-        known = assignment.model.fields.keys() | rows_as_issued(student)
-        known |= assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes
+        issued = assignment.model.fields.keys() | rows_as_issued(student)
+        issued |= assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes
         held: dict[tuple[str, int], list[tuple[int, int, Location]]] = {}
         for node, location in student.placement.places.items():
-            if location.span is not None and node in known:
+            if location.span is not None and node in issued:
                 entry = (location.span.first, location.span.last, location)
                 held.setdefault((location.sheet, location.column), []).append(entry)
         return held
@@ -99,12 +99,12 @@ def rows_as_issued(student: StudentBook) -> set[str]:
 def settled(student: StudentBook, exact: Mapping[str, bool]) -> frozenset[str]:
     """Nodes that hold what they should; ``exact`` tells whose formulas have followed exactly."""
     assignment = student.assignment
-    given = assignment.model.fields.keys() | assignment.given_nodes | rows_as_issued(student)
+    issued = assignment.model.fields.keys() | assignment.given_nodes | rows_as_issued(student)
     candidates = {node for node, follows in exact.items() if follows and _is_right(student, node)}
     candidates |= {node for node in assignment.live_nodes - student.rewritten if student.runs(node)}
     candidates = {node for node in candidates if not isinstance(student.expected.value(node), str)}
     done: set[str] = set()
-    while ready := {node for node in candidates - done if student.refers(node) <= given | done}:
+    while ready := {node for node in candidates - done if student.refers(node) <= issued | done}:
         done |= ready  # from the input data on: a ring of right numbers rests on nothing
     return frozenset(done)
 
@@ -114,7 +114,7 @@ def _is_right(student: StudentBook, node: str) -> bool:
     location, right = student.placement.places[node], student.expected.value(node)
     if location.span is None or isinstance(right, str):
         return False
-    wanted = np.ravel(np.asarray(right, dtype=float))
+    expected = np.ravel(np.asarray(right, dtype=float))
     column = student.grid.column(location.sheet, location.column)
     if column.saved_rows == list(location.rows):
         saved_numbers = np.array(column.saved)
@@ -123,8 +123,8 @@ def _is_right(student: StudentBook, node: str) -> bool:
         saved_numbers = np.array(
             [np.nan if row is None else saved.get(row, np.nan) for row in location.rows]
         )
-    largest = float(np.abs(wanted).max()) if wanted.size else np.nan
-    return bool((np.abs(saved_numbers - wanted) <= EXACT * largest).all())
+    largest = float(np.abs(expected).max()) if expected.size else np.nan
+    return bool((np.abs(saved_numbers - expected) <= EXACT * largest).all())
 
 
 @dataclass

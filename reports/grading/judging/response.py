@@ -124,7 +124,7 @@ class FormulaResponse:
         }
 
     def _not_tried(self, node: str) -> Iterator[tuple[str, object]]:
-        """The input data that a node refers to and that the trials leave as its student has them.
+        """Yield input data that a node refers to and that the trials leave as its student has them.
 
         Among them is the number of the variant.
         """
@@ -144,18 +144,18 @@ class FormulaResponse:
         What others may rely on is tried apart from what only this student has.
         """
         shared = [node for node in self._tried if node in self._keys]
-        own = [node for node in self._tried if node not in self._keys]
-        return self.tryout.run(shared, self.trials) | self.tryout.run(own, self.trials)
+        unkeyed = [node for node in self._tried if node not in self._keys]
+        return self.tryout.run(shared, self.trials) | self.tryout.run(unkeyed, self.trials)
 
     @cached_property
     def _unrounded(self) -> dict[str, list[Array] | str]:
-        wanted = [node for node in self._tried if self.tryout.rounds(node)]
-        return self.tryout.run(wanted, self.trials, rounded=False)
+        rounded = [node for node in self._tried if self.tryout.rounds(node)]
+        return self.tryout.run(rounded, self.trials, rounded=False)
 
     # --- what it says -----------------------------------------------------------------
 
     def letters(self, item: Item) -> str:
-        """A letter for each value of an item: how its formula responds, whatever its value."""
+        """Return letter for each value of an item: how its formula responds, whatever its value."""
         return "".join(self._of_node(replace(item, nodes=(n,)), n) for n in item.nodes)
 
     def fixed(self, item: Item) -> NDArray[np.bool_]:
@@ -179,10 +179,10 @@ class FormulaResponse:
         values = self.tried(node)
         if isinstance(values, str):
             return False
-        own = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
+        expected = np.ravel(np.asarray(self.student.expected.value(node), dtype=float))
         item = replace(item, nodes=(node,))
         return any(
-            not np.allclose(right, own, rtol=1e-9, atol=0, equal_nan=True)
+            not np.allclose(right, expected, rtol=1e-9, atol=0, equal_nan=True)
             and bool(self._close(item, trial_values, right, trial).all())
             for trial_values, right, trial in zip(
                 values, _right(node, self.trials), self.trials, strict=True
@@ -195,9 +195,9 @@ class FormulaResponse:
         pins = self.tryout.pins(self.trials[-1], rounded=False)  # small changes show
         return Perturbation(self.student, self.trials[-1], pins)
 
-    def _close(self, item: Item, own: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
+    def _close(self, item: Item, values: Array, right: Array, trial: Trial) -> NDArray[np.bool_]:
         allowed = tolerance(item, right, self.student)
-        return close(item, own, right, allowed, trial.expected)
+        return close(item, values, right, allowed, trial.expected)
 
     def tried(self, node: str) -> list[Array] | str:
         """Values of a node's formulas for every trial, or why they are unknown."""
@@ -224,11 +224,11 @@ class FormulaResponse:
             nowhere = np.zeros(self.student.assignment.length(node), dtype=bool)
             return ~nowhere, nowhere
         right = _right(node, trials)
-        own, between = map(self._close, (item, item), turned_values, right, trials)
+        here, between = map(self._close, (item, item), turned_values, right, trials)
         allowed = tolerance(item, right[1], self.student)
-        change, wanted = turned_values[1] - turned_values[0], right[1] - right[0]
-        near = np.abs(change - wanted) <= allowed + _NEARLY * np.abs(wanted)
-        return own & ~between, near & _differ(*turned_values)
+        change, expected = turned_values[1] - turned_values[0], right[1] - right[0]
+        is_close = np.abs(change - expected) <= allowed + _NEARLY * np.abs(expected)
+        return here & ~between, is_close & _differ(*turned_values)
 
     @cached_property
     def _turned_values(self) -> dict[str, list[Array] | str]:
@@ -265,8 +265,8 @@ class FormulaResponse:
             if not self._keys.keys().isdisjoint(item.nodes) and item.quantity.digits.kind != "text":
                 with suppress(Exception):  # said where the item is judged
                     self.letters(item)  # nobody before must have shown that they are right
-        known = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
-        return settled(self.student, known | self._exact)
+        proven = {node: self.proofs.known.get(key, False) for node, key in self._keys.items()}
+        return settled(self.student, proven | self._exact)
 
     def _is_proven(self, item: Item, node: str) -> bool:
         """Whether a node's formulas are right for every trial, whoever writes them.
@@ -290,8 +290,8 @@ class FormulaResponse:
         if isinstance(values, str):
             return False
         return all(
-            bool((np.abs(own - right) <= EXACT * np.abs(right).max()).all())
-            for own, right in zip(values, _right(node, self.trials), strict=True)
+            bool((np.abs(values_of - right) <= EXACT * np.abs(right).max()).all())
+            for values_of, right in zip(values, _right(node, self.trials), strict=True)
         )
 
     def _judged(self, item: Item, node: str, count: int) -> str:
@@ -354,8 +354,10 @@ class FormulaResponse:
         """Masks of agreement with the trials that decide, and with the others."""
         decided = np.ones(len(right[0]), dtype=bool)
         others = decided.copy()
-        for trial, own, wanted in zip(self.trials, values, right, strict=True):
-            agrees = self._close(item, own, wanted, trial) | (np.isnan(own) & np.isnan(wanted))
+        for trial, actual, expected in zip(self.trials, values, right, strict=True):
+            agrees = self._close(item, actual, expected, trial) | (
+                np.isnan(actual) & np.isnan(expected)
+            )
             if trial.decides:
                 decided &= agrees
             else:
@@ -374,11 +376,11 @@ class FormulaResponse:
         half = self.student.assignment.rubric.tolerance.units * 10.0**-item.quantity.digits.decimals
         coarse = rounds_coarsely(self.student, item, node)
         inside = any(map(cuts, self.tryout.formulas(node)))
-        for trial, own, wanted in zip(self.trials, values, right, strict=True):
+        for trial, actual, expected in zip(self.trials, values, right, strict=True):
             if trial.decides and inside:  # digits of π cost what they cost
-                largest = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
+                largest = float(np.nanmax(np.abs(expected))) if expected.size else 0.0
                 allowed = half if coarse else max(half, _INSIDE * largest)
-                fine &= close(item, own, wanted, allowed * (1 + 1e-9), trial.expected)
+                fine &= close(item, actual, expected, allowed * (1 + 1e-9), trial.expected)
         return exact, fine, others
 
     @cached_property
@@ -394,14 +396,16 @@ class FormulaResponse:
     def _calculates(self, node: str, values: list[Array] | str) -> bool:
         if isinstance(values, str):
             return False
-        for trial, own in zip(self.trials, values, strict=False):
+        for trial, actual in zip(self.trials, values, strict=False):
             right = trial.expected.value(node)
             if isinstance(right, str):
                 continue
-            wanted = np.ravel(np.asarray(right, dtype=float))
-            scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 1.0
-            near = distance([node], own, wanted, trial.expected) <= 1e-6 * max(scale, 1e-12)
-            if not (near | (np.isnan(own) & np.isnan(wanted))).all():
+            expected = np.ravel(np.asarray(right, dtype=float))
+            scale = float(np.nanmax(np.abs(expected))) if expected.size else 1.0
+            is_close = distance([node], actual, expected, trial.expected) <= 1e-6 * max(
+                scale, 1e-12
+            )
+            if not (is_close | (np.isnan(actual) & np.isnan(expected))).all():
                 return False
         return True
 

@@ -50,13 +50,13 @@ def _filled(lines: list[dict[str, Any]]) -> float:
 def _withhold(result: Result, paid: list[dict[str, Any]], rubric: Rubric) -> None:
     """Take the points of tables that are hardly begun, and of items that need others."""
     for table, least in rubric.minimum.tables.items():
-        own = [line for line in paid if fnmatchcase(line["block"], table)]
-        share = _filled(own)
-        if own and share < least:
-            name = own[0]["heading"]
+        lines_of = [line for line in paid if fnmatchcase(line["block"], table)]
+        share = _filled(lines_of)
+        if lines_of and share < least:
+            name = lines_of[0]["heading"]
             text = f"{name}: заполнено {share:.0%} при наименьшем {least:.0%}, баллов за неё нет"
             result["notes"].append(text)
-            for line in own:
+            for line in lines_of:
                 line["points"] = 0.0
     for pattern, needed in rubric.needs.items():
         missing = [
@@ -76,7 +76,7 @@ def _is(line: Mapping[str, Any], patterns: tuple[str, ...]) -> bool:
 
 
 def rescored(result: Result) -> None:
-    """The sum of a result from the points of its lines; a person may have given more for one."""
+    """Sum the points of a result's lines; a person may have given more for one."""
     raw = min(sum(line["points"] for line in result["items"]), result["maximum"])
     result["raw"] = round(raw, 2)
     result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
@@ -112,12 +112,12 @@ def hours_late(rubric: Rubric, time: datetime | None, extension: str = "") -> fl
     if deadline is None or time is None:
         return 0.0
     # File times carry no zone: they are the clock of the place where the deadline is meant.
-    own = deadline.replace(tzinfo=None)
+    local = deadline.replace(tzinfo=None)
     if extension.startswith("+"):
-        own += timedelta(hours=float(extension))
+        local += timedelta(hours=float(extension))
     elif extension:
-        own = max(own, datetime.fromisoformat(extension))
-    return max(0.0, (time - own).total_seconds() / 3600)
+        local = max(local, datetime.fromisoformat(extension))
+    return max(0.0, (time - local).total_seconds() / 3600)
 
 
 def late_factor(rubric: Rubric, time: datetime | None, extension: str = "") -> float:

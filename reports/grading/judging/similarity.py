@@ -89,8 +89,8 @@ def _same_values(graded: Works) -> list[str]:
         for line, right in result.rights:
             if line.mark and line.of > 0:
                 by_mark.setdefault((line.id, line.mark), []).append((right, result))
-    wanted = {mark for _, mark in by_mark}
-    rights = {right for r in graded for _, right in r.rights if right in wanted}
+    marks = {mark for _, mark in by_mark}
+    rights = {right for r in graded for _, right in r.rights if right in marks}
     pairs: dict[tuple[str, str], list[str]] = {}
     for (item, mark), group in sorted(by_mark.items()):
         if mark in rights or len(group) > _FEW:  # a usual mistake
@@ -110,11 +110,11 @@ def _same_values(graded: Works) -> list[str]:
 
 def _foreign_values(graded: Works) -> list[tuple[Work, str]]:
     """Wrong values that are the right ones of another's variant; he did nothing."""
-    wanted = {(line.id, line.mark) for r in graded for line in r.items if line.mark}
+    marks = {(line.id, line.mark) for r in graded for line in r.items if line.mark}
     owners: dict[tuple[str, str], list[Work]] = {}
     for result in graded:
         for line, right in result.rights:
-            if (line.id, right) in wanted:
+            if (line.id, right) in marks:
                 owners.setdefault((line.id, right), []).append(result)
     pairs = []
     for result in graded:
@@ -136,10 +136,10 @@ def _of_the_program(graded: Works) -> list[str]:
     """Works with nearly all formulas as the solved book has them."""
     labels = []
     for result in graded:
-        own = [line.formula[2] for line in result.items if line.formula]
-        if is_verbatim(sum(own), len(own)):
+        formulas = [line.formula[2] for line in result.items if line.formula]
+        if is_verbatim(sum(formulas), len(formulas)):
             text = "формулы слово в слово как в книге, решённой программой"
-            labels.append(f"{who(result)}: {text} — {sum(own)} из {len(own)}")
+            labels.append(f"{who(result)}: {text} — {sum(formulas)} из {len(formulas)}")
     return labels
 
 

@@ -39,9 +39,9 @@ _HABIT = 8  # columns in which a step that does nothing is a manner of writing
 _CELL = re.compile(r"R(\[?)(-?\d+)\]?C(\[?)(-?\d+)\]?")
 
 
-def digest(what: object) -> str:
+def digest(value: object) -> str:
     """Sixteen signs that tell things from each other."""
-    return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
+    return hashlib.sha256(repr(value).encode()).hexdigest()[:16]
 
 
 @dataclass
@@ -92,12 +92,12 @@ class Textbook:
     def places(self) -> dict[str, tuple[str, tuple[int, ...], int]]:
         """Sheet, rows and column of each name, as issued."""
         layout = self.layout
-        places: dict[str, tuple[str, tuple[int, ...], int]] = {
+        locations: dict[str, tuple[str, tuple[int, ...], int]] = {
             name: (cell.sheet, (cell.row,), cell.column) for name, cell in layout.cells.items()
         }
         for name, (table, column) in layout.columns.items():
-            places[name] = (table.sheet, tuple(layout.rows_of(table)), column)
-        return places
+            locations[name] = (table.sheet, tuple(layout.rows_of(table)), column)
+        return locations
 
     @cached_property
     def cells(self) -> dict[tuple[str, int, int], tuple[str, int, int]]:
@@ -134,9 +134,9 @@ class OwnFormulas:
         if self.student.as_laid_out:
             return self.book.cells
         return {
-            (place.sheet, row, place.column): (name, index, len(place.rows))
-            for name, place in self.student.placement.places.items()
-            for index, row in enumerate(place.rows)
+            (location.sheet, row, location.column): (name, index, len(location.rows))
+            for name, location in self.student.placement.places.items()
+            for index, row in enumerate(location.rows)
             if row is not None
         }
 
@@ -203,9 +203,9 @@ class OwnFormulas:
         return [run for run, _ in zip(runs, range(_MOST_HELPERS), strict=False)]
 
 
-def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trait]:
+def traits_of(formulas: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trait]:
     """Traits of a work; ``lines`` are those of its feedback."""
-    student, book = own.student, own.book
+    student, book = formulas.student, formulas.book
     by_item = {line["id"]: line for line in lines}
     traits: list[Trait] = []
     idle: list[tuple[str, list[str], str]] = []
@@ -219,7 +219,7 @@ def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trai
         if steps := [step for tokens in patterns for step in idle_steps(tokens)]:
             idle.append((item.id, steps, spelt))
         pairs = list(zip(item.nodes, runs, strict=True))
-        trees = [own.tree(run, node) for node, run in pairs if run is not None]
+        trees = [formulas.tree(run, node) for node, run in pairs if run is not None]
         right = [book.trees.get(node) for node in item.nodes]
         if trees == right or None in trees:
             continue
@@ -229,7 +229,7 @@ def traits_of(own: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trai
             traits.append((kind, item.id, mark, spelt, line["cause"] or item.id))
         else:
             traits.append((FORM, item.id, mark, spelt, _manner(trees, right) or item.id))
-    return [*traits, *_idle_traits(idle), *_helper_traits(own), *_name_traits(own)]
+    return [*traits, *_idle_traits(idle), *_helper_traits(formulas), *_name_traits(formulas)]
 
 
 def texts_of(student: StudentBook, traits: Sequence[Trait]) -> dict[str, str]:
@@ -270,10 +270,10 @@ def _spelling(run: Run) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _name_traits(own: OwnFormulas) -> list[Trait]:
+def _name_traits(formulas: OwnFormulas) -> list[Trait]:
     """Names that a student has given to cells himself."""
-    grid = own.student.grid
-    names = {*grid.names, *grid.areas} - own.book.names.keys()
+    grid = formulas.student.grid
+    names = {*grid.names, *grid.areas} - formulas.book.names.keys()
     return [
         (NAME, "", digest(name), digest(name), "")
         for name in sorted(names)
@@ -294,35 +294,35 @@ def _manner(trees: Sequence[Tree | None], right: Sequence[Tree | None]) -> str:
     return " ".join(sorted(mine - theirs))
 
 
-def _helper_traits(own: OwnFormulas) -> list[Trait]:
+def _helper_traits(formulas: OwnFormulas) -> list[Trait]:
     traits: dict[Trait, None] = {}
-    book, grid = own.book, own.student.grid
-    places: set[tuple[str, int]] = set()
-    for run in own.helpers:
-        tree = own.tree(run)
+    book, grid = formulas.book, formulas.student.grid
+    columns: set[tuple[str, int]] = set()
+    for run in formulas.helpers:
+        tree = formulas.tree(run)
         if tree is None or tree in book.parts or tree[0] in ("num", "node", "text", "blank"):
             continue
         assert run.formula is not None
         traits[HELPER, "", digest(tree), digest(run.formula.pattern), ""] = None
-        places.add((run.sheet, run.column))
+        columns.add((run.sheet, run.column))
         above = grid.constant(run.sheet, run.first - 1, run.column)
         if isinstance(above, str) and len(above.strip()) > 2:
             text = digest("".join(filter(str.isalnum, above.casefold())))
             traits[TEXT, "", text, text, ""] = None
     issued = {sheet for sheet, _, _ in book.places.values()}
-    for title in {run.sheet for run in own.helpers} - issued:
+    for title in {run.sheet for run in formulas.helpers} - issued:
         if not title.casefold().startswith(_PLAIN_TITLES):
             mark = digest(("sheet", title.casefold()))
             traits[TEXT, "", mark, mark, ""] = None
-    if len(places) > 2:  # whatever a sheet of one's own is called
-        mark = digest(sorted((title if title in issued else "", at) for title, at in places))
+    if len(columns) > 2:  # whatever a sheet of one's own is called
+        mark = digest(sorted((title if title in issued else "", at) for title, at in columns))
         traits[LAYOUT, "", mark, mark, ""] = None
     return list(traits)
 
 
-def pasted(own: OwnFormulas) -> str:
+def pasted(formulas: OwnFormulas) -> str:
     """The sheet of the program's own formulas that green cells only refer to, empty without one."""
-    student, book = own.student, own.book
+    student, book = formulas.student, formulas.book
     of_program: Counter[str] = Counter()
     for node in student.assignment.fill_nodes:
         run = _main(student.runs(node))
@@ -333,7 +333,7 @@ def pasted(own: OwnFormulas) -> str:
             continue
         for area in student.grid.precedents(run):
             at = (area.sheet, area.first_row, area.first_column)
-            tokens = None if own.node_at(*at) else own.formula_at(*at)
+            tokens = None if formulas.node_at(*at) else formulas.formula_at(*at)
             if tokens is not None and tokens in book.patterns:
                 of_program[area.sheet] += 1
     sheet, count = of_program.most_common(1)[0] if of_program else ("", 0)

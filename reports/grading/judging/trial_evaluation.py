@@ -74,49 +74,49 @@ def trials_of(assignment: Assignment, books: Sequence[Issued], seed: str) -> tup
     return tuple(trial for trial in trials if trial is not None)
 
 
-def turned(own: Evaluation) -> Trial:
-    """The engine itself at angles between those of its tables: a list has no number there."""
+def turned(evaluation: Evaluation) -> Trial:
+    """Return engine itself at angles between those of its tables: a list has no number there."""
     angles = {
         f"{table.id}.{table.columns[0].key}": np.array(table.rows) + _TURN
-        for table in own.model.tables.values()
+        for table in evaluation.model.tables.values()
         if table.columns[0].quantity.unit and not table.row_by_row
     }
-    return Trial({}, own.fork(angles), decides=False, angles=angles)
+    return Trial({}, evaluation.fork(angles), decides=False, angles=angles)
 
 
-def fixed(node: str, own: Evaluation, trials: Sequence[Trial]) -> NDArray[np.bool_]:
+def fixed(node: str, evaluation: Evaluation, trials: Sequence[Trial]) -> NDArray[np.bool_]:
     """Mask of right values alike for every engine: 0 at dead centre."""
     right, *others = [
-        np.ravel(run.value(node)) for run in (own, *(trial.expected for trial in trials))
+        np.ravel(run.value(node)) for run in (evaluation, *(trial.expected for trial in trials))
     ]
     if not others or right.dtype.kind == "U":
         return np.zeros(len(right), dtype=bool)
-    digit = 10.0 ** -own.model.nodes[node].quantity.digits.decimals
+    digit = 10.0 ** -evaluation.model.nodes[node].quantity.digits.decimals
     allowed = max(1e-9 * float(np.nanmax(np.abs(right))), _NOUGHT * digit)
-    near = [distance([node], other, right, own) <= allowed for other in others]
-    return np.asarray(np.logical_and.reduce(near))
+    is_close = [distance([node], other, right, evaluation) <= allowed for other in others]
+    return np.asarray(np.logical_and.reduce(is_close))
 
 
 def _first(
     assignment: Assignment, draws: Iterator[dict[str, float]], *, decides: bool
 ) -> Trial | None:
     """Return the first draw for which the engine can be calculated."""
-    own = Evaluation(assignment.model)
+    evaluation = Evaluation(assignment.model)
     nodes = [node for item in assignment.items for node in item.nodes]
     for _, inputs in zip(range(_TRIES), draws, strict=False):
-        run = own.fork(inputs)
+        run = evaluation.fork(inputs)
         try:
-            if all(_as_finite(run.value(node), own.value(node)) for node in nodes):
+            if all(_as_finite(run.value(node), evaluation.value(node)) for node in nodes):
                 return Trial(inputs, run, decides)
         except (ArithmeticError, ValueError, IndexError):
             continue
     return None
 
 
-def _as_finite(value: object, own: object) -> bool:
-    if isinstance(value, str) or isinstance(own, str):
+def _as_finite(value: object, reference: object) -> bool:
+    if isinstance(value, str) or isinstance(reference, str):
         return True
-    return bool((np.isfinite(value) | ~np.isfinite(own)).all())  # type: ignore[call-overload]
+    return bool((np.isfinite(value) | ~np.isfinite(reference)).all())  # type: ignore[call-overload]
 
 
 def _varied(assignment: Assignment, books: Sequence[Issued]) -> dict[str, list[float]]:
@@ -142,7 +142,7 @@ def _may_change(field: Field) -> bool:
 def _others(values: Mapping[str, list[float]], rng: random.Random) -> Iterator[dict[str, float]]:
     """Values of other variants, each key of a variant of its own."""
     while True:
-        yield {name: rng.choice(known) for name, known in values.items()}
+        yield {name: rng.choice(choices) for name, choices in values.items()}
 
 
 def _between(
@@ -154,14 +154,17 @@ def _between(
     """
     while True:
         inputs = {}
-        for name, known in values.items():
-            low, high = min(known), max(known)
+        for name, choices in values.items():
+            low, high = min(choices), max(choices)
             if high - low < 1e-9 * max(1.0, abs(high)):
                 low, high = low * (1 - _NARROW), high * (1 + _NARROW)
-            near = (first.get(name, low) - low) / (high - low)
-            below, above = max(0.0, near - _APART - _EDGE), max(0.0, 1 - _EDGE - near - _APART)
+            fraction = (first.get(name, low) - low) / (high - low)
+            below, above = (
+                max(0.0, fraction - _APART - _EDGE),
+                max(0.0, 1 - _EDGE - fraction - _APART),
+            )
             share = rng.uniform(0, below + above)
-            share += _EDGE if share < below else near + _APART - below
+            share += _EDGE if share < below else fraction + _APART - below
             inputs[name] = low + (high - low) * share
         yield inputs
 
@@ -204,20 +207,20 @@ def known_numbers(
     fields: Mapping[str, Field], trials: Sequence[Trial]
 ) -> dict[float, tuple[str, float]]:
     """Return number → the input that it is, and how many of its units one of the book's has."""
-    wanted: dict[float, tuple[str, float]] = {}
+    numbers: dict[float, tuple[str, float]] = {}
     drawn = trials[0].inputs if trials else {}
     names = sorted({name for trial in trials for name in trial.inputs})
-    for own in (False, True):  # a number is rather an input in the unit of the book
+    for in_units in (False, True):  # a number is rather an input in the unit of the book
         for name in sorted(names, key=lambda name: name in drawn):  # and one of the variant
             value, unit = float(fields[name].value), fields[name].unit
-            for factor in (1.0,) if own else _OTHER_UNITS.get(unit, ()):
+            for factor in (1.0,) if in_units else _OTHER_UNITS.get(unit, ()):
                 number = float(f"{value * factor:.12g}")
                 sure = (unit, factor) == (MM.label, _METRES) or (
-                    own and (bool(unit) or name in drawn)
+                    in_units and (bool(unit) or name in drawn)
                 )
                 if sure or number != float(f"{number:.1g}"):
-                    wanted[number] = (name, factor)  # 1 or 100 may be anything
-    return wanted
+                    numbers[number] = (name, factor)  # 1 or 100 may be anything
+    return numbers
 
 
 def stepping(cells: Mapping[tuple[str, int, int], float]) -> set[tuple[str, int, int]]:
@@ -287,11 +290,11 @@ class Tryout:
         """Return the work with the right values of a trial in the cells of inputs and nodes."""
         key = (id(trial), rounded)
         if key not in self._pins:
-            own = {} if rounded else self._full_constants
+            constants = {} if rounded else self._full_constants
 
             def cells(sheet: str, column: int) -> list[Cells]:
                 numbers, texts = self._cells(trial, sheet, column)
-                return [*numbers, *texts, *own.get((sheet, column), ())]
+                return [*numbers, *texts, *constants.get((sheet, column), ())]
 
             self._pins[key] = PinnedGrid(self.student.grid, cells, rounded)
         return self._pins[key]
@@ -366,18 +369,18 @@ class Tryout:
         return cells
 
     def _angles(self, name: str, turned: Array) -> list[Cells]:
-        """The cells of a table's angles, and the student's own beside them that repeat them."""
+        """Return cells of a table's angles, and the student's own beside them that repeat them."""
         turned_cells = self.student.cells_of(name, turned)
-        own = self.student.cells_of(name, self.student.expected.value(name))
-        known = {
+        entries = self.student.cells_of(name, self.student.expected.value(name))
+        angles = {
             (cells.sheet, row, value): other.values[i]
-            for cells, other in zip(own, turned_cells, strict=True)
+            for cells, other in zip(entries, turned_cells, strict=True)
             for i, (row, value) in enumerate(zip(cells.rows, cells.values, strict=True))
         }
         return turned_cells + [
-            Cells(sheet, column, (row,), (known[sheet, row, value],))
+            Cells(sheet, column, (row,), (angles[sheet, row, value],))
             for sheet, column, row, value in self.student.own_constants
-            if (sheet, row, value) in known
+            if (sheet, row, value) in angles
         ]
 
     @cached_property
@@ -387,22 +390,22 @@ class Tryout:
         Who copies the input data to a sheet of his own and calculates from there has not
         typed in a result.
         """
-        wanted = known_numbers(self.student.assignment.model.fields, self.trials)
+        numbers = known_numbers(self.student.assignment.model.fields, self.trials)
         copies: dict[str, list[tuple[str, int, int, float]]] = {}
         steps = stepping({(s, c, r): value for s, c, r, value in self.student.own_constants})
         for sheet, number, row, value in self.student.own_constants:
             if (sheet, number, row) in steps:
                 continue
-            hit = wanted.get(float(f"{value:.12g}"))
+            hit = numbers.get(float(f"{value:.12g}"))
             if hit is not None:
                 copies.setdefault(hit[0], []).append((sheet, number, row, hit[1]))
         return copies
 
     def rounds(self, node: str) -> bool:
         """Whether something of a node's formulas is rounded: a result, π, or a sine."""
-        own = self.student.own_numbers(node) if self._full_constants else ()
+        constants = self.student.own_numbers(node) if self._full_constants else ()
         return any(map(rounds, self.formulas(node))) or any(
-            self._full(value) != value for value in own
+            self._full(value) != value for value in constants
         )
 
     def formulas(self, node: str) -> list[Formula]:
@@ -423,8 +426,8 @@ class Tryout:
     def _full(self, value: float) -> float:
         """Return a number with all digits of what it has the first ones of."""
         exact = of_angles(value, self._all_angles)
-        near = exact is not None and abs(exact - value) <= _FOUR
-        return exact if near and exact is not None else full(value)
+        is_close = exact is not None and abs(exact - value) <= _FOUR
+        return exact if is_close and exact is not None else full(value)
 
     @cached_property
     def _all_angles(self) -> tuple[float, ...]:

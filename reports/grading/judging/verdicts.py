@@ -295,9 +295,9 @@ def _free(e: ItemEvidence) -> Judgement | None:
         return None
     if good.all():
         return replace(judgement, typed=(), paid=1.0)
-    own = own_values(item, student, None)
+    values_of = own_values(item, student, None)
     allowed = tolerance(item, judgement.expected, student)
-    if close(item, judgement.values, own, allowed, student.expected).all():
+    if close(item, judgement.values, values_of, allowed, student.expected).all():
         return replace(judgement, verdict=CARRIED, rows=_where(~good), typed=(), paid=1.0)
     return replace(judgement, verdict=WRONG, rows=_where(~good))
 
@@ -404,8 +404,8 @@ def _judge_text(item: Item, student: StudentBook, answer: Answer) -> Judgement:
     if text is None:
         return replace(judgement, verdict=EMPTY)
     read = student.precedents(node)
-    own = student.expected.fork(known_values(student.answers, read))
-    verdicts = {str(own.value(node)).casefold(): CARRIED}
+    evaluation = student.expected.fork(known_values(student.answers, read))
+    verdicts = {str(evaluation.value(node)).casefold(): CARRIED}
     verdicts[str(student.expected.value(node)).casefold()] = RIGHT
     verdict = verdicts.get(str(text).casefold(), WRONG)
     if verdict == RIGHT and not read and student.assignment.formulas_demanded(item):

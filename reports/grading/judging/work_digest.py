@@ -46,12 +46,12 @@ _SAMPLE = 200  # signs of a formula that a person looks at
 SHOWN_ROWS = 12  # wrong cells shown in the feedback of an item
 
 
-def formula_marks(student: StudentBook, own: Mapping[str, str]) -> dict[str, list[Any]]:
-    """Item → a mark of its formula, whether it has a step that does nothing, whether it is ``own``.
+def formula_marks(student: StudentBook, formulas: Mapping[str, str]) -> dict[str, list[Any]]:
+    """Return marks of formulas by item: digest, idle step, whether it is the textbook's.
 
     Args:
         student: the work.
-        own: item → the mark of the formula that the program writes there.
+        formulas: item → the mark of the formula that the program writes there.
     """
     marks: dict[str, list[Any]] = {}
     for item in student.assignment.items:
@@ -61,7 +61,7 @@ def formula_marks(student: StudentBook, own: Mapping[str, str]) -> dict[str, lis
         patterns = [run.formula.pattern for run in runs if run.formula is not None]
         if max(map(len, patterns)) >= _TELLING:
             mark = _mark(patterns)
-            marks[item.id] = [mark, any(map(is_odd, patterns)), own.get(item.id) == mark]
+            marks[item.id] = [mark, any(map(is_odd, patterns)), formulas.get(item.id) == mark]
     return marks
 
 
@@ -84,7 +84,7 @@ def _mark(patterns: Sequence[Sequence[tuple[str, str]]]) -> str:
 
 
 def fingerprint(item: Item, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
-    """The same for values that print alike, whatever the book: for the signals of similarity."""
+    """Return same for values that print alike, whatever the book: for the signals of similarity."""
     finite = values[np.isfinite(values)]
     if not finite.size or (item.is_column and np.unique(finite).size < 4):
         return ""  # zeros and constants are alike by themselves
@@ -237,9 +237,9 @@ def _entry(
     )
 
 
-def is_verbatim(own: int, count: int) -> bool:
+def is_verbatim(shared: int, count: int) -> bool:
     """Whether so many formulas are the program's to a sign that they are copied."""
-    return own >= max(VERBATIM, NEARLY_ALL * count)
+    return shared >= max(VERBATIM, NEARLY_ALL * count)
 
 
 # --- lines of the feedback -----------------------------------------------------------------------
@@ -314,8 +314,8 @@ def _message(judgement: Judgement, causes: Causes, cause: str, assignment: Assig
     """Return the instructor's own words for a mistake, the first that fit."""
     item = judgement.item
     for message in assignment.rubric.messages if judgement.verdict == WRONG else ():
-        about = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
-        if not about or message.cause.casefold() not in cause.casefold():
+        concerns = any(fnmatchcase(name, message.items) for name in (item.id, item.block))
+        if not concerns or message.cause.casefold() not in cause.casefold():
             continue
         if not message.formula or causes.gives(judgement, message.formula):
             return message.text
@@ -333,10 +333,10 @@ def _headings(item: Item, assignment: Assignment) -> tuple[str, str]:
 
 def _cells(student: StudentBook, judgement: Judgement) -> list[dict[str, Any]]:
     item = judgement.item
-    places = _cells_of(student, item)
+    locations = _cells_of(student, item)
     cells = []
     for row in judgement.rows[:SHOWN_ROWS]:
-        location, index = places[row]
+        location, index = locations[row]
         at = location.rows[index] if location is not None else None
         cells.append(
             {
@@ -369,10 +369,10 @@ def _where(student: StudentBook, judgement: Judgement) -> list[str]:
 
 def _at(student: StudentBook, item: Item) -> list[str]:
     """Return the cells of an item as ranges."""
-    places = filter(None, map(student.placement.places.get, item.nodes))
+    locations = filter(None, map(student.placement.places.get, item.nodes))
     return [
         f"{location.sheet}!{range_text(location.span.first, location.span.last, location.column)}"
-        for location in places
+        for location in locations
         if location.span is not None
     ]
 

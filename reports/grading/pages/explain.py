@@ -74,20 +74,20 @@ def _find_issued(file: Path) -> Path:
         for candidate in (folder, folder / "issued"):
             if (candidate / FILE).is_file():
                 return candidate
-    what = "не найден реестр выдачи"
-    raise InputError(Problem(str(file), what, "укажите папку выдачи первым аргументом"))
+    problem = "не найден реестр выдачи"
+    raise InputError(Problem(str(file), problem, "укажите папку выдачи первым аргументом"))
 
 
 def _find_item(student: StudentBook, target: str) -> Item:
-    """The item under ``SHEET!COLUMN``: a letter, a header's symbol, a cell or an item's id."""
+    """Return item under ``SHEET!COLUMN``: a letter, a header's symbol, a cell or an item's id."""
     sheet, _, column = target.rpartition("!")
-    wanted = column.strip().replace("$", "")
+    address = column.strip().replace("$", "")
     items = student.assignment.items
     for item in items:
         if target in (item.id, *item.nodes):
             return item
-    letters = wanted.rstrip("0123456789")
-    digits = wanted[len(letters) :]
+    letters = address.rstrip("0123456789")
+    digits = address[len(letters) :]
     at = column_number(letters) if letters.isascii() and letters.isalpha() else 0
     hits = []
     for item in items:
@@ -96,7 +96,7 @@ def _find_item(student: StudentBook, target: str) -> Item:
             if location is None or location.sheet.casefold() != sheet.strip("'").casefold():
                 continue
             by_cell = location.column == at and (not digits or int(digits) in location.rows)
-            if by_cell or wanted in (item.symbol, item.quantity.header):
+            if by_cell or address in (item.symbol, item.quantity.header):
                 hits.append(item)
                 break
     if not hits:
@@ -137,12 +137,12 @@ def _about(student: StudentBook, item: Item, judgement: Judgement, causes: Cause
     carried = judgement.verdict == CARRIED
     mine = own_values(item, student, judgement.precedents - set(item.nodes)) if carried else None
     for index in _rows_to_show(judgement):
-        own = mine[index] if mine is not None else None
+        value = mine[index] if mine is not None else None
         line = (
             f"  {item.labels[index] or 'значение'}: у студента {number(judgement.values[index])}, "
             f"правильно {number(judgement.expected[index])}"
         )
-        yield line + (f", по его предыдущим значениям {number(own)}" if own is not None else "")
+        yield line + (f", по его предыдущим значениям {number(value)}" if value is not None else "")
     yield f"Вердикт: {WORDS[judgement.verdict]}"
     if judgement.reason:
         yield f"Пояснение: {judgement.reason}"

@@ -53,16 +53,16 @@ def filled_form(path: Path, rows: Sequence[Row], rubric: Rubric) -> FilledForm:
             book = load_workbook(io.BytesIO(data))
         sheet = book[rules.sheet] if rules.sheet else book.worksheets[0]
     except KeyError:
-        what = f"нет листа «{rules.sheet}»"
-        raise InputError(Problem(path.name, what, "исправьте [form] sheet в рубрике")) from None
+        problem = f"нет листа «{rules.sheet}»"
+        raise InputError(Problem(path.name, problem, "исправьте [form] sheet в рубрике")) from None
     except Exception:  # whatever openpyxl meets in a file of another program
         hint = "сохраните её в Excel как .xlsx"
         raise InputError(Problem(path.name, "ведомость не читается", hint)) from None
     students = [row for row in rows if row["number"] is not None]
     sheet = _FormSheet(sheet)
-    places, left = _places(sheet, students, rules.student, rules.first_row)
+    found_rows, left = _places(sheet, students, rules.student, rules.first_row)
     written = 0
-    for row, at in places:
+    for row, at in found_rows:
         final = row["points"] is not None and not row["manual"]
         mark = rubric.scale.mark(row["points"]) if final and rubric.scale.marks else ""
         sheet.put(rules.mark, at, _number(mark) if final else "")
@@ -71,16 +71,16 @@ def filled_form(path: Path, rows: Sequence[Row], rubric: Rubric) -> FilledForm:
         written += bool(final)
         if not final:
             left.append(f"{row['student']}: {row['status']}")
-    for address, what in rules.cells.items():
+    for address, problem in rules.cells.items():
         letters, at = coordinate_from_string(address)
-        sheet.put(letters, at, _general(what, students))
+        sheet.put(letters, at, _general(problem, students))
     try:
         filled = with_cells(data, sheet.sheet.title, sheet.values)
     except SharedFormulaError as error:
-        what = "в ячейке формула, общая для нескольких ячеек"
+        problem = "в ячейке формула, общая для нескольких ячеек"
         where = f"{path.name}, {error}"
         hint = "выберите в рубрике [form] другой столбец или сотрите формулу"
-        raise InputError(Problem(where, what, hint)) from None
+        raise InputError(Problem(where, problem, hint)) from None
     except (UnicodeDecodeError, KeyError):
         hint = "сохраните её в Excel как .xlsx"
         raise InputError(Problem(path.name, "ведомость не читается", hint)) from None
@@ -119,30 +119,32 @@ def _places(
         for row in students
     }
     claims = Counter(at for rows in fitting.values() for at in rows)
-    places, left = [], []
+    lines, left = [], []
     for row in students:
-        own = fitting[row["number"]]
-        if len(own) == 1 and claims[own[0]] == 1:
-            places.append((row, own[0]))
+        candidates = fitting[row["number"]]
+        if len(candidates) == 1 and claims[candidates[0]] == 1:
+            lines.append((row, candidates[0]))
         else:
-            why = "подходит не одна строка или не один студент" if own else "нет такой строки"
+            why = (
+                "подходит не одна строка или не один студент" if candidates else "нет такой строки"
+            )
             left.append(f"{row['student']}: {why}")
-    return places, left
+    return lines, left
 
 
 def _is_same(student: str, name: str) -> bool:
     """Whether a name of the form is that of a student: in full, or with initials."""
     words = [word.strip(".,") for word in name.replace(".", ". ").split()]
     whole = skeletons(" ".join(word for word in words if len(word) > 1))
-    own = [(word, skeletons(word)) for word in student.split()]
-    if not whole or not whole <= set().union(*(spelt for _, spelt in own)):
+    spelt_words = [(word, skeletons(word)) for word in student.split()]
+    if not whole or not whole <= set().union(*(spelt for _, spelt in spelt_words)):
         return False
-    rest = [word for word, spelt in own if spelt.isdisjoint(whole)]
+    unmatched = [word for word, spelt in spelt_words if spelt.isdisjoint(whole)]
     for initial in (word for word in words if len(word) == 1):
-        fits = [word for word in rest if words_of(word[0]) == words_of(initial)]
-        if rest and not fits:
+        fits = [word for word in unmatched if words_of(word[0]) == words_of(initial)]
+        if unmatched and not fits:
             return False
-        rest = [word for word in rest if word not in fits[:1]]
+        unmatched = [word for word in unmatched if word not in fits[:1]]
     return True
 
 
@@ -150,12 +152,12 @@ def _number(mark: str) -> int | str:
     return int(mark) if mark.isdigit() else mark
 
 
-def _general(what: str, students: Sequence[Row]) -> Value:
+def _general(key: str, students: Sequence[Row]) -> Value:
     """Tell what stands once in a form: the group, the date, how many; else the text itself."""
     groups = ", ".join(sorted({row["group"] for row in students if row["group"]}))
-    known: dict[str, Value] = {
+    values: dict[str, Value] = {
         "группа": groups,
         "дата": f"{date.today():%d.%m.%Y}",
         "студентов": len(students),
     }
-    return known.get(what.strip().casefold(), what)
+    return values.get(key.strip().casefold(), key)

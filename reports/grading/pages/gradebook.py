@@ -77,8 +77,8 @@ def moodle_csv(rows: Sequence[dict[str, Any]]) -> str:
         grade = "" if row["points"] is None or row["manual"] else f"{row['points']:g}"
         texts = [participant, row["student"], row["email"], row["id"]]
         remark = "" if row["status"] == State.HELD else row["remark"]
-        own = [remark, row["status"], whole_remark(row)]
-        writer.writerow([*map(neutralised, texts), grade, *map(neutralised, own)])
+        cells = [remark, row["status"], whole_remark(row)]
+        writer.writerow([*map(neutralised, texts), grade, *map(neutralised, cells)])
     return stream.getvalue()
 
 
@@ -86,7 +86,7 @@ def gradebook_xlsx(
     rows: Sequence[dict[str, Any]], maximum: float, groups: Sequence[Mapping[str, Any]] = (),
     decided: Sequence[Mapping[str, Any]] = (),
 ) -> bytes:  # fmt: skip
-    """The gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
+    """Return gradebook as a workbook: for reading, for deciding, and a sheet for the printer."""
     from openpyxl import Workbook
     from openpyxl.styles import Alignment, Font, PatternFill, Protection
     from openpyxl.worksheet.pagebreak import Break, ColBreak

@@ -87,8 +87,8 @@ def student_page(result: dict[str, Any], rubric: Rubric) -> str:
 
 
 def _line(line: dict[str, Any], full: bool) -> dict[str, Any]:
-    given = {"message": "", "needs": (), "indexed": line["symbol"], **line}
-    return {**given, "svg": _chart(line, full)}
+    defaults = {"message": "", "needs": (), "indexed": line["symbol"], **line}
+    return {**defaults, "svg": _chart(line, full)}
 
 
 def _by_heading(lines: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
@@ -103,19 +103,19 @@ def _totals(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return [
         {
             "heading": heading,
-            "points": sum(line["points"] for line in own),
-            "of": sum(line["of"] for line in own),
-            "wrong": sum(line["verdict"] not in ("right", "carried") for line in own),
-            "count": len(own),
+            "points": sum(line["points"] for line in lines_of),
+            "of": sum(line["of"] for line in lines_of),
+            "wrong": sum(line["verdict"] not in ("right", "carried") for line in lines_of),
+            "count": len(lines_of),
         }
-        for heading, own in _by_heading(lines).items()
+        for heading, lines_of in _by_heading(lines).items()
     ]
 
 
 def class_page(summary: dict[str, Any]) -> str:
     """Return the page of a class."""
-    shown = {"decided": (), "compared": (), **summary}
-    return _environment().get_template("summary.html.j2").render(summary=shown, words=WORDS)
+    data = {"decided": (), "compared": (), **summary}
+    return _environment().get_template("summary.html.j2").render(summary=data, words=WORDS)
 
 
 def questions_page(sheets: Sequence[dict[str, Any]], rubric: Rubric, *, answers: bool) -> str:
@@ -170,12 +170,14 @@ def compared_page(
 # --- curves --------------------------------------------------------------------------------------
 
 
-def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tuple[str, str]) -> str:
+def line_chart(
+    x: Sequence[float], points: Points, right: Points | None, axes: tuple[str, str]
+) -> str:
     """Return the chart's SVG; gaps where there is no number, one line where ``right`` is None."""
-    known = [v for line in (own, right or ()) for v in line if v is not None]
-    if not known or len(x) < 2:
+    finite = [v for line in (points, right or ()) for v in line if v is not None]
+    if not finite or len(x) < 2:
         return ""
-    low, high = min(known), max(known)
+    low, high = min(finite), max(finite)
     if high - low < 1e-12 * max(1.0, abs(high)):
         low, high = low - 1, high + 1
     pad = (high - low) * 0.05
@@ -188,10 +190,10 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tupl
     def at_y(value: float) -> float:
         return _TOP + (high - value) / (high - low) * (HEIGHT - _TOP - _BOTTOM)
 
-    shown = "ваши значения" if right is None else "ваши значения и правильные"
+    legend = "ваши значения" if right is None else "ваши значения и правильные"
     parts = [
         f'<svg class="chart" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
-        f'aria-label="График столбца: {shown}">'
+        f'aria-label="График столбца: {legend}">'
     ]
     for share in (0.0, 0.5, 1.0):
         value = low + pad + (high - low - 2 * pad) * share
@@ -213,7 +215,7 @@ def line_chart(x: Sequence[float], own: Points, right: Points | None, axes: tupl
         parts.append(words)
     if right is not None:
         parts.append(_path(x, right, at_x, at_y, "right"))
-    parts.append(_path(x, own, at_x, at_y, "own"))
+    parts.append(_path(x, points, at_x, at_y, "own"))
     parts.append("</svg>")
     return "".join(parts)
 

@@ -85,21 +85,21 @@ class _Maker:
         table, values, angles = column
         at = int(np.argmax(np.abs(values)))
         dead = [i for i, angle in enumerate(angles) if angle % (2 * _DEAD) == 0]
-        near = min(dead, key=lambda i: abs(angles[i] - angles[at]), default=at)
+        nearby = min(dead, key=lambda i: abs(angles[i] - angles[at]), default=at)
         if not dead or angles[at] % _DEAD == 0:
             return None
-        if abs(values[at]) <= abs(values[near]) * (1 + _TELLING):
+        if abs(values[at]) <= abs(values[nearby]) * (1 + _TELLING):
             return None
         name = self._called(item)
         word = "наибольшее" if values[at] > 0 else "наименьшее"
         text = (
             f"Почему {name} принимает {word} значение при φ = {short(angles[at])}°, а не в мёртвой "
-            f"точке φ = {short(angles[near])}°?"
+            f"точке φ = {short(angles[nearby])}°?"
         )
         answer = (
             f"{self._is(item, values[at])} при {short(angles[at])}° и "
-            f"{self._is(item, values[near])} при {short(angles[near])}°. {self._formula(item)}"
-            f"{self._reason(item, at, near)}{self._beside(item, table, at, near)}"
+            f"{self._is(item, values[nearby])} при {short(angles[nearby])}°. {self._formula(item)}"
+            f"{self._reason(item, at, nearby)}{self._beside(item, table, at, nearby)}"
         )
         return Question("largest", item.id, text, answer)
 
@@ -120,8 +120,8 @@ class _Maker:
         )
         turned = [
             self._symbol(node)
-            for node, own in self._columns_of(item, table)
-            if own[at - 1] * own[at] < 0
+            for node, values in self._columns_of(item, table)
+            if values[at - 1] * values[at] < 0
         ]
         why = f" Знак меняет: {', '.join(turned)}." if turned else self._reason(item, at, at - 1)
         answer = (
@@ -151,10 +151,10 @@ class _Maker:
         share = after / before - 1
         if not np.isfinite(share) or abs(share) < _TELLING:
             return None
-        what = "наибольшее по модулю значение " if item.is_column else ""
+        words = "наибольшее по модулю значение " if item.is_column else ""
         title = uncapital(field.title)
         text = (
-            f"Как изменится {what}{self._called(item)}, если увеличить на 10 % величину "
+            f"Как изменится {words}{self._called(item)}, если увеличить на 10 % величину "
             f"«{title}» ({short(float(value))} {field.unit}), а остальное оставить?"
         )
         word = "вырастет" if share > 0 else "уменьшится"
@@ -211,7 +211,7 @@ class _Maker:
         return float(numbers[at if is_row else 0]) if is_row or numbers.size == 1 else None
 
     def _reason(self, item: Item, at: int, other: int) -> str:
-        """What in a formula makes most of the difference between two rows."""
+        """Return what in a formula makes most of the difference between two rows."""
         node = item.nodes[0]
         tree = parse(self.assignment.graph.expression(node) or "0")
 
@@ -274,10 +274,10 @@ class _Maker:
         parts = []
         for node, values in self._columns_of(item, table):
             digits = self.model.nodes[node].quantity.digits
-            shown = written(float(values[at]), digits)
+            printed = written(float(values[at]), digits)
             if other != at:
-                shown += f" и {written(float(values[other]), digits)}"
-            parts.append(f"{self._symbol(node)} = {shown}")
+                printed += f" и {written(float(values[other]), digits)}"
+            parts.append(f"{self._symbol(node)} = {printed}")
         return f" В этих строках: {'; '.join(parts)}." if parts else ""
 
     def _formula(self, item: Item) -> str:
@@ -289,8 +289,8 @@ class _Maker:
     def _symbol(self, node: str) -> str:
         key = self.model.grid_runs.get(node, (node,))[0]
         if key in self.model.nodes:
-            about = self.model.nodes[key].quantity
-            return indexed(about.tex, about.symbol)
+            quantity = self.model.nodes[key].quantity
+            return indexed(quantity.tex, quantity.symbol)
         field = self.model.fields.get(node)
         return field.title if field is not None else node
 

@@ -21,11 +21,11 @@ class State(StrEnum):
 _OF_FILE = {"graded": State.CHECKED, "refused": State.REFUSED, "unmatched": State.UNKNOWN}
 
 
-def state_of(status: str, asked: Sequence[str], doubts: Sequence[str]) -> State:
+def state_of(status: str, open_items: Sequence[str], doubts: Sequence[str]) -> State:
     """State of a file: what became of it, what a person is asked, why it may be another's."""
     if doubts:
         return State.HELD
-    by_hand = status == "graded" and asked
+    by_hand = status == "graded" and open_items
     return State.BY_HAND if by_hand else _OF_FILE[status]
 
 

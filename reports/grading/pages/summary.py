@@ -73,8 +73,8 @@ def _is_beside(result: Work, chosen: dict[int, Work]) -> bool:
     counted = chosen.get(result.number or 0)
     if counted is None or counted is result or result.status != "refused":
         return False
-    known = result.time <= counted.time or _is_seen(result, counted)
-    return known or result.file.casefold().endswith(_BESIDE)
+    superseded = result.time <= counted.time or _is_seen(result, counted)
+    return superseded or result.file.casefold().endswith(_BESIDE)
 
 
 def _is_seen(result: Work, counted: Work) -> bool:
@@ -138,8 +138,8 @@ def table_rows(
             remarks = list(doubts)
         state = State.ABSENT
         if result is not None or doubts:
-            asked = [*unread, *result.manual] if result else []
-            state = state_of(result.status if result else "", asked, doubts)
+            open_items = [*unread, *result.manual] if result else []
+            state = state_of(result.status if result else "", open_items, doubts)
         remarks = list(dict.fromkeys([*doubts, *remarks]))
         if doubts and points is not None:
             remarks.append(f"баллы до решения преподавателя: {short(points)}")
@@ -199,10 +199,10 @@ def _remarks(result: Work | None, times: Sequence[str], count: str) -> list[str]
     remarks = [*result.manual, *result.notes]
     labels = {line.id: line.label for line in result.items}
     for entry in result.decisions:
-        what = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
+        problem = f" ({labels.get(entry['item'], entry['item'])})" if entry["item"] else ""
         word = f" {entry['word']}" if entry.get("word") else ""
         said = entry["remark"] or "без примечания"
-        remarks.append(f"решение преподавателя{what}{word}: {said}")
+        remarks.append(f"решение преподавателя{problem}{word}: {said}")
     if len(times) > 1:
         which = "последний" if count == "last" else "лучший"
         if count == "last" and times.count(result.time) > 1:

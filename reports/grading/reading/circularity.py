@@ -37,10 +37,10 @@ def hidden_circles(
     if not suspects:
         return frozenset()
     engines = [Evaluator(pinned(student.grid, cells)) for cells in others]
-    places = {node: student.placement.places[node] for node in suspects}
+    locations = {node: student.placement.places[node] for node in suspects}
     return frozenset(
         node
-        for node, location in places.items()
+        for node, location in locations.items()
         if location.span is not None
         and any(
             engine.is_circular(
@@ -122,7 +122,7 @@ def is_void(student: StudentBook, node: str) -> bool:
 def filled_copy(student: StudentBook, node: str) -> str:
     """Which own copy of its sheet has something in the cells of a node, empty where none has."""
     location = student.placement.places.get(node)
-    known = {other.sheet for other in student.placement.places.values()}
+    sheets = {other.sheet for other in student.placement.places.values()}
     if location is None or location.span is None:
         return ""
     heads = _texts(student, location.sheet)
@@ -131,7 +131,7 @@ def filled_copy(student: StudentBook, node: str) -> str:
         filled = column.runs_in(location.span.first, location.span.last) or any(
             row in column.constants for row in location.rows
         )
-        if sheet not in known and filled and len(heads & _texts(student, sheet)) > len(heads) / 2:
+        if sheet not in sheets and filled and len(heads & _texts(student, sheet)) > len(heads) / 2:
             return f"не заполнено, но заполнена копия листа: «{sheet}»"
     return ""
 

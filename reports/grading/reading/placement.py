@@ -71,11 +71,11 @@ class Span:
 
 def span_of(rows: tuple[int | None, ...]) -> Span | None:
     """First and last of some rows; None where all are lost."""
-    known = [row for row in rows if row is not None]
-    if not known:
+    filled = [row for row in rows if row is not None]
+    if not filled:
         return None
-    first, last = min(known), max(known)
-    return Span(first, last, len(known) == len(rows) == last - first + 1)
+    first, last = min(filled), max(filled)
+    return Span(first, last, len(filled) == len(rows) == last - first + 1)
 
 
 def _one_cell(at: tuple[str, int, int], by: str) -> Location:
@@ -149,24 +149,24 @@ def _find_table(table: TableSpec, layout: Layout, search: _Search, placement: Pl
 
 
 def _rows(
-    search: _Search, sheet: str, header: int, column: int, wanted: tuple[float, ...]
+    search: _Search, sheet: str, header: int, column: int, angles: tuple[float, ...]
 ) -> tuple[int | None, ...]:
     """Rows below the header whose index is the wanted one, in order."""
-    known = search.grid.column(sheet, column)
-    constants = dict(known.constants)
-    if known.runs:  # angles calculated from the row above
+    cells = search.grid.column(sheet, column)
+    constants = dict(cells.constants)
+    if cells.runs:  # angles calculated from the row above
         constants |= _calculated(search.engine, sheet, header, column)
-    expected = tuple(range(header + 2, header + 2 + len(wanted)))
-    if tuple(map(constants.get, expected)) == wanted:
+    expected = tuple(range(header + 2, header + 2 + len(angles)))
+    if tuple(map(constants.get, expected)) == angles:
         return expected
     rows = sorted(r for r in constants if header + 1 < r <= header + _SEARCH_ROWS)
     indices: list[int | None] = []
     at = 0
-    for value in wanted:
+    for value in angles:
         hit = None
         for i in range(at, len(rows)):
-            given = constants[rows[i]]
-            if isinstance(given, float) and abs(given - value) <= 1e-6 * max(1.0, abs(value)):
+            constant = constants[rows[i]]
+            if isinstance(constant, float) and abs(constant - value) <= 1e-6 * max(1.0, abs(value)):
                 hit = i
                 break
         if hit is None:
@@ -248,8 +248,8 @@ class _Search:
     def same_headers(self, model: Model, layout: Layout, key: str) -> bool:
         """Whether a grid's cell still stands under its own label, in its own row."""
         cell = layout.cells[key]
-        about = model.scalars[key].quantity
-        texts = {_plain(capital(about.title)), _plain(about.header)}
+        quantity = model.scalars[key].quantity
+        texts = {_plain(capital(quantity.title)), _plain(quantity.header)}
         return _plain(str(self.grid.constant(cell.sheet, cell.row, 1) or "")) in texts
 
     def table(self, table: TableSpec) -> dict[int, tuple[str, int, int]]:

@@ -42,9 +42,9 @@ def restore(student: StudentBook) -> None:
         values = np.ravel(value)
         if _as_issued(student, location, values):
             continue
-        for index, given in enumerate(values.tolist()):
+        for index, number in enumerate(values.tolist()):
             if location.rows[index] is not None:
-                _put(student, location, index, node, given)
+                _put(student, location, index, node, number)
 
     for node, formulas in issued_formulas(student.assignment, student.layout).items():
         location = student.placement.places.get(node)
@@ -161,11 +161,11 @@ def _put(
 
 def issued_formulas(assignment: Assignment, layout: Layout) -> dict[str, tuple[Formula, ...]]:
     """Node → the formulas of its cells, of the nodes that were given as formulas."""
-    known = assignment.__dict__.get("issued_formulas")
-    if known is None:
+    cached = assignment.__dict__.get("issued_formulas")
+    if cached is None:
         live = assignment.live_nodes
-        known = assignment.__dict__["issued_formulas"] = own_formulas(assignment, layout, live)
-    return known
+        cached = assignment.__dict__["issued_formulas"] = own_formulas(assignment, layout, live)
+    return cached
 
 
 def own_formulas(
@@ -197,13 +197,13 @@ def _filled_down(text: str, cells: Sequence[Cell]) -> tuple[Formula, ...]:
     *body, end = cells
     first = [read(cell, last=False) for cell in body[:2]]
     alike = len(set(first)) == 1
-    rest = [first[0] if alike else read(cell, last=False) for cell in body[2:]]
-    return (*first, *rest, read(end, last=True))
+    following = [first[0] if alike else read(cell, last=False) for cell in body[2:]]
+    return (*first, *following, read(end, last=True))
 
 
-def _same(value: float | str | bool | None, wanted: float | str) -> bool:
-    if isinstance(wanted, str):
-        return isinstance(value, str) and value.strip() == wanted.strip()
+def _same(value: float | str | bool | None, expected: float | str) -> bool:
+    if isinstance(expected, str):
+        return isinstance(value, str) and value.strip() == expected.strip()
     if value is None or isinstance(value, str):
         return False
-    return abs(float(value) - float(wanted)) <= 1e-9 * max(1.0, abs(float(wanted)))
+    return abs(float(value) - float(expected)) <= 1e-9 * max(1.0, abs(float(expected)))

@@ -133,8 +133,8 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
     except InputError as error:
         lines = error.lines()
     more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
-    ticket, own = _ticket(book), _ticket(Path(issued))
-    if ticket and own and ticket != own:
+    ticket, issued_ticket = _ticket(book), _ticket(Path(issued))
+    if ticket and issued_ticket and ticket != issued_ticket:
         lines.insert(0, "эта книга выдана не вам: скачайте свою и сдайте её")
     return {"remarks": lines[:_TOLD] + more}
 
@@ -145,10 +145,10 @@ def refuse_foreign(path: str, issued: str) -> dict[str, object]:
     Raises:
         InputError: it was, or no program reads it.
     """
-    ticket, own = _ticket(Path(path)), _ticket(Path(issued))
-    if ticket and ticket != own:
-        what = "эта книга выдана не вам и не принята; сданное раньше осталось"
-        raise InputError(Problem("", what, "скачайте свою книгу и сдайте её"))
+    ticket, issued_ticket = _ticket(Path(path)), _ticket(Path(issued))
+    if ticket and ticket != issued_ticket:
+        problem = "эта книга выдана не вам и не принята; сданное раньше осталось"
+        raise InputError(Problem("", problem, "скачайте свою книгу и сдайте её"))
     return {}
 
 
@@ -170,12 +170,12 @@ def _assignment(model: Model, package: Package) -> Assignment:
         )
     ]
     sheets = {name.casefold() for name in _names(package)}
-    given = [
+    matching = [
         table.id
         for table in model.tables.values()
         if table.id not in fill and f"col_{table.id}_1".casefold() in sheets
     ]
-    return assignment_of(model, Rubric(work=WorkTables(fill=tuple(fill), given=tuple(given))))
+    return assignment_of(model, Rubric(work=WorkTables(fill=tuple(fill), given=tuple(matching))))
 
 
 def _names(package: Package) -> Iterator[str]:
@@ -231,24 +231,24 @@ def _marks(package: Package) -> dict[str, str]:
 def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFinding]:
     answer = student.answers[node]
     location = answer.location
-    what = _of(student.assignment, node)
+    problem = _of(student.assignment, node)
     if location is None:
-        return [BookFinding(what, "ячейки не найдены: верните таблице её заголовки")]
+        return [BookFinding(problem, "ячейки не найдены: верните таблице её заголовки")]
     results = []
     if answer.problem:
-        results.append(BookFinding(what, f"формулу программа не пересчитает: {answer.problem}"))
+        results.append(BookFinding(problem, f"формулу программа не пересчитает: {answer.problem}"))
     for kind, words in ((LOST, "строка не найдена: верните угол в первый столбец"),
                         (BLANK, "пусто"), (TEXT, "текст вместо числа")):  # fmt: skip
         rows = [r for i, r in enumerate(location.rows)
                 if answer.kinds[i] == kind and i not in answer.odd]  # fmt: skip
         if rows:
             results.append(
-                BookFinding(what, f"{words}: {_ranges(location.sheet, location.column, rows)}")
+                BookFinding(problem, f"{words}: {_ranges(location.sheet, location.column, rows)}")
             )
     for words in dict.fromkeys(answer.odd.values()):
         rows = [location.rows[i] for i, why in answer.odd.items() if why == words]
         results.append(
-            BookFinding(what, f"{words}: {_ranges(location.sheet, location.column, rows)}")
+            BookFinding(problem, f"{words}: {_ranges(location.sheet, location.column, rows)}")
         )
     wrong: dict[str, list[int | None]] = {}
     for row, kind in zip(location.rows, answer.kinds, strict=True):
@@ -260,24 +260,24 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
             wrong.setdefault(ERROR_WORDS.get(str(text), str(text)), []).append(row)
     for text, rows in wrong.items():
         where = _ranges(location.sheet, location.column, rows)
-        results.append(BookFinding(what, f"ошибка {text}: {where}"))
+        results.append(BookFinding(problem, f"ошибка {text}: {where}"))
     typed = [r for i, r in enumerate(location.rows)
              if answer.typed[i] and answer.kinds[i] == NUMBER and i not in answer.odd]  # fmt: skip
     if typed:
         where = _ranges(location.sheet, location.column, typed)
-        results.append(BookFinding(what, f"число вместо формулы: {where}"))
+        results.append(BookFinding(problem, f"число вместо формулы: {where}"))
     return results
 
 
 def _of(assignment: Assignment, node: str) -> str:
     """Return a node as the book calls it."""
     model = assignment.model
-    about = model.nodes[node].quantity
+    quantity = model.nodes[node].quantity
     table = model.tables.get(node.partition(".")[0]) if "." in node else None
     if table is not None:
-        return f"{table.number} {about.symbol}"
+        return f"{table.number} {quantity.symbol}"
     owner = next(b for b in model.blocks if b.id == assignment.graph.owners[node])
-    return f"{owner.sheet} {about.symbol}"
+    return f"{owner.sheet} {quantity.symbol}"
 
 
 def _ranges(sheet: str, column: int, rows: list[int | None]) -> str:

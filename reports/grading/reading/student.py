@@ -139,15 +139,15 @@ class StudentBook:
                 odd[i] = DATE
         if not odd:
             return answer
-        values = np.array([numbers.get(i, own) for i, own in enumerate(answer.values)])
-        kinds = "".join(NUMBER if i in numbers else own for i, own in enumerate(answer.kinds))
+        values = np.array([numbers.get(i, entry) for i, entry in enumerate(answer.values)])
+        kinds = "".join(NUMBER if i in numbers else entry for i, entry in enumerate(answer.kinds))
         return replace(answer, values=values, kinds=kinds, odd=dict(sorted(odd.items())))
 
     @cached_property
     def _dates(self) -> frozenset[Cell]:
         """Cells to fill in that hold dates."""
-        places = filter(None, map(self.placement.places.get, self.assignment.fill_nodes))
-        return dates(self.package, self.grid, places) if self.package else frozenset()
+        locations = filter(None, map(self.placement.places.get, self.assignment.fill_nodes))
+        return dates(self.package, self.grid, locations) if self.package else frozenset()
 
     def runs(self, node: str) -> list[Run]:
         """Return runs of formulas in a node's cells."""
@@ -155,11 +155,11 @@ class StudentBook:
         if location is None or location.span is None:
             return []
         span = location.span
-        near = self.grid.column(location.sheet, location.column).runs_in(span.first, span.last)
+        runs = self.grid.column(location.sheet, location.column).runs_in(span.first, span.last)
         if span.whole:
-            return near
+            return runs
         rows = {row for row in location.rows if row is not None}
-        return [run for run in near if not rows.isdisjoint(range(run.first, run.last + 1))]
+        return [run for run in runs if not rows.isdisjoint(range(run.first, run.last + 1))]
 
     # --- what formulas refer to -------------------------------------------------------
 
@@ -201,9 +201,9 @@ class StudentBook:
                 continue
             seen.add(run)
             for area in self.grid.precedents(run):
-                hit, rest = self._nodes_in(area)
+                hit, remaining = self._nodes_in(area)
                 names |= hit
-                stack += rest
+                stack += remaining
         return frozenset(names), frozenset(seen)
 
     def _nodes_in(self, area: Area) -> tuple[set[str], list[Run]]:
@@ -242,17 +242,17 @@ class StudentBook:
                 continue
             column = self.grid.column(location.sheet, location.column)
             saved = dict(zip(column.saved_rows, column.saved, strict=True))
-            wanted = {}
+            numbers = {}
             for row, number in zip(location.rows, np.ravel(right).tolist(), strict=True):
                 text = column.constants.get(row) if row is not None else None
                 if row is not None and node in unknown:
                     claim = saved.get(row, np.nan)
-                    wanted[row] = number if np.isnan(claim) else claim
+                    numbers[row] = number if np.isnan(claim) else claim
                 elif row is not None and isinstance(text, str) and is_doubtful(text):
-                    wanted[row] = number if (own := number_of(text)) is None else own
-            if wanted:
-                rows = tuple(wanted)
-                values = tuple(wanted.values())
+                    numbers[row] = number if (parsed := number_of(text)) is None else parsed
+            if numbers:
+                rows = tuple(numbers)
+                values = tuple(numbers.values())
                 cells.append(Cells(location.sheet, location.column, rows, values))
         self.engine = Evaluator(pinned(self.known, cells))
         for node in waiting:
@@ -265,11 +265,11 @@ class StudentBook:
         location = self.placement.places.get(node)
         if location is None:
             return []
-        given = [values] if isinstance(values, str) else np.ravel(np.asarray(values)).tolist()
-        kept = [(r, v) for r, v in zip(location.rows, given, strict=True) if r is not None]
-        if not kept:
+        entries = [values] if isinstance(values, str) else np.ravel(np.asarray(values)).tolist()
+        cells = [(r, v) for r, v in zip(location.rows, entries, strict=True) if r is not None]
+        if not cells:
             return []
-        rows, numbers = zip(*kept, strict=True)
+        rows, numbers = zip(*cells, strict=True)
         return [Cells(location.sheet, location.column, rows, numbers)]
 
     @cached_property
@@ -282,9 +282,9 @@ class StudentBook:
             (sheet, number, row, value)
             for sheet, columns in self.grid.sheets.items()
             for number, column in columns.items()
-            for row, given in column.constants.items()
+            for row, constant in column.constants.items()
             if row not in taken.get((sheet, number), ())
-            if (value := carried(given)) is not None
+            if (value := carried(constant)) is not None
         ]
 
     def own_numbers(self, node: str) -> list[float]:

@@ -75,11 +75,11 @@ class Submission:
                     data = _member(io.BytesIO(data), index)
                 return data
         except OSError as error:
-            what = f"файл не читается: {reason(error)}"
-            raise InputError(Problem(self.label, what, "сдайте его ещё раз")) from None
+            problem = f"файл не читается: {reason(error)}"
+            raise InputError(Problem(self.label, problem, "сдайте его ещё раз")) from None
         except _DAMAGED:
-            what = "файл в архиве повреждён или зашифрован"
-            raise InputError(Problem(self.label, what, "сдайте его ещё раз")) from None
+            problem = "файл в архиве повреждён или зашифрован"
+            raise InputError(Problem(self.label, problem, "сдайте его ещё раз")) from None
 
 
 def collect(path: Path) -> list[Submission]:
@@ -99,8 +99,8 @@ def collect(path: Path) -> list[Submission]:
         hint = "положите в папку файлы студентов"
         raise InputError(Problem(str(path), "нет ни одной сданной работы", hint))
     if len(files) > MAX_SUBMISSIONS:
-        what = f"больше {MAX_SUBMISSIONS} файлов"
-        raise InputError(Problem(str(path), what, "проверьте, та ли это папка"))
+        problem = f"больше {MAX_SUBMISSIONS} файлов"
+        raise InputError(Problem(str(path), problem, "проверьте, та ли это папка"))
     return sorted(files, key=lambda item: item.key)
 
 
@@ -243,11 +243,11 @@ def find_owner(
     """Match a readable workbook with the register."""
     tickets = _tickets(grid, package)
     by_ticket = {book.ticket: book for book in register.books}
-    known = {text: where for text, where in tickets.items() if text in by_ticket}
+    matches = {text: where for text, where in tickets.items() if text in by_ticket}
     named, where = _by_name(register, submission)
     one = named[0] if len(named) == 1 else None
     submitter = one.number if one else None
-    evidence = [f"идентификатор {text} ({where})" for text, where in known.items()]
+    evidence = [f"идентификатор {text} ({where})" for text, where in matches.items()]
     left = {book.ticket: book.student.full for book in register.former}
     doubts = [
         f"идентификатор {text} ({where}) выдан тому, кого больше нет в списке: {left[text]}"
@@ -256,12 +256,12 @@ def find_owner(
         for text, where in tickets.items()
         if text not in by_ticket
     ]
-    if len(known) > 1:
-        names = ", ".join(by_ticket[text].student.full for text in known)
+    if len(matches) > 1:
+        names = ", ".join(by_ticket[text].student.full for text in matches)
         text = f"в файле идентификаторы разных работ: {names}"
         return Match(None, tuple(evidence), (*doubts, text), submitter)
-    if len(known) == 1:
-        book = by_ticket[next(iter(known))]
+    if len(matches) == 1:
+        book = by_ticket[next(iter(matches))]
         if named and book not in named:
             who = " или ".join(dict.fromkeys(other.student.full for other in named))
             issued = book.student.full
@@ -327,7 +327,7 @@ def own_properties(package: Package) -> dict[str, str]:
 
 def file_properties(package: Package) -> dict[str, str]:
     """Return authors and times of a workbook, as the file claims."""
-    wanted = {"creator", "lastModifiedBy", "created", "modified"}
+    names = {"creator", "lastModifiedBy", "created", "modified"}
     try:
         root = parse_xml(package.read("docProps/core.xml"))
     except (KeyError, BadBook):
@@ -335,7 +335,7 @@ def file_properties(package: Package) -> dict[str, str]:
     properties = {}
     for item in root:
         name = str(item.tag).rpartition("}")[2]
-        if name in wanted and item.text:
+        if name in names and item.text:
             properties[name] = item.text.strip()[:100]
     return properties
 
@@ -381,7 +381,7 @@ def _names(book: Issued, of: Spelling) -> set[str]:
 
 
 def _surname(book: Issued, of: Spelling) -> set[str]:
-    """The words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
+    """Return words of a surname that is no word by chance: «И», «По», «Но» are surnames, too."""
     words, least = of(book.student.surname), 3 if of is words_of else _SURE
     return words if any(len(word) >= least for word in words) else set()
 

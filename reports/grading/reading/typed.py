@@ -71,25 +71,25 @@ def as_meant(typed: Sequence[object]) -> tuple[dict[int, float], dict[int, str]]
     return numbers, odd
 
 
-def dates(package: Package, grid: CellGrid, places: Iterable[Location]) -> frozenset[Cell]:
+def dates(package: Package, grid: CellGrid, locations: Iterable[Location]) -> frozenset[Cell]:
     """Cells of some locations that are shown as dates."""
-    wanted = {
+    cells = {
         Cell(location.sheet, row, location.column)
-        for location in places
+        for location in locations
         for row in location.rows
         if row is not None
         and _may_be(grid.column(location.sheet, location.column).constants.get(row))
     }
-    of_dates = _looks_of_dates(package) if wanted else ()
-    sheets = {cell.sheet for cell in wanted} if of_dates else ()
-    shown = {
+    of_dates = _looks_of_dates(package) if cells else ()
+    sheets = {cell.sheet for cell in cells} if of_dates else ()
+    formats = {
         (title, cell.get("r"))
         for title, part in worksheets(package)
         if title in sheets
         for cell in parse_xml(package.read(part)).iter(f"{MAIN}c")
         if cell.get("s") in of_dates
     }
-    return frozenset(cell for cell in wanted if (cell.sheet, cell.coordinate) in shown)
+    return frozenset(cell for cell in cells if (cell.sheet, cell.coordinate) in formats)
 
 
 def _may_be(value: object) -> bool:
@@ -105,11 +105,11 @@ def _looks_of_dates(package: Package) -> frozenset[str]:
         styles = parse_xml(package.read("xl/styles.xml"))
     except KeyError:
         return frozenset()
-    own = {item.get("numFmtId"): item.get("formatCode") for item in styles.iter(f"{MAIN}numFmt")}
+    codes = {item.get("numFmtId"): item.get("formatCode") for item in styles.iter(f"{MAIN}numFmt")}
     looks = styles.find(f"{MAIN}cellXfs")
     forms = [look.get("numFmtId", "0") for look in (looks if looks is not None else ())]
     return frozenset(
         str(number)
         for number, form in enumerate(forms)
-        if is_date_format(own.get(form) or builtin_format_code(int(form)))
+        if is_date_format(codes.get(form) or builtin_format_code(int(form)))
     )

@@ -64,7 +64,7 @@ class Band:
         return f"обычно {span_text(self.low, self.high)}"
 
     def scaled(self, times: float) -> Band:
-        """The band with bounds so many times as large."""
+        """Return the band with bounds so many times as large."""
         source = f"{self.source}, для такого D" if times > 1 else self.source
         return replace(self, low=self.low * times, high=self.high * times, source=source)
 

@@ -88,7 +88,7 @@ class Term:
     power: float
 
     def of(self, value: float) -> float:
-        """The term with this number at its key."""
+        """Return the term with this number at its key."""
         return self.times * float(value**self.power)
 
 
@@ -126,7 +126,7 @@ class Pair:
 
 
 def terms_of(side: str) -> Iterator[Term]:
-    """The terms of a side, the one to be preferred first."""
+    """Yield the terms of a side, the one to be preferred first."""
     for text in side.split(" | "):
         match = _TERM.fullmatch(text)
         if match is None:

@@ -183,7 +183,7 @@ def _unfilled(offsets: Sequence[float], period: float) -> Iterator[Finding]:
 
 
 def _phase(placement: Arrangement, index: int, offset: float, angle: float) -> Finding | None:
-    """Finding where a throw contradicts its cylinder's firing offset."""
+    """Return the finding where a throw contradicts its cylinder's firing offset."""
     fitting = math.degrees(throw_angle(placement[index], math.radians(offset)))
     if index == 0 or abs(math.remainder(angle - fitting, 360.0)) <= ANGLE_TOLERANCE_DEG:
         return None

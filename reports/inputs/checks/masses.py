@@ -183,7 +183,7 @@ def _swung(values: ValidValues) -> Iterator[Finding]:
 
 
 def _inertia(values: ValidValues) -> Iterator[Finding]:
-    """A moment of inertia that two masses on the ends cannot exceed by much."""
+    """Yield a moment of inertia that two masses on the ends cannot exceed by much."""
     inertia, rod = values.get("masses", "rod_inertia_kg_m2"), values.get("masses", "rod_kg")
     pair = radius_and_rod(values)
     if None in (inertia, rod) or pair is None:

@@ -74,7 +74,7 @@ def _of_the_bore(entries: list[Tested]) -> list[Tested]:
 
 
 def _told(outside: list[Tested], accepted: Keys) -> Iterator[Finding]:
-    """Findings of the values; equal ones of a list once."""
+    """Yield findings of the values; equal ones of a list once."""
     alike: dict[tuple[Path, float], list[Tested]] = {}
     for path, band, value in outside:
         key = tuple(part for part in path if isinstance(part, str))
@@ -102,7 +102,7 @@ def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
 
 
 def values_at(model: InputFile, key: str) -> Iterator[tuple[Path, float]]:
-    """The given numbers at a key of the file, one for each entry of its lists."""
+    """Yield the given numbers at a key of the file, one for each entry of its lists."""
     yield from _values(model, key.split("."), ())
 
 
@@ -130,7 +130,7 @@ def _finding(path: Path, band: Band, value: float, others: int = 0) -> Finding:
 
 
 def _burning(model: InputFile) -> Iterator[Finding]:
-    """The compression ratio of a diesel that only its ρ makes one."""
+    """Yield the compression ratio of a diesel that only its ρ makes one."""
     ratio, rho = _ratio(model), diesel_rho(model)
     if rho and not is_within(ratio, (bands.DIESEL.low, bands.DIESEL.high)):
         problem = f"ε = {_short(ratio)} необычно для дизеля, о котором говорит ρ = {_short(rho)}"
@@ -185,9 +185,9 @@ def _lower_regime(model: InputFile, sizes: Sizes, index: int) -> Iterator[Findin
         band, value = bands.EFFICIENCY, float(regime.mechanical_efficiency)
         yield from _judged((*path, "mechanical_efficiency"), band, value)
     for key, band in ((band.key.split(".")[-1], band) for band in BANDS if band.base == ""):
-        given = getattr(regime.gas, key, None) if band.key.startswith("gas.") else None
-        if isinstance(given, int | float) and not (band.zero and given == 0):
-            yield from _judged((*path, "gas", key), band, float(given))
+        number = getattr(regime.gas, key, None) if band.key.startswith("gas.") else None
+        if isinstance(number, int | float) and not (band.zero and number == 0):
+            yield from _judged((*path, "gas", key), band, float(number))
     yield from _gas(model, regime.gas, path)
     yield from _power(model, regime.gas, regime, sizes, path)
 
@@ -245,7 +245,7 @@ def _ratio(model: InputFile) -> float:
 def _power(
     model: InputFile, gas: GasSection, regime: Regime, sizes: Sizes, path: Path
 ) -> Iterator[Finding]:
-    """The given power against the work of the diagram."""
+    """Yield the given power against the work of the diagram."""
     power = regime.indicated_power_kw
     if power is None or isinstance(gas, CycleGasSection):
         return

@@ -77,7 +77,7 @@ _RHO = (title_of("cyc_rho"), "ρ", NONE, 1, 6)
 
 
 def _limited(title: str, symbol: str, unit: InputUnit, field: str, default: object = ...) -> Any:  # noqa: ANN401
-    """A number whose limits are those of the solver's input ``field``."""
+    """Return a number whose limits are those of the solver's input ``field``."""
     low, high = (round(unit.from_si(limit), 9) for limit in LIMITS[field])
     return number(title, symbol, unit, low, high, default, solver=field)
 

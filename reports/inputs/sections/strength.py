@@ -43,7 +43,7 @@ PART_NAMES = {key: material.label for key, material in PART_MATERIALS.items()}
 
 
 def _size(key: str, symbol: str) -> float | None:
-    """A size of a part; left out it is its usual share."""
+    """Return a size of a part; left out it is its usual share."""
     assert key in PART_SHARES
     title = title_of(f"st_{key}_mm")
     return number(title, symbol, MM, 0.05, 3000, None)  # type: ignore[no-any-return]

@@ -180,7 +180,7 @@ def size_step_mm(section: CycleSection) -> float:
 
 
 def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) -> CycleInputs:
-    """The solver's inputs in SI; bore and stroke stay open when a power is wanted."""
+    """Return the solver's inputs in SI; bore and stroke stay open when a power is wanted."""
     geometry = model.geometry
     values: dict[str, Any] = {}
     for part in (model.engine, geometry, model.regime, gas, section):
@@ -203,7 +203,7 @@ def cycle_inputs(model: InputFile, section: CycleSection, gas: CycleGasSection) 
 
 
 def fuel_of(section: CycleSection) -> Fuel:
-    """A fuel of the list or of the file's own composition."""
+    """Return a fuel of the list or of the file's own composition."""
     if section.fuel != "own":
         return FUELS[section.fuel]
     usual = dict.fromkeys(("carbon", "hydrogen", "oxygen", "heating_value"), 0.0)

@@ -58,7 +58,7 @@ from reports.inputs.units import DEG, KG, MM, MPA, MPA_S, RPM, UM
 
 
 def rounded_gas(gas: RoundedGasSection) -> RoundedGas:
-    """Rounded diagram with the usual places where the input gives none."""
+    """Return rounded diagram with the usual places where the input gives none."""
     share, peak, join = places(gas)
     angles = {
         "combustion_start": DEG.to_si(
@@ -268,7 +268,7 @@ def _geometry(section: GeometrySection | DesignGeometrySection, run: CycleRun | 
 
 
 def _power(run: CycleRun | None) -> dict[str, float]:
-    """Indicated power [W], mechanical efficiency and fullness of a calculated cycle."""
+    """Return indicated power [W], mechanical efficiency and fullness of a calculated cycle."""
     if run is None:
         return {}
     efficiency = run.cycle.effective.eta_m

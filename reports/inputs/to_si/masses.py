@@ -109,7 +109,7 @@ def to_masses(section: MassesSection, geometry: Geometry) -> Masses:
 
 
 def to_swinging(section: MassesSection, mass: float) -> Swinging:
-    """The swings of the rod in SI units."""
+    """Return the swings of the rod in SI units."""
     return Swinging(mass=mass, **solver_values(section, Swinging))
 
 
@@ -123,7 +123,7 @@ def to_estimate(section: MassesSection) -> Estimate | None:
 def with_masses(
     shaft: CrankshaftSection, masses: MassesSection, bore: float, radius: float
 ) -> CrankshaftSection:
-    """The crankshaft with every reduced mass of pin and webs in its place [kg]; sizes in m."""
+    """Return crankshaft with every reduced mass of pin and webs in its place [kg]; sizes in m."""
     whole = shaft.pin_mass_kg is not None and all(
         web.mass_kg is not None and (web.actual_mass_kg is None or web.centre_mm is None)
         for web in shaft.webs

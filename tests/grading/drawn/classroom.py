@@ -103,16 +103,16 @@ class DrawnClass:
     def formulas(self, number: int, texts: Mapping[str, str]) -> dict[str, list[object]]:
         """Formulas of all cells to fill in: these, and the solved book's own spelt by hand."""
         here = self.desk(number)
-        found: dict[str, list[object]] = {
+        collected: dict[str, list[object]] = {
             node: [f"=({str(text)[1:]})" for text in own]
             for node, own in solved_formulas(here.assignment, here.layout).items()
         }
         for node, text in texts.items():
             block = here.assignment.model.tables.get(node.split(".")[0])
             rows = here.layout.rows_of(block) if isinstance(block, TableSpec) else [0]
-            if node in found:
-                found[node] = list(manners.rows_of(text, rows))
-        return found
+            if node in collected:
+                collected[node] = list(manners.rows_of(text, rows))
+        return collected
 
     def book(self, number: int, texts: Mapping[str, str], helpers: Sequence[str] = ()) -> bytes:
         """The book that a student hands in."""

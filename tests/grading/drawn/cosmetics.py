@@ -54,8 +54,8 @@ def _with_sheet(data: bytes, title: str, names: Sequence[str], *, headed: bool) 
         if headed:
             sheet.cell(3, column).value = f"поправка {column}"
     for column, name in enumerate(names, 2):
-        place = f"'{title}'!${sheet.cell(4, column).column_letter}$4"
-        book.defined_names[name] = DefinedName(name, attr_text=place)
+        position = f"'{title}'!${sheet.cell(4, column).column_letter}$4"
+        book.defined_names[name] = DefinedName(name, attr_text=position)
     stream = io.BytesIO()
     book.save(stream)
     return stream.getvalue()

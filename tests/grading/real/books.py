@@ -55,12 +55,12 @@ def filling(here: Desk, work: Work) -> dict[str, Cells]:
 def saved(here: Desk, filled: Mapping[str, Cells], edit: Edit | None = None) -> bytes:
     """A book as openpyxl writes it."""
     book = opened(here.assignment, here.issued.ticket)
-    for place, value in values(here, filled).items():
-        sheet = book[place.sheet]
+    for position, value in values(here, filled).items():
+        sheet = book[position.sheet]
         if isinstance(value, ArrayFormula):
-            sheet[place.coordinate] = value
+            sheet[position.coordinate] = value
         else:
-            sheet.cell(place.row, place.column).value = value
+            sheet.cell(position.row, position.column).value = value
     if edit is not None:
         edit(book, here)
     stream = io.BytesIO()
@@ -70,20 +70,24 @@ def saved(here: Desk, filled: Mapping[str, Cells], edit: Edit | None = None) -> 
 
 def values(here: Desk, filled: Mapping[str, Cells]) -> dict[Cell, Value]:
     """Templates in the cells of their nodes."""
-    found: dict[Cell, Value] = {}
+    collected: dict[Cell, Value] = {}
     for block in here.assignment.fill:
         for node, places in fill_cells(block, here.layout).items():
             if node not in filled:
                 continue
             what = filled[node]
             if isinstance(what, ArrayFormula):
-                found[places[0]] = what
+                collected[places[0]] = what
                 continue
             one = isinstance(what, (str, float, int)) or what is None
             texts = [what] * len(places) if one else list(what)  # type: ignore[arg-type]
-            for place, text in zip(places, texts, strict=False):  # tables of one turn are shorter
-                found[place] = put(text, here, place.row) if isinstance(text, str) else text
-    return found
+            for position, text in zip(
+                places, texts, strict=False
+            ):  # tables of one turn are shorter
+                collected[position] = (
+                    put(text, here, position.row) if isinstance(text, str) else text
+                )
+    return collected
 
 
 def put(text: str, here: Desk, row: int) -> str:

@@ -42,9 +42,9 @@ def _pasted(formula: str, node: str) -> Callable[[Workbook, Desk], None]:
         for row, value in zip(rows(), here.column(node), strict=False):
             sheet.cell(row, 1).value = f"='П4.1'!A{row}"
             sheet.cell(row, 2).value = value
-            place = here.layout.columns[node]
+            position = here.layout.columns[node]
             text = formula.replace("{r}", str(row)).replace("Расчёт", sheet.title)
-            book[place[0].sheet].cell(row, place[1]).value = text
+            book[position[0].sheet].cell(row, position[1]).value = text
 
     return edit
 
@@ -70,14 +70,14 @@ def _times(
     def edit(book: Workbook, here: Desk) -> None:
         owner = desk(here.other.number) if friend else here
         speed = owner.issued.drawn["regime.speed_rpm"]
-        sheet, place = own_sheet(book), here.layout.columns[node]
+        sheet, position = own_sheet(book), here.layout.columns[node]
         for row, value in zip(rows(), owner.column(node), strict=False):
             sheet.cell(row, 1).value = text.replace("{v}", repr(round(value, digits)))
             if "=" not in text:
                 sheet.cell(row, 1).value = round(value, digits)
             power = 1 if node == V1 else 2
             formula = f"={sheet.title}!A{row}*(regime_speed_rpm/{speed})^{power}"
-            book[place[0].sheet].cell(row, place[1]).value = formula
+            book[position[0].sheet].cell(row, position[1]).value = formula
 
     return edit
 
@@ -90,7 +90,7 @@ def _hidden(cell: str, formula: str) -> Callable[[Workbook, Desk], None]:
     """
 
     def edit(book: Workbook, here: Desk) -> None:
-        sheet, place = own_sheet(book), here.layout.columns[V1]
+        sheet, position = own_sheet(book), here.layout.columns[V1]
         for digit in range(10):
             sheet.cell(digit + 1, 3).value = digit
         for row, value in zip(rows(), here.column(V1), strict=False):
@@ -103,7 +103,7 @@ def _hidden(cell: str, formula: str) -> Callable[[Workbook, Desk], None]:
             text = formula.replace("{c}", f"{sheet.title}!A{row}").replace("{d}", f"({digits})")
             text = text.replace("{r}", f"{max(1, round(abs(value) * 1000))}")
             text = f"={sign}{text}*regime_speed_rpm/{here.issued.drawn['regime.speed_rpm']}"
-            book[place[0].sheet].cell(row, place[1]).value = text
+            book[position[0].sheet].cell(row, position[1]).value = text
 
     return edit
 
@@ -142,9 +142,9 @@ def _back_but_one(column: str) -> Callable[[Desk], dict[str, object]]:
     """Backwards from typed numbers; one cell of ``column`` is another number."""
 
     def change(here: Desk) -> dict[str, object]:
-        made = {M: here.column(M), T: [_FROM_M.replace("{r}", str(row)) for row in rows()]}
-        made[column][3] = 1.5
-        return made  # type: ignore[return-value]
+        values = {M: here.column(M), T: [_FROM_M.replace("{r}", str(row)) for row in rows()]}
+        values[column][3] = 1.5
+        return values  # type: ignore[return-value]
 
     return change
 

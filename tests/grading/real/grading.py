@@ -46,16 +46,16 @@ class Marked:
 
 def books() -> dict[int, bytes]:
     """Number of the student → the file handed in."""
-    found = {number: made(number, work) for number, work in enumerate(works(), 1)}
+    collected = {number: made(number, work) for number, work in enumerate(works(), 1)}
     office = [number for number, work in enumerate(works(), 1) if work.form == "office"]
-    saved = LibreOffice().converted([found[number] for number in office])
-    found |= dict(zip(office, saved, strict=True))
+    saved = LibreOffice().converted([collected[number] for number in office])
+    collected |= dict(zip(office, saved, strict=True))
     for number, work in enumerate(works(), 1):
         if work.form == "excel":
-            found[number] = as_excel(found[number])
+            collected[number] = as_excel(collected[number])
         if work.after is not None:
-            found[number] = work.after(found[number], desk(number))
-    return found
+            collected[number] = work.after(collected[number], desk(number))
+    return collected
 
 
 @lru_cache(maxsize=1)

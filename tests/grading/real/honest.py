@@ -40,11 +40,11 @@ def _other_algebra(desk: Desk) -> dict[str, Cells]:
 
 def _rounded(desk: Desk) -> dict[str, Cells]:
     """Every cell rounded as the book prints it."""
-    made: dict[str, Cells] = {}
+    values: dict[str, Cells] = {}
     for node, text in {**SCALARS, **COLUMNS}.items():
         decimals = quantity(node.rsplit(".", maxsplit=1)[-1]).digits.decimals
-        made[node] = f"=ROUND({text[1:]},{decimals})"
-    return made
+        values[node] = f"=ROUND({text[1:]},{decimals})"
+    return values
 
 
 def _rounded_inside(desk: Desk) -> dict[str, Cells]:
@@ -79,15 +79,15 @@ def _digits_in_a_cell(book: Workbook, desk: Desk) -> None:
 def _by_name(desk: Desk) -> dict[str, Cells]:
     places = {"C5": "r_crank", "C6": "L_rod", "C7": "lam", "C8": "S_stroke", "C9": "F_piston",
               "C13": "omega", "C24": "m_j", "C23": "m_2", "C25": "m_k", "C26": "m_r"}  # fmt: skip
-    made = {}
+    values = {}
     for node, written in {**SCALARS, **COLUMNS}.items():
         text = written
         for address, name in places.items():
             text = text.replace(f"'Массы'!${address[0]}${address[1:]}", name)
             if "." not in node:
                 text = re.sub(rf"(?<![\w$]){address}(?!\d)", name, text)
-        made[node] = text
-    return made
+        values[node] = text
+    return values
 
 
 def _look_ups(desk: Desk) -> dict[str, Cells]:
@@ -130,11 +130,11 @@ def _second_turn(desk: Desk) -> dict[str, Cells]:
 
 def _zeros(desk: Desk) -> dict[str, Cells]:
     """A nought typed in where the sine is one; at dead centre a spreadsheet shows 1E-16."""
-    made: dict[str, Cells] = {}
+    values: dict[str, Cells] = {}
     for node in ("P3_1.v1_m_s", "P3_1.v_m_s", "P3_2.beta_rad", "P4_1.N_MPa", "P4_1.M_Nm"):
         text = COLUMNS[node]
-        made[node] = [0 if i % 6 == 0 else text for i in range(ROWS)]
-    return made
+        values[node] = [0 if i % 6 == 0 else text for i in range(ROWS)]
+    return values
 
 
 def _arrays(desk: Desk) -> dict[str, Cells]:

@@ -31,9 +31,9 @@ def _typed(node: str) -> object:
 
 def _bad_row(node: str, row: int, what: object) -> object:
     def change(desk: Desk) -> dict[str, object]:
-        made: list[object] = [COLUMNS[node]] * ROWS
-        made[row] = what
-        return {node: made}
+        values: list[object] = [COLUMNS[node]] * ROWS
+        values[row] = what
+        return {node: values}
 
     return change
 

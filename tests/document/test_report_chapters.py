@@ -170,14 +170,14 @@ def test_safety_by_bending_follows_from_the_printed_stresses():
         ("σa к", "σm к", "ασг", "nσ г"),
     ):
         factor = 1 + given["qσ"] * (given[shape] - 1)
-        factor /= given["εм"] * given["εп"]
+        factor /= given["εм"] * given["εпов"]
         for a, m, n in zip(*(map(number, rows[key]) for key in (swing, mean, safety)), strict=True):
             assert n == pytest.approx(limit / (factor * a + given["ψσ"] * abs(m)), abs=0.011)
 
 
 def test_symbols_of_the_film_are_told():
     text = words_of("d-240-bearings", "course")
-    assert "F — его нагрузка" in text and "ωш и ωв — угловые скорости шейки и вкладыша" in text
+    assert "F — его нагрузка" in text and "ωцап и ωвкл — угловые скорости шейки и вкладыша" in text
 
 
 # --- what is given, what follows ---
@@ -353,7 +353,7 @@ def test_torsion_of_crankpins_is_by_statics():
     table = printed_rows(bare_page(model), "Запасы прочности шатунных шеек")
     rows = {row[0].partition(",")[0]: row[1:] for row in table}
     solution = solved(model)
-    for pin, shown in enumerate(rows["τa"], 1):
+    for pin, shown in enumerate(rows["τaш"], 1):
         swing = np.ptp(solution.columns["P4_5s"][f"Mpins{pin}_Nm"]) / 2
         modulus = np.pi / 16 * (model.crankshaft.pin_diameter_mm / 10) ** 3
         assert number(shown) == pytest.approx(swing / modulus, abs=0.006)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         throw,
     )
     from kshm.nomenclature.quantity import Quantity, quantity
+    from kshm.results.search import Optimum, optimise, solve_for
     from kshm.results.solution import Solution, solve
     from kshm.results.study import StudyInterrupted, sweep
 
@@ -36,6 +37,7 @@ __all__ = [
     "EngineNumbers",
     "InputError",
     "KshmError",
+    "Optimum",
     "Problem",
     "Quantity",
     "Solution",
@@ -47,12 +49,14 @@ __all__ = [
     "end_mass",
     "in_line",
     "opposed",
+    "optimise",
     "place",
     "points",
     "polytropic",
     "quantity",
     "solve",
     "solve_chunks",
+    "solve_for",
     "sweep",
     "throw",
 ]
@@ -66,6 +70,7 @@ _HOMES = {
         "points", "polytropic", "throw",
     ),
     "kshm.nomenclature.quantity": ("Quantity", "quantity"),
+    "kshm.results.search": ("Optimum", "optimise", "solve_for"),
     "kshm.results.solution": ("Solution", "solve"),
     "kshm.results.study": ("StudyInterrupted", "sweep"),
 }  # fmt: skip

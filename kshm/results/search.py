@@ -75,7 +75,7 @@ def solve_for(
     optimize = _scipy()
     low, high = _limits(name, between)
     refuse((not math.isfinite(value), f"value: must be a finite number, not {value}"))
-    search = _Search(engine, (name,), quantity)
+    search = _QuantitySearch(engine, (name,), quantity)
     inputs = np.linspace(low, high, _SCAN)
     results = search.results([(each,) for each in inputs.tolist()])
     off = results - value
@@ -124,7 +124,7 @@ def optimise(
         (not 1 <= len(vary) <= MAX_NAMES, f"vary: from 1 to {MAX_NAMES} inputs, not {len(vary)}")
     )
     limits = [_limits(name, between) for name, between in vary.items()]
-    search, sign = _Search(engine, tuple(vary), quantity), -1.0 if most else 1.0
+    search, sign = _QuantitySearch(engine, tuple(vary), quantity), -1.0 if most else 1.0
 
     def cost(points: Array) -> Array:  # shape (inputs,) or (inputs, points)
         results = search.results([tuple(row) for row in np.atleast_2d(points.T).tolist()])
@@ -152,7 +152,7 @@ def _limits(name: str, between: Collection[float]) -> tuple[float, float]:
     return numbers[0], numbers[1]
 
 
-class _Search:
+class _QuantitySearch:
     """One quantity of engines that differ in a few numbers."""
 
     def __init__(self, engine: Engine, names: tuple[str, ...], quantity: str) -> None:

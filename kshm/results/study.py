@@ -138,7 +138,7 @@ class Study:
         """
         engine_maker(engine, names)
         refuse((isinstance(quantities, str), "quantities: must be a list of keys, not a text"))
-        chosen = choose(solve_batch([engine]), quantities, _cycle(engine))
+        chosen = choose(solve_batch([engine]), quantities, cycle_of(engine))
         return cls(engine, names, chosen)
 
     @property
@@ -161,7 +161,7 @@ class Study:
                 groups.setdefault(structure(engine), []).append((at, engine))
         for group in groups.values():
             here, engines = [at for at, _ in group], [engine for _, engine in group]
-            cycles = [_cycle(engine) for engine in engines]
+            cycles = [cycle_of(engine) for engine in engines]
             try:
                 numbers, reasons = of_batch(solve_batch(engines), self.chosen, cycles)
             except KeyError as error:  # of another structure
@@ -204,7 +204,8 @@ class Study:
         return source.unit(key) if source is not None and key else ""
 
 
-def _cycle(engine: Engine) -> CycleRun | None:
+def cycle_of(engine: Engine) -> CycleRun | None:
+    """Return the calculation that an engine's gas comes from, if it is as it was read."""
     source = engine.source
     run: CycleRun | None = source.cycle if source is not None and source.has_made(engine) else None
     return run

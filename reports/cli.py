@@ -14,7 +14,7 @@ import click
 
 from reports.commands.class_commands import grade, issue
 from reports.commands.common import BAD, DONE, HELP, RussianGroup, advice, error_text
-from reports.commands.engine import build, check, doctor, new, solve
+from reports.commands.engine import build, check, doctor, new, schema, solve
 from reports.commands.seek import optimise
 from reports.commands.studies import compare, sweep, validate
 from reports.shared.errors import KshmError
@@ -193,6 +193,7 @@ for _command in (
     optimise,
     compare,
     serve,
+    schema,
     doctor,
 ):
     main.add_command(_command)

@@ -31,8 +31,10 @@ if TYPE_CHECKING:
     from kshm.results.search import Optimum, optimise, solve_for
     from kshm.results.solution import Solution, solve
     from kshm.results.study import StudyInterrupted, sweep
+    from kshm.results.tolerance import Bands, tolerance
 
 __all__ = [
+    "Bands",
     "Engine",
     "EngineNumbers",
     "InputError",
@@ -59,6 +61,7 @@ __all__ = [
     "solve_for",
     "sweep",
     "throw",
+    "tolerance",
 ]
 __version__ = "0.1.0"
 
@@ -73,6 +76,7 @@ _HOMES = {
     "kshm.results.search": ("Optimum", "optimise", "solve_for"),
     "kshm.results.solution": ("Solution", "solve"),
     "kshm.results.study": ("StudyInterrupted", "sweep"),
+    "kshm.results.tolerance": ("Bands", "tolerance"),
 }  # fmt: skip
 
 

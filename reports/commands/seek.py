@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +12,7 @@ import click
 from reports.commands.common import (
     DONE,
     HELP,
+    LOOK,
     RussianCommand,
     file_argument,
     path_option,
@@ -20,9 +23,11 @@ from reports.commands.common import (
 from reports.shared.errors import NO_LIMITS, InputError, KshmError, Problem, SystemPartMissing
 
 if TYPE_CHECKING:
+    from kshm.engine.engine import Engine
     from kshm.results.search import Optimum
     from reports.studies.plan import Axis
 
+_INSTALL = 'pip install "kshm[optimise]"'
 _EXAMPLE = "пример: --vary geometry.bore_mm=84:92"
 
 
@@ -102,10 +107,10 @@ def _found(
     except KshmError as error:
         if "scipy" not in str(error):
             raise
-        raise SystemPartMissing("пакет scipy", 'pip install "kshm[optimise]"') from None
+        raise SystemPartMissing("пакет scipy", _INSTALL) from None
 
 
-def _check(engine: object, quantity: str) -> None:
+def _check(engine: Engine, quantity: str) -> None:
     """Refuse a quantity that there is not, in the words of the command."""
     from kshm.chain.solve import solve_batch
     from kshm.results.chosen import PARTS
@@ -114,7 +119,7 @@ def _check(engine: object, quantity: str) -> None:
 
     name, _, part = quantity.rpartition(".")
     is_part = part in PARTS and "." in name
-    chosen = choose(solve_batch([engine]), [name if is_part else quantity], cycle_of(engine))  # type: ignore[arg-type,list-item]
+    chosen = choose(solve_batch([engine]), [name if is_part else quantity], cycle_of(engine))
     if not is_part and len(chosen.names) > 1:
         what, hint = "это несколько чисел", f"назовите одно: {', '.join(chosen.names[:6])}"
         raise InputError(Problem(quantity, what, hint))
@@ -147,3 +152,60 @@ def _in_words(problem: Problem) -> Problem:
     value = number_text(float(problem.value))
     hint = f"величина меняется от {low} до {high}; раздвиньте пределы"
     return Problem(problem.where, f"в этих пределах не достигает {value}", hint)
+
+
+def scatter(
+    source: Path, tolerances: tuple[str, ...], quantities: tuple[str, ...], target: Path,
+    samples: int, jobs: int,
+) -> int:  # fmt: skip
+    """Write the bands of results within tolerances; return the exit code."""
+    from kshm.results.study import MAIN
+    from kshm.results.tolerance import MAX_SAMPLES, MIN_SAMPLES, tolerance
+    from reports.api import load
+    from reports.shared.files import refuse_own
+    from reports.shared.progress import Progress
+    from reports.studies.tolerance import check_suffix, write
+
+    check_suffix(target)
+    refuse_own([target], [source])
+    if not MIN_SAMPLES <= samples <= MAX_SAMPLES:
+        raise InputError(Problem("--samples", f"нужно от {MIN_SAMPLES} до {MAX_SAMPLES}"))
+    engine = load(source, warn=False)
+    spans = dict(_tolerance(text, engine) for text in tolerances)
+    names = quantities or MAIN
+    _check(engine, names[0])
+    with Progress("Разброс") as progress:
+
+        def tell(done: int, total: int) -> None:
+            progress.step(f"Разброс: {done} из {total}")
+
+        try:
+            bands = tolerance(engine, spans, quantities=names, samples=samples, jobs=jobs,
+                              progress=tell)  # fmt: skip
+        except InputError as error:
+            raise InputError(_in_words(error.problems[0])) from None
+        except KshmError as error:
+            raise SystemPartMissing("пакет scipy", _INSTALL) from error
+    write(bands, engine, names, target)
+    tell_written(target, f": двигателей {samples}")
+    if bands.failed:
+        click.echo(f"Без результата: {bands.failed}; уменьшите допуски", err=True)
+        return LOOK
+    return DONE
+
+
+def _tolerance(text: str, engine: Engine) -> tuple[str, float]:
+    key, _, number = text.partition("=")
+    where, source = f"--tolerance {text}", engine.source
+    try:
+        half = float(number.replace(",", "."))
+    except ValueError:
+        half = 0.0
+    if not 0 < half < math.inf:
+        what, hint = "нужно КЛЮЧ=ДОПУСК, число больше нуля", "пример: geometry.bore_mm=0.02"
+        raise InputError(Problem(where, what, hint))
+    if source is None or not source.find(key):
+        close = difflib.get_close_matches(key, source.names() if source else (), n=3, cutoff=0.5)
+        hint = f"похожи: {', '.join(close)}" if close else "ключи смотрите в файле"
+        raise InputError(Problem(where, f"в файле нет ключа {key}", hint))
+    return key, half

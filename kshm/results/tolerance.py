@@ -28,7 +28,7 @@ _SEED = 1  # the same study gives the same numbers
 
 
 @dataclass(frozen=True, slots=True)
-class Band:
+class ResultBand:
     """A result within its tolerances, in the unit of its quantity.
 
     Attributes:
@@ -63,7 +63,7 @@ class Bands:
     ()
     """
 
-    bands: tuple[Band, ...]
+    bands: tuple[ResultBand, ...]
     tolerances: Mapping[str, float]
     samples: Any
     failed: int
@@ -157,7 +157,7 @@ def _bands(
         low, middle, high = np.quantile(values, QUANTILES)
         ranks = {each: _correlation(_ranks(values), other) for each, other in inputs.items()}
         bands.append(
-            Band(
+            ResultBand(
                 name, float(base.values[name][0]), float(low), float(middle), float(high),
                 float(values.min()), float(values.max()), ranks,
             )

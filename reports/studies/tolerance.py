@@ -15,7 +15,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from kshm.chain.solve import solve_batch
 from kshm.engine.engine import Engine
 from kshm.results.chosen import ChosenQuantities, described
-from kshm.results.tolerance import Band, Bands
+from kshm.results.tolerance import Bands, ResultBand
 from reports.document.figures.canvas import LineStyle, Sheet
 from reports.document.page.blocks import DocumentInfo, TableColumn, table_block
 from reports.document.page.numbering import Draft
@@ -49,7 +49,7 @@ class Described:
     chosen: ChosenQuantities
     engine: Engine
 
-    def titled(self, band: Band) -> tuple[str, str]:
+    def titled(self, band: ResultBand) -> tuple[str, str]:
         """Return the title and the unit of a result."""
         title, unit = described(band.name, self.chosen)
         return capital(title), unit

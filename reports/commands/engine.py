@@ -354,12 +354,11 @@ def doctor() -> int:
     """Проверить, чего не хватает на этом компьютере."""
     from reports.shared.doctor import check_system
 
-    complete = True
-    for part in check_system():
-        mark = "есть" if part.ok else "НЕТ"
+    parts = check_system()
+    for part in parts:
+        mark = "есть" if part.ok else "НЕТ" if part.required else "нет"
         click.echo(f"{mark:>4}  {part.name}: {part.detail}")
-        if not part.ok:
-            complete = False
-            if part.install_command:
-                click.echo(f"      установить: {part.install_command}")
-    return DONE if complete else MISSING
+    commands = [part.install_command for part in parts if part.install_command]
+    for command in dict.fromkeys(commands):
+        click.echo(f"      установить: {command}")
+    return DONE if all(part.ok or not part.required for part in parts) else MISSING

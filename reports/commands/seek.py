@@ -47,7 +47,7 @@ def optimise(
 ) -> int:  # fmt: skip
     """Найти исходные данные, при которых величина наименьшая, наибольшая или равна заданной.
 
-    Величина — как у sweep: итог M_mean, английское имя или P4_1.N_MPa.max.
+    Величина — как у команды kshm sweep: итог M_mean или P4_1.N_MPa.max.
     """
     from reports.inputs.units import number_text
     from reports.shared.files import write_text

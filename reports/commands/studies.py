@@ -72,7 +72,7 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
 )
 @click.option(
     "--tolerance", "tolerances", multiple=True, metavar="КЛЮЧ=ДОПУСК",
-    help="Вместо --vary: разброс результатов при ±ДОПУСК, например geometry.bore_mm=0.02.",
+    help="Вместо --vary: разброс результатов при ±ДОПУСК, например bore_mm=0.02.",
 )  # fmt: skip
 @click.option("--samples", default=1000, metavar="ЧИСЛО",
               help="Двигателей в выборке с --tolerance (по умолчанию 1000).")  # fmt: skip

@@ -28,14 +28,18 @@ if TYPE_CHECKING:
         throw,
     )
     from kshm.nomenclature.quantity import Quantity, quantity
+    from kshm.results.search import Optimum, optimise, solve_for
     from kshm.results.solution import Solution, solve
     from kshm.results.study import StudyInterrupted, sweep
+    from kshm.results.tolerance import Bands, tolerance
 
 __all__ = [
+    "Bands",
     "Engine",
     "EngineNumbers",
     "InputError",
     "KshmError",
+    "Optimum",
     "Problem",
     "Quantity",
     "Solution",
@@ -47,14 +51,17 @@ __all__ = [
     "end_mass",
     "in_line",
     "opposed",
+    "optimise",
     "place",
     "points",
     "polytropic",
     "quantity",
     "solve",
     "solve_chunks",
+    "solve_for",
     "sweep",
     "throw",
+    "tolerance",
 ]
 __version__ = "0.1.0"
 
@@ -66,8 +73,10 @@ _HOMES = {
         "points", "polytropic", "throw",
     ),
     "kshm.nomenclature.quantity": ("Quantity", "quantity"),
+    "kshm.results.search": ("Optimum", "optimise", "solve_for"),
     "kshm.results.solution": ("Solution", "solve"),
     "kshm.results.study": ("StudyInterrupted", "sweep"),
+    "kshm.results.tolerance": ("Bands", "tolerance"),
 }  # fmt: skip
 
 

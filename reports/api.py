@@ -80,6 +80,20 @@ class FileSource(Source):
         """Return the label of a key's unit."""
         return self._meant(key)[0].unit
 
+    def title(self, key: str) -> str:
+        """Return what a key means, with its unit."""
+        field = self._meant(key)[0]
+        return f"{field.title}, {field.unit}" if field.unit else field.title
+
+    def values(self, key: str) -> Mapping[str, float]:
+        """Return the values of a key, or of every member of a key with a star, by their keys."""
+        meant = self._meant(key)
+        for field in meant:
+            if isinstance(field.value, bool | str):
+                what = f"значение ключа {dotted(field.path)} — не число"
+                raise InputError(Problem(self.name, what, "выберите числовой ключ"))
+        return {dotted(field.path): float(field.value) for field in meant}
+
     def names(self) -> Sequence[str]:
         """Return the keys of the file."""
         return list(self._fields)

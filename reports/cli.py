@@ -14,7 +14,8 @@ import click
 
 from reports.commands.class_commands import grade, issue
 from reports.commands.common import BAD, DONE, HELP, RussianGroup, advice, error_text
-from reports.commands.engine import build, check, doctor, new, solve
+from reports.commands.engine import build, check, doctor, new, schema, solve
+from reports.commands.seek import optimise
 from reports.commands.studies import compare, sweep, validate
 from reports.shared.errors import KshmError
 from reports.web.command import serve
@@ -180,7 +181,21 @@ def main(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for _command in (new, check, solve, build, issue, grade, validate, sweep, compare, serve, doctor):
+for _command in (
+    new,
+    check,
+    solve,
+    build,
+    issue,
+    grade,
+    validate,
+    sweep,
+    optimise,
+    compare,
+    serve,
+    schema,
+    doctor,
+):
     main.add_command(_command)
 
 

@@ -46,6 +46,14 @@ class Source:
         """Return the label of a key's unit."""
         raise NotImplementedError
 
+    def title(self, key: str) -> str:
+        """Return what a key means, with its unit."""
+        raise NotImplementedError
+
+    def values(self, key: str) -> Mapping[str, float]:
+        """Return the values of a key, or of every member of a key with a star, by their keys."""
+        raise NotImplementedError
+
     def names(self) -> Sequence[str]:
         """Return the keys of the file."""
         raise NotImplementedError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from html import escape
-from typing import TYPE_CHECKING, Generic, NoReturn, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
 from kshm.errors import Problem, UnknownNameError
 from kshm.nomenclature.quantity import Quantity, quantity
@@ -243,21 +243,13 @@ NAMES: dict[str, dict[str, str]] = {
 Kind = TypeVar("Kind", bound=ResultGroup)
 
 
-class HasScalars(Protocol):
-    """What results are of."""
-
-    @property
-    def scalars(self) -> Mapping[str, float]:
-        """Value by key."""
-
-
 class Group(Generic[Kind]):
     """A group of results as an attribute of what has ``scalars``."""
 
     def __init__(self, kind: type[Kind]) -> None:
         self._kind = kind
 
-    def __get__(self, solution: HasScalars | None, owner: type) -> Kind:
+    def __get__(self, solution: Any, owner: type) -> Kind:  # noqa: ANN401
         """Return the results of the solution."""
         return self if solution is None else self._kind(solution.scalars)  # type: ignore[return-value]
 

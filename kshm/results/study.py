@@ -99,14 +99,13 @@ def sweep(
     """
     rows = _rows(vary, pairwise=pairwise)
     study = Study.of(engine, tuple(vary), quantities)
-    counter = _Told(len(rows), progress)
     parts: list[Solved] = []
     try:
-        for part in _in_order(study, _chunks(rows, study.size), jobs):
+        for part in in_order(study, rows, jobs, progress=progress):
             parts.append(part)
-            counter.step(len(part.rows))
     except KeyboardInterrupt:
-        interrupted = StudyInterrupted(f"{counter.done} of {counter.total} rows are done")
+        done = sum(len(part.rows) for part in parts)
+        interrupted = StudyInterrupted(f"{done} of {len(rows)} rows are done")
         interrupted.partial = study.frame(parts)
         raise interrupted from None
     return study.frame(parts)
@@ -138,7 +137,7 @@ class Study:
         """
         engine_maker(engine, names)
         refuse((isinstance(quantities, str), "quantities: must be a list of keys, not a text"))
-        chosen = choose(solve_batch([engine]), quantities, _cycle(engine))
+        chosen = choose(solve_batch([engine]), quantities, cycle_of(engine))
         return cls(engine, names, chosen)
 
     @property
@@ -161,7 +160,7 @@ class Study:
                 groups.setdefault(structure(engine), []).append((at, engine))
         for group in groups.values():
             here, engines = [at for at, _ in group], [engine for _, engine in group]
-            cycles = [_cycle(engine) for engine in engines]
+            cycles = [cycle_of(engine) for engine in engines]
             try:
                 numbers, reasons = of_batch(solve_batch(engines), self.chosen, cycles)
             except KeyError as error:  # of another structure
@@ -204,7 +203,8 @@ class Study:
         return source.unit(key) if source is not None and key else ""
 
 
-def _cycle(engine: Engine) -> CycleRun | None:
+def cycle_of(engine: Engine) -> CycleRun | None:
+    """Return the calculation that an engine's gas comes from, if it is as it was read."""
     source = engine.source
     run: CycleRun | None = source.cycle if source is not None and source.has_made(engine) else None
     return run
@@ -251,13 +251,27 @@ def _rows(vary: Mapping[str, Collection[float]], *, pairwise: bool) -> list[Row]
 
 
 def _chunks(rows: list[Row], size: int) -> Iterator[list[Row]]:
+    """Yield the rows, so many at a time."""
     for begin in range(0, len(rows), size):
         yield rows[begin : begin + size]
 
 
-def _in_order(study: Study, chunks: Iterator[list[Row]], jobs: int) -> Iterator[Solved]:
-    """Yield the solved chunks in order, from this process or from several."""
+def in_order(
+    study: Study, rows: list[Row], jobs: int = 1, *, progress: bool | Progress = False
+) -> Iterator[Solved]:
+    """Yield the solved rows in order, from this process or from several, a chunk at a time.
+
+    Raises:
+        InputError: there is no process to work.
+    """
     refuse((jobs < 1, f"jobs: must be 1 or more, not {jobs}"))
+    told = _Told(len(rows), progress)
+    for part in _solved(study, _chunks(rows, study.size), jobs):
+        yield part
+        told.step(len(part.rows))
+
+
+def _solved(study: Study, chunks: Iterator[list[Row]], jobs: int) -> Iterator[Solved]:
     if jobs == 1:
         yield from map(study.solve, chunks)
         return

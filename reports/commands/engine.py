@@ -83,9 +83,35 @@ def new(
         return DONE
     if output.exists() and not is_stream(output):
         raise KshmError(f"{output}: файл уже есть; укажите другое имя ключом -o или удалите его")
+    if book is None and not is_stream(output):
+        from reports.inputs.schema import LINE, write_beside
+
+        text = f"#{LINE}\n{text}"
+        write_beside(output)
     write_text(output, text)
     tell_written(output)
     tell_next("check", output)
+    return DONE
+
+
+@click.command(cls=RussianCommand, context_settings=HELP)
+@click.argument("source", metavar="[ФАЙЛ]", required=False, type=click.Path(path_type=Path))
+@path_option("-o", "--output", help="Куда записать (иначе на экран).")
+@verbose_option
+def schema(source: Path | None, output: Path | None) -> int:
+    """Дать схему файла исходных данных (JSON Schema): редактор подскажет и проверит ключи.
+
+    У файла со своими книгами расчёта в схеме есть и их ключи.
+    """
+    from reports.inputs.schema import schema_text
+    from reports.shared.files import write_text
+
+    text = schema_text(() if source is None else load(source).model.books)
+    if output is None:
+        click.echo(text, nl=False)
+    else:
+        write_text(output, text)
+        tell_written(output)
     return DONE
 
 
@@ -328,12 +354,11 @@ def doctor() -> int:
     """Проверить, чего не хватает на этом компьютере."""
     from reports.shared.doctor import check_system
 
-    complete = True
-    for part in check_system():
-        mark = "есть" if part.ok else "НЕТ"
+    parts = check_system()
+    for part in parts:
+        mark = "есть" if part.ok else "НЕТ" if part.required else "нет"
         click.echo(f"{mark:>4}  {part.name}: {part.detail}")
-        if not part.ok:
-            complete = False
-            if part.install_command:
-                click.echo(f"      установить: {part.install_command}")
-    return DONE if complete else MISSING
+    commands = [part.install_command for part in parts if part.install_command]
+    for command in dict.fromkeys(commands):
+        click.echo(f"      установить: {command}")
+    return DONE if all(part.ok or not part.required for part in parts) else MISSING

@@ -60,7 +60,6 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
 @click.option(
     "--vary",
     multiple=True,
-    required=True,
     metavar="КЛЮЧ=ОТ:ДО:N",
     help="Ключ файла и N значений, например geometry.bore_mm=84:92:9; можно не один.",
 )
@@ -71,6 +70,12 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
     metavar="ИМЯ",
     help="Величина: M_mean или столбец P4_1.N_MPa (по умолчанию основные).",
 )
+@click.option(
+    "--tolerance", "tolerances", multiple=True, metavar="КЛЮЧ=ДОПУСК",
+    help="Вместо --vary: разброс результатов при ±ДОПУСК, например bore_mm=0.02.",
+)  # fmt: skip
+@click.option("--samples", default=1000, metavar="ЧИСЛО",
+              help="Двигателей в выборке с --tolerance (по умолчанию 1000).")  # fmt: skip
 @click.option(
     "--pairwise", is_flag=True, help="Первое с первым, второе со вторым, а не все со всеми."
 )
@@ -89,7 +94,8 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
 @verbose_option
 def sweep(
     source: Path, vary: tuple[str, ...], quantities: tuple[str, ...], pairwise: bool,
-    target: Path, jobs: int, dask: str | None, resume: bool, **form: bool,
+    target: Path, jobs: int, dask: str | None, resume: bool, tolerances: tuple[str, ...],
+    samples: int, **form: bool,
 ) -> int:  # fmt: skip
     """Исследовать параметры: наибольшие и средние значения при всех сочетаниях.
 
@@ -102,6 +108,14 @@ def sweep(
 
     if jobs < 0:
         raise KshmError("--jobs не может быть отрицательным")
+    if tolerances and (vary or dask or resume or pairwise):
+        raise KshmError("--tolerance исключает --vary, --pairwise, --resume и --dask")
+    if not tolerances and not vary:
+        raise KshmError("нужен ключ --vary, пример: --vary geometry.bore_mm=84:92:9")
+    if tolerances:
+        from reports.commands.seek import scatter
+
+        return scatter(source, tolerances, quantities, target, samples, jobs or 1)
     done = run_sweep(
         source, vary, target, quantities=quantities, pairwise=pairwise,
         options=SweepOptions(jobs=jobs, dask=dask, form=CsvForm(**form), resume=resume),

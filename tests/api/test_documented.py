@@ -49,6 +49,19 @@ def test_the_lines_are_clean_under_strict_types(source: str, tmp_path: Path) -> 
     assert done.returncode == 0, done.stdout
 
 
+def test_the_script_is_clean_under_pyright(tmp_path: Path) -> None:
+    checked = tmp_path / SCRIPT.name
+    checked.write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
+    settings = {
+        "include": [checked.name], "extraPaths": [str(ROOT)], "typeCheckingMode": "strict",
+        "reportMissingTypeStubs": False, "pythonVersion": "3.11",
+    }  # fmt: skip
+    (tmp_path / "pyrightconfig.json").write_text(json.dumps(settings), encoding="utf-8")
+    words = [sys.executable, "-m", "basedpyright", "-p", tmp_path, "--pythonpath", sys.executable]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
 @pytest.mark.parametrize("name", sample_names())
 def test_an_engine_of_a_file_has_every_number_of_the_command(name: str) -> None:
     _, loaded = loaded_of(name)

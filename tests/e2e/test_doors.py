@@ -144,14 +144,15 @@ def test_both_packages_are_the_command(module: str) -> None:
     assert done.stdout.decode().startswith("Использование: kshm [КЛЮЧИ] КОМАНДА")
 
 
-COMMANDS = ("", "new", "check", "solve", "build", "issue", "grade", "validate", "sweep", "doctor")
+COMMANDS = ("", "new", "check", "solve", "build", "issue", "grade", "validate", "sweep",
+            "optimise", "schema", "doctor")  # fmt: skip
 # Names of things, the same in every language.
 NAMES = set(
     re.findall(
         r"\w+",
         "kshm html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host variants "
         "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
-        "inline v opposed petrol docx sheet book",
+        "inline v opposed petrol docx sheet book schema max",
     )
 )
 

@@ -349,7 +349,9 @@ def test_variables_of_other_programs_do_not_reach_it(house):
     shown = 'echo "${PYTHONPATH-none} ${PYTHONHOME-none} $KSHM_COMMAND"'
     house.tool(house.root / ".venv/bin/kshm", shown)
     done = house.run("check", "x", PYTHONPATH="/elsewhere", PYTHONHOME="/nowhere")
-    assert done.stdout == "none none ./run\n"
+    assert done.stdout == f'none none "{house.root}/run"\n'  # as it works from here
+    done = house.run("check", "x", KSHM_COMMAND="kshm")
+    assert done.stdout == "none none kshm\n"
 
 
 def test_what_the_system_lacks_comes_beside_the_packages(house):
@@ -367,7 +369,10 @@ def test_what_the_system_lacks_comes_beside_the_packages(house):
     )
     done = house.run("test", "tests/web")
     assert (done.returncode, (house.root / ".venv/kshm-stamp").exists()) == (3, False)
-    assert "Не удалось установить пакеты Python" in done.stderr.splitlines()[-1]
+    assert done.stderr.splitlines()[-1] == (
+        "pip остановился: не удалось установить пакеты Python; проверьте сеть и повторите команду "
+        "(подробности: ключ -v)."
+    )
     called = [call for call in house.calls() if "apt-get" in call or "pip install" in call]
     assert len([call for call in called if "update" in call]) == 1
     assert len([call for call in called if "libpango" in call]) == 1
@@ -410,3 +415,28 @@ def test_no_address_in_the_constraints():
 def test_windows_script_has_windows_line_ends():
     data = (ROOT / "run.cmd").read_bytes()
     assert data.count(b"\r\n") == data.count(b"\n") > 40
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("OSError: [Errno 28] No space left on device", "На диске нет места: "),
+        ("NewConnectionError: Temporary failure in name resolution", "Нет сети: "),
+        ("ERROR: No matching distribution found for numpy==9", "Нет пакета, который подходит"),
+        ("PermissionError: [Errno 13] Permission denied: 'x'", "Нет прав на папку "),
+    ],
+)
+def test_a_failed_pip_is_one_sentence_with_the_cause_first(house, said, told):
+    (house.root / ".venv/kshm-stamp").write_text("")
+    broken = f"""case "$*" in *"pip install"*) echo "{said}" >&2; exit 1;; esac"""
+    house.tool(house.root / "python", broken)
+    made = house.root / ".venv/bin/python"
+    making = f"""case "$*" in
+        *"-m venv"*) mkdir -p "{made.parent}"; cp "{house.root}/python" "{made}";; esac"""
+    for folder in (house.bin / "system", house.bin):
+        house.tool(folder / "python3", making)
+    done = house.run("check", "x", KSHM_NO_SYSTEM="1")
+    assert done.returncode == 3 and done.stderr.splitlines()[-1].startswith(told)
+    assert said not in done.stderr
+    done = house.run("check", "x", "-v", KSHM_NO_SYSTEM="1")
+    assert said in done.stderr

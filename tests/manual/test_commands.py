@@ -20,6 +20,7 @@ from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import load_register
 from reports.inputs.fields import iter_fields
 from reports.inputs.load import load_toml
+from reports.inputs.schema import LINE
 from reports.workbook.read import load_workbook_input
 from tests.cover import ALL
 from tests.grading.fill import filled_book
@@ -96,9 +97,10 @@ def submitted(folder: Path) -> None:
 
 
 def copied(folder: Path) -> None:
-    """The copy of a sample is the sample, but for the year of the report."""
+    """The copy of a sample is the sample, but for the year of the report and the schema's line."""
     copy, given = ((folder / name).read_text(encoding="utf-8") for name in COPY)
-    assert re.sub(r"year = \d+", "year = 2006", copy) == given
+    first, _, rest = copy.partition("\n")
+    assert first == f"#{LINE}" and re.sub(r"year = \d+", "year = 2006", rest) == given
     if not ALL:
         put(folder / COPY[0], "[report]\n", '[report]\nchapters = ["kinematics", "checks"]\n')
 

@@ -23,6 +23,7 @@ from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import SymbolError, inline_html
 from reports.document.text.terms import (
+    Terms,
     field_title,
     input_text,
     is_twice_radius,
@@ -81,7 +82,7 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
     abbreviations, again = list(_ABBREVIATIONS), {}
     if text is not None:
         formulas = "\n".join(chapter.writer.formulas)
-        present = [name for name in present if _occurs(terms.tex(name), text, formulas)]
+        present = [name for name in present if _occurs(_tex(terms, name), text, formulas)]
         abbreviations = [pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text)]
         again = {"h": chapter.writer.heading_again}
     symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
@@ -91,14 +92,17 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
 def _of_subjects(chapter: Chapter) -> list[str]:
     """One name for every symbol of the chapters that have quantities of their own."""
     model = chapter.model
-    columns = (f"{table}.{column.key}" for table, block in model.tables.items()
-               for column in block.columns)  # fmt: skip
+    nodes = dict(model.scalars.items()) | {
+        f"{table}.{column.key}": column
+        for table, block in model.tables.items()
+        for column in block.columns
+    }
     first: dict[str, str] = {}
-    for name in (*model.scalars, *columns):
-        key = name.rpartition(".")[2]
-        if key.startswith(_SUBJECTS) and (tex := chapter.terms.tex(name)):
-            first.setdefault(tex, name)
-    known = {chapter.terms.tex(name) for name in _SYMBOLS if chapter.terms.has(name)}
+    for name, node in nodes.items():
+        if name.rpartition(".")[2].startswith(_SUBJECTS) and node.quantity.tex:
+            first.setdefault(node.quantity.tex, name)
+    terms = chapter.terms
+    known = {terms.tex(name) for name in _SYMBOLS if name == "phi_deg" or terms.has(name)}
     return [name for tex, name in first.items() if tex not in known and _is_simple(tex)]
 
 
@@ -108,6 +112,12 @@ def _is_simple(tex: str) -> bool:
         return bool(re.match(r"(<span class=\"bar\">)?<i>|[ΔΣ]", inline_html(tex)))
     except SymbolError:
         return False
+
+
+def _tex(terms: Terms, name: str) -> str:
+    """Symbol of a name; of the subjects' ones, which are many, that of their quantity."""
+    own = name.rpartition(".")[2].startswith(_SUBJECTS)
+    return terms.quantity(name).tex if own else terms.tex(name)
 
 
 def _occurs(tex: str, text: str, formulas: str) -> bool:

@@ -99,8 +99,10 @@ def _of_subjects(chapter: Chapter) -> list[str]:
     }
     first: dict[str, str] = {}
     for name, node in nodes.items():
-        if name.rpartition(".")[2].startswith(_SUBJECTS) and node.quantity.tex:
-            first.setdefault(node.quantity.tex, name)
+        tex = node.quantity.tex
+        # A letter alone counts rows or is another chapter's.
+        if name.rpartition(".")[2].startswith(_SUBJECTS) and len(tex) > 1:
+            first.setdefault(tex, name)
     terms = chapter.terms
     known = {terms.tex(name) for name in _SYMBOLS if name == "phi_deg" or terms.has(name)}
     return [name for tex, name in first.items() if tex not in known and _is_simple(tex)]

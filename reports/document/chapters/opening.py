@@ -97,15 +97,26 @@ def _of_subjects(chapter: Chapter) -> list[str]:
         for table, block in model.tables.items()
         for column in block.columns
     }
-    first: dict[str, str] = {}
+    others = {_bare(input_symbol_tex(field.symbol or "")) for field in model.fields.values()}
+    own: dict[str, dict[str, str]] = {}  # symbol → title → name
     for name, node in nodes.items():
         tex = node.quantity.tex
-        # A letter alone counts rows or is another chapter's.
-        if name.rpartition(".")[2].startswith(_SUBJECTS) and len(tex) > 1:
-            first.setdefault(tex, name)
-    terms = chapter.terms
-    known = {terms.tex(name) for name in _SYMBOLS if name == "phi_deg" or terms.has(name)}
-    return [name for tex, name in first.items() if tex not in known and _is_simple(tex)]
+        if not name.rpartition(".")[2].startswith(_SUBJECTS):
+            others.add(_bare(tex))
+        elif len(tex) > 1:  # a letter alone counts rows
+            title = re.sub(r"\d", "", node.quantity.title)
+            own.setdefault(tex, {}).setdefault(title, name)
+    others.add(_bare(chapter.terms.tex("phi_deg")))
+    return [
+        next(iter(names.values()))
+        for tex, names in own.items()
+        if len(names) == 1 and _bare(tex) not in others and _is_simple(tex)
+    ]
+
+
+def _bare(tex: str) -> str:
+    """A symbol without braces and spaces, which do not tell it from another."""
+    return re.sub(r"[{}\s]", "", tex)
 
 
 def _is_simple(tex: str) -> bool:

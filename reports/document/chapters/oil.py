@@ -31,9 +31,9 @@ _REYNOLDS = (
 )
 _MOTION = (
     r"\chi' = \bar M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu}, \quad "
+    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu_{\mathrm{м}}}, \quad "
     r"\chi\,\delta_F' = \bar M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu} + "
+    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu_{\mathrm{м}}} + "
     r"\chi\dfrac{\omega_{\mathrm{цап}} + \omega_{\mathrm{вкл}}}{2}"
 )
 _SAFETY = (
@@ -190,7 +190,8 @@ def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
         TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"k_{\mathrm{ср}}",
                                                                           "МПа")),
         TableColumn(symbol_head(r"\chi", "")), TableColumn(symbol_head(r"t_{\mathrm{м}}", "°C")),
-        TableColumn(symbol_head(r"\mu", "мПа·с")), TableColumn(symbol_head(r"h_{\min}", "мкм")),
+        TableColumn(symbol_head(r"\mu_{\mathrm{м}}", "мПа·с")),
+        TableColumn(symbol_head(r"h_{\min}", "мкм")),
         TableColumn(symbol_head("K_h", "")), TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
         TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
     ]  # fmt: skip

@@ -23,6 +23,7 @@ from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import SymbolError, inline_html
 from reports.document.text.terms import (
+    Terms,
     field_title,
     input_text,
     is_twice_radius,
@@ -81,7 +82,7 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
     abbreviations, again = list(_ABBREVIATIONS), {}
     if text is not None:
         formulas = "\n".join(chapter.writer.formulas)
-        present = [name for name in present if _occurs(terms.tex(name), text, formulas)]
+        present = [name for name in present if _occurs(_tex(terms, name), text, formulas)]
         abbreviations = [pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text)]
         again = {"h": chapter.writer.heading_again}
     symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
@@ -91,15 +92,31 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
 def _of_subjects(chapter: Chapter) -> list[str]:
     """One name for every symbol of the chapters that have quantities of their own."""
     model = chapter.model
-    columns = (f"{table}.{column.key}" for table, block in model.tables.items()
-               for column in block.columns)  # fmt: skip
-    first: dict[str, str] = {}
-    for name in (*model.scalars, *columns):
-        key = name.rpartition(".")[2]
-        if key.startswith(_SUBJECTS) and (tex := chapter.terms.tex(name)):
-            first.setdefault(tex, name)
-    known = {chapter.terms.tex(name) for name in _SYMBOLS if chapter.terms.has(name)}
-    return [name for tex, name in first.items() if tex not in known and _is_simple(tex)]
+    nodes = dict(model.scalars.items()) | {
+        f"{table}.{column.key}": column
+        for table, block in model.tables.items()
+        for column in block.columns
+    }
+    others = {_bare(input_symbol_tex(field.symbol or "")) for field in model.fields.values()}
+    own: dict[str, dict[str, str]] = {}  # symbol → title → name
+    for name, node in nodes.items():
+        tex = node.quantity.tex
+        if not name.rpartition(".")[2].startswith(_SUBJECTS):
+            others.add(_bare(tex))
+        elif len(tex) > 1:  # a letter alone counts rows
+            title = re.sub(r"\d", "", node.quantity.title)
+            own.setdefault(tex, {}).setdefault(title, name)
+    others.add(_bare(chapter.terms.tex("phi_deg")))
+    return [
+        next(iter(names.values()))
+        for tex, names in own.items()
+        if len(names) == 1 and _bare(tex) not in others and _is_simple(tex)
+    ]
+
+
+def _bare(tex: str) -> str:
+    """A symbol without braces and spaces, which do not tell it from another."""
+    return re.sub(r"[{}\s]", "", tex)
 
 
 def _is_simple(tex: str) -> bool:
@@ -108,6 +125,12 @@ def _is_simple(tex: str) -> bool:
         return bool(re.match(r"(<span class=\"bar\">)?<i>|[ΔΣ]", inline_html(tex)))
     except SymbolError:
         return False
+
+
+def _tex(terms: Terms, name: str) -> str:
+    """Symbol of a name; of the subjects' ones, which are many, that of their quantity."""
+    own = name.rpartition(".")[2].startswith(_SUBJECTS)
+    return terms.quantity(name).tex if own else terms.tex(name)
 
 
 def _occurs(tex: str, text: str, formulas: str) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 from kshm.arrays import Array
 from kshm.engine.checks import refuse
 from kshm.engine.engine import Engine
+from kshm.engine.revised import engine_maker
 from kshm.errors import InputError, KshmError, Problem
 from kshm.results.study import Row, Study
 
@@ -165,12 +166,13 @@ class _QuantitySearch:
             (self.name not in chosen, f"{quantity}: the parts of a column are {', '.join(chosen)}"),
             (not is_part and len(chosen) > 1, f"{quantity}: name one of {', '.join(chosen)}"),
         )
+        self._make = engine_maker(engine, names)
         self.solved = 0
         self._reason = ""
 
     def results(self, rows: list[Row]) -> Array:
         """Return the quantity of each row, NaN where an engine is refused, shape (rows,)."""
-        solved = self.study.solve(rows)
+        solved = self.study.solve(rows, self._make)
         self.solved += len(rows)
         self._reason = next(filter(None, solved.errors), self._reason)
         return solved.values[self.name]

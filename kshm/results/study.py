@@ -24,6 +24,7 @@ from kshm.cycle.cycle import CycleRun
 from kshm.engine.checks import refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import VARIED, engine_maker
+from kshm.engine.source import MakeEngine
 from kshm.errors import InputError, KshmError, Problem, UnknownNameError, one_line
 from kshm.nomenclature.quantity import UNITS
 from kshm.results.chosen import ChosenQuantities, choose, described, of_batch
@@ -145,9 +146,12 @@ class Study:
         """Rows of a chunk."""
         return chunk_size(self.engine)
 
-    def solve(self, rows: Sequence[Row]) -> Solved:
-        """Return the numbers of rows; a wrong one has its reason."""
-        make = engine_maker(self.engine, self.names)
+    def solve(self, rows: Sequence[Row], make: MakeEngine | None = None) -> Solved:
+        """Return the numbers of rows; a wrong one has its reason.
+
+        ``make`` is an `engine_maker` of the study, where one serves for many calls.
+        """
+        make = make or engine_maker(self.engine, self.names)
         errors = [""] * len(rows)
         values = {name: np.full(len(rows), np.nan) for name in self.chosen.names}
         groups: dict[tuple[object, ...], list[tuple[int, Engine]]] = {}

@@ -71,8 +71,8 @@ def validate(folder: Path, only: tuple[str, ...]) -> int:
     help="Величина: M_mean или столбец P4_1.N_MPa (по умолчанию основные).",
 )
 @click.option(
-    "--tolerance", "tolerances", multiple=True, metavar="КЛЮЧ=ДОПУСК",
-    help="Вместо --vary: разброс результатов при ±ДОПУСК, например bore_mm=0.02.",
+    "--tolerance", "tolerances", multiple=True, metavar="КЛЮЧ=Т",
+    help="Вместо --vary: разброс результатов при допуске ±Т, например bore_mm=0.02.",
 )  # fmt: skip
 @click.option("--samples", default=1000, metavar="ЧИСЛО",
               help="Двигателей в выборке с --tolerance (по умолчанию 1000).")  # fmt: skip

@@ -90,8 +90,8 @@ class FileSource(Source):
         meant = self._meant(key)
         for field in meant:
             if isinstance(field.value, bool | str):
-                what = f"значение ключа {dotted(field.path)} — не число"
-                raise InputError(Problem(self.name, what, "выберите числовой ключ"))
+                problem = f"значение ключа {dotted(field.path)} — не число"
+                raise InputError(Problem(self.name, problem, "выберите числовой ключ"))
         return {dotted(field.path): float(field.value) for field in meant}
 
     def names(self) -> Sequence[str]:

@@ -148,8 +148,8 @@ def optimise(
 def _limits(name: str, between: Collection[float]) -> tuple[float, float]:
     numbers = [float(each) for each in between]
     if len(numbers) != 2 or not all(map(math.isfinite, numbers)) or numbers[0] >= numbers[1]:
-        what = f"limits must be two numbers that rise, not {between!r}"
-        raise InputError(Problem(str(name), what, "e.g. (80, 95)", value=between))
+        problem = f"limits must be two numbers that rise, not {between!r}"
+        raise InputError(Problem(str(name), problem, "e.g. (80, 95)", value=between))
     return numbers[0], numbers[1]
 
 
@@ -187,9 +187,9 @@ class _QuantitySearch:
         if not finite.size:
             return self.refused()
         limits = float(finite.min()), float(finite.max())
-        what = f"does not reach {value:g} between these limits"
+        problem = f"does not reach {value:g} between these limits"
         hint = f"it goes from {limits[0]:.6g} to {limits[1]:.6g}"
-        return InputError(Problem(self.name, what, hint, limits, value))
+        return InputError(Problem(self.name, problem, hint, limits, value))
 
     def refused(self) -> InputError:
         return InputError(Problem("", f"no engine within the limits is solved: {self._reason}"))

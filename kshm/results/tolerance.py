@@ -174,8 +174,8 @@ def _spans(engine: Engine, tolerances: Mapping[str, float]) -> dict[str, tuple[f
     for name, half in tolerances.items():
         number = float(half) if isinstance(half, int | float | np.number) else math.nan
         if not (math.isfinite(number) and number > 0):
-            what = f"the tolerance must be a positive number, not {half!r}"
-            raise InputError(Problem(str(name), what, "e.g. 0.02", (0.0, None), half))
+            problem = f"the tolerance must be a positive number, not {half!r}"
+            raise InputError(Problem(str(name), problem, "e.g. 0.02", (0.0, None), half))
         key = source.find(name) if source is not None else ""
         if source is not None and key:
             spans |= {each: (value, number) for each, value in source.values(key).items()}

@@ -89,8 +89,8 @@ def _found(
             raise InputError(Problem(f"--vary {key}", "пределы не возрастают", _EXAMPLE))
     most_names = 1 if reach is not None else MAX_NAMES
     if len(limits) > most_names:
-        what = f"ключей {len(limits)}, а можно до {most_names}"
-        raise InputError(Problem("--vary", what, "остальные задайте в файле"))
+        problem = f"ключей {len(limits)}, а можно до {most_names}"
+        raise InputError(Problem("--vary", problem, "остальные задайте в файле"))
     engine = load(source, warn=False)
     try:
         with Progress("Поиск"):
@@ -121,8 +121,8 @@ def _check(engine: Engine, quantity: str) -> None:
     is_part = part in PARTS and "." in name
     chosen = choose(solve_batch([engine]), [name if is_part else quantity], cycle_of(engine))
     if not is_part and len(chosen.names) > 1:
-        what, hint = "это несколько чисел", f"назовите одно: {', '.join(chosen.names[:6])}"
-        raise InputError(Problem(quantity, what, hint))
+        problem, hint = "это несколько чисел", f"назовите одно: {', '.join(chosen.names[:6])}"
+        raise InputError(Problem(quantity, problem, hint))
 
 
 def _two_points(text: str) -> str:
@@ -135,9 +135,9 @@ def _aim(text: str) -> tuple[str, float]:
     try:
         return name, float(number.replace(",", "."))
     except ValueError:
-        what = "нужно ИМЯ=ЧИСЛО"
+        problem = "нужно ИМЯ=ЧИСЛО"
         raise InputError(
-            Problem(f"--reach {text}", what, "пример: --reach delta_speed=0.02")
+            Problem(f"--reach {text}", problem, "пример: --reach delta_speed=0.02")
         ) from None
 
 
@@ -202,8 +202,8 @@ def _tolerance(text: str, engine: Engine) -> tuple[str, float]:
     except ValueError:
         half = 0.0
     if not 0 < half < math.inf:
-        what, hint = "нужно КЛЮЧ=ДОПУСК, число больше нуля", "пример: geometry.bore_mm=0.02"
-        raise InputError(Problem(where, what, hint))
+        problem, hint = "нужно КЛЮЧ=ДОПУСК, число больше нуля", "пример: geometry.bore_mm=0.02"
+        raise InputError(Problem(where, problem, hint))
     if source is None or not source.find(key):
         close = difflib.get_close_matches(key, source.names() if source else (), n=3, cutoff=0.5)
         hint = f"похожи: {', '.join(close)}" if close else "ключи смотрите в файле"

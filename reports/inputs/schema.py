@@ -59,8 +59,8 @@ def input_schema(books: Texts = ()) -> Schema:
     regime = _object(RegimeValues)
     regime["properties"] = {**regime["properties"], "gas": sections["gas"]}
     regime["required"] = [*regime["required"], "gas"]
-    own = {name: {"title": about.title, **_object(about.model)}
-           for name, about in sections_of(books).items() if about.model is not None}  # fmt: skip
+    own = {name: {"title": spec.title, **_object(spec.model)}
+           for name, spec in sections_of(books).items() if spec.model is not None}  # fmt: skip
     properties = {
         **sections,
         "regimes": {"title": "Другие режимы", "type": "array", "items": regime},
@@ -80,20 +80,20 @@ def _closed(properties: Mapping[str, Schema], required: Iterable[str]) -> Schema
 
 
 def _section(section: InputSection) -> Schema:
-    about = {"title": section.title}
+    spec = {"title": section.title}
     if section.words:
-        about["description"] = "\n".join(section.words)
+        spec["description"] = "\n".join(section.words)
     if section.model is GeometrySection:  # sizes, or none where they follow from the power
         models = (GeometrySection, DesignGeometrySection)
-        return {**about, "anyOf": [_object(model) for model in models]}
+        return {**spec, "anyOf": [_object(model) for model in models]}
     if section.name == "gas":
         kinds = [_object(model) for model in GAS_MODELS.values()]
-        return {**about, "oneOf": [*kinds, _diagram_file()]}
-    return {**about, **_object(section.model)}
+        return {**spec, "oneOf": [*kinds, _diagram_file()]}
+    return {**spec, **_object(section.model)}
 
 
 def _diagram_file() -> Schema:
-    """Schema of a gas whose points stand in a file beside the input."""
+    """Return schema of a gas whose points stand in a file beside the input."""
     properties: dict[str, Schema] = {key: {} for key in sorted(FILE_KEYS)}
     properties["source"] = {"const": _OF_FILE}
     properties["file"] = {"title": "Файл с диаграммой", "type": "string"}

@@ -75,8 +75,8 @@ def check_suffix(target: Path) -> None:
         InputError: it is another.
     """
     if target.suffix.lower() not in SUFFIXES:
-        what = f"нужно окончание {', '.join(SUFFIXES)}"
-        raise InputError(Problem(str(target), what, "укажите его в ключе -o"))
+        problem = f"нужно окончание {', '.join(SUFFIXES)}"
+        raise InputError(Problem(str(target), problem, "укажите его в ключе -o"))
 
 
 def write(bands: Bands, engine: Engine, quantities: Sequence[str], target: Path) -> None:

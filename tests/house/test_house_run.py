@@ -430,9 +430,9 @@ def test_a_failed_pip_is_one_sentence_with_the_cause_first(house, said, told):
     (house.root / ".venv/kshm-stamp").write_text("")
     broken = f"""case "$*" in *"pip install"*) echo "{said}" >&2; exit 1;; esac"""
     house.tool(house.root / "python", broken)
-    made = house.root / ".venv/bin/python"
+    built = house.root / ".venv/bin/python"
     making = f"""case "$*" in
-        *"-m venv"*) mkdir -p "{made.parent}"; cp "{house.root}/python" "{made}";; esac"""
+        *"-m venv"*) mkdir -p "{built.parent}"; cp "{house.root}/python" "{built}";; esac"""
     for folder in (house.bin / "system", house.bin):
         house.tool(folder / "python3", making)
     done = house.run("check", "x", KSHM_NO_SYSTEM="1")

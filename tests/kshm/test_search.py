@@ -44,10 +44,10 @@ def test_two_inputs_at_an_edge_and_the_greatest() -> None:
 )
 def test_an_input_that_makes_a_result(name, key, quantity, value, between) -> None:
     engine = reports.load(name, warn=False)
-    found = kshm.solve_for(engine, key, quantity, value, between=between)
-    assert found.result == pytest.approx(value, rel=1e-8)
+    actual = kshm.solve_for(engine, key, quantity, value, between=between)
+    assert actual.result == pytest.approx(value, rel=1e-8)
     study = kshm.sweep(
-        engine, {key: [found.values[key]]}, quantities=[quantity.removesuffix(".max")]
+        engine, {key: [actual.values[key]]}, quantities=[quantity.removesuffix(".max")]
     )
     assert study.iloc[0, 1] == pytest.approx(value, rel=1e-8)
 

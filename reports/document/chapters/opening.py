@@ -115,7 +115,7 @@ def _of_subjects(chapter: Chapter) -> list[str]:
 
 
 def _bare(tex: str) -> str:
-    """A symbol without braces and spaces, which do not tell it from another."""
+    """Return a symbol without braces and spaces, which do not tell it from another."""
     return re.sub(r"[{}\s]", "", tex)
 
 

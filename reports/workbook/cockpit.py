@@ -57,7 +57,7 @@ CHARTS = ("fig50", "fig49", "p_phi", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
 BESIDE = ("fig49", "fig50")
 _WIDTHS = {"A": 31, "B": 9, "C": 14, "D": 7, "E": 1.5}
-_PEOPLE_ROW, VERDICT_ROW = 2, 3
+PEOPLE_ROW, VERDICT_ROW = 2, 3
 _VERDICT_HEIGHT = 30.0  # pt: two lines
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
@@ -85,10 +85,10 @@ def write_cockpit(
     title = model.input.report.title or "Кинематика и динамика КШМ"
     styles.as_text(sheet.cell(1, 1, title)).style = styles.TITLE
     sheet.row_dimensions[1].height = TITLE_HEIGHT
-    styles.as_text(sheet.cell(_PEOPLE_ROW, 1, _people(model))).style = styles.LINE
+    styles.as_text(sheet.cell(PEOPLE_ROW, 1, people(model))).style = styles.LINE
     row = _verdict(sheet, writer, VERDICT_ROW, verdict)
     top, row = row, write_tiles(sheet, writer, row)
-    if verdict is not None:
+    if verdict is not None and row > top:
         fade(sheet, area(Cell("", top + 1, 1), Cell("", row - 1, SPANS[-1][1])))
     row = _chapters(sheet, titles, contents_for(model), row) + 1
     boxes = _charts(sheet, model, writer, row)
@@ -103,7 +103,7 @@ def write_cockpit(
     return boxes
 
 
-def _people(model: Model) -> str:
+def people(model: Model) -> str:
     """Return the engine, and whose work this is."""
     report = model.input.report
     people = (

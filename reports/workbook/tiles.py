@@ -53,7 +53,9 @@ class _Number:
 
 
 def write_tiles(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
-    """Write the tiles into three rows; the row below them."""
+    """Write the tiles into three rows; return the row below them, the same without numbers."""
+    if not any(_first(writer, keys) for keys, _ in _TILES):
+        return row  # a book to fill in
     for offset, height in enumerate(_HEIGHTS):
         sheet.row_dimensions[row + offset].height = height
     for span, (keys, further) in zip(SPANS, _TILES, strict=True):

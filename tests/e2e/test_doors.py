@@ -150,8 +150,8 @@ COMMANDS = ("", "new", "check", "solve", "build", "issue", "grade", "validate", 
 NAMES = set(
     re.findall(
         r"\w+",
-        "kshm html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host variants "
-        "gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
+        "kshm live html pdf xlsx xlsm csv json toml excel moodle zip dask parquet tcp host "
+        "variants gots diesel geometry bore mm m mean p n mpa libreoffice issue build new "
         "inline v opposed petrol docx sheet book schema max",
     )
 )

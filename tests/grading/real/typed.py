@@ -14,6 +14,7 @@ from functools import lru_cache
 
 from reports.grading.issuing.handout import input_mark
 from reports.workbook.caches import sheet_parts
+from reports.workbook.cockpit import PEOPLE_ROW, people
 from reports.workbook.inputs import shown
 from reports.workbook.layout import CONTENTS_SHEET, Cell
 from tests.grading.classroom import opened
@@ -22,14 +23,12 @@ from tests.grading.real.desk import Desk, desk
 
 # What the first sheet repeats of the input data.
 _CONTENTS = {
-    Cell(CONTENTS_SHEET, 3, 2): "report_student",
-    Cell(CONTENTS_SHEET, 5, 2): "report_variant",
-    Cell(CONTENTS_SHEET, 9, 3): "regime_speed_rpm",
-    Cell(CONTENTS_SHEET, 10, 3): "gas_max_pressure_mpa",
-    Cell(CONTENTS_SHEET, 11, 3): "masses_reciprocating_kg",
-    Cell(CONTENTS_SHEET, 12, 3): "geometry_rod_length_mm",
-    Cell(CONTENTS_SHEET, 13, 3): "geometry_bore_mm",
-    Cell(CONTENTS_SHEET, 14, 3): "geometry_crank_radius_mm",
+    Cell(CONTENTS_SHEET, 8, 3): "regime_speed_rpm",
+    Cell(CONTENTS_SHEET, 9, 3): "gas_max_pressure_mpa",
+    Cell(CONTENTS_SHEET, 10, 3): "masses_reciprocating_kg",
+    Cell(CONTENTS_SHEET, 11, 3): "geometry_rod_length_mm",
+    Cell(CONTENTS_SHEET, 12, 3): "geometry_bore_mm",
+    Cell(CONTENTS_SHEET, 13, 3): "geometry_crank_radius_mm",
 }
 _PROPERTIES = "docProps/custom.xml"
 
@@ -56,6 +55,7 @@ def typed(here: Desk, values: Mapping[Cell, Value], first: Desk | None = None) -
     }
     of_inputs = {here.layout.cells[name]: value for name, value in drawn.items()}
     of_contents = {at: drawn[name] for at, name in _CONTENTS.items() if name in drawn}
+    of_contents[Cell(CONTENTS_SHEET, PEOPLE_ROW, 1)] = people(here.assignment.model)
     of_part: dict[str, dict[str, Value]] = {places[CONTENTS_SHEET]: {}}
     for cell, value in {**of_inputs, **of_contents, **values}.items():
         of_part.setdefault(places[cell.sheet], {})[cell.coordinate] = value

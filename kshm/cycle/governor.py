@@ -63,6 +63,9 @@ def branch(
         fuel_flow: G_T at the rated speed [kg/s].
         governor: the governor.
         shares: 0 at the rated speed, 1 at idling [-].
+
+    The degree of irregularity is by definition the span of speeds over their mean; the straight
+    line from the rated torque to none was not checked against a book.
     """
     speeds = omega + shares * (governor.idling(omega) - omega)
     torque = power / omega * (1 - shares)

@@ -58,7 +58,8 @@ def counterweight_drawing(
     for end in (180 - half, 180 + half):
         canvas.line(polar(centre, outer, end), polar(centre, reach + letters, end), layer=THIN)
     canvas.line(*_arc(reach, 180 - half, 180 + half), layer=SIZES)
-    canvas.words((0.0, -reach - 1.6 * letters), f"{number(web.angle)}°", letters, align=0.5)
+    below = [(0.0, -reach - (1.6 + 1.3 * n) * letters) for n in range(4)]
+    canvas.words_where_free(below, f"{number(web.angle)}°", letters, align=0.5)
     return interrupted(canvas.items)
 
 

@@ -205,6 +205,8 @@ def check_data(data: bytes, name: str) -> Package:
     try:
         package = Package(data)
         _check_parts(name, package)
+    except InputError:
+        raise
     except _DAMAGED:
         if _WORD in data:
             _refuse(name, "это повреждённый документ Word, а не книга .xlsx", "нужна сама книга")

@@ -19,6 +19,9 @@ from tests.sheet.sheet_samples import terms
 
 ENDINGS = ("-sheet.pdf", "-sheet.dxf", "-throw.dxf", "-mechanism.dxf")
 
+# Those that every engine has: others stand in chapters of their own.
+ALWAYS = [name for name in report.DIAGRAMS if name not in ("counterweight", "torsion")]
+
 
 def run(*args):
     done = CliRunner().invoke(main, [str(arg) for arg in args])
@@ -66,7 +69,7 @@ def test_the_command_writes_pdf_and_dxf(tmp_path):
 @pytest.mark.parametrize(
     ("section", "words"),
     [
-        (f'size = "A2"\ndiagrams = {list(report.DIAGRAMS)}', "помещается 14, выбрано 18"),
+        (f'size = "A2"\ndiagrams = {ALWAYS}', "помещается 14, выбрано 18"),
         ('size = "A4"', "A1"),
         ('diagrams = ["pie"]', "pie"),
         ('diagram = ["pv"]', "diagram"),
@@ -94,7 +97,7 @@ def test_a_person_picks_what_stands_on_it(size, way):
 
 
 def test_everything_fits_a1():
-    every = ", ".join(f'"{name}"' for name in report.DIAGRAMS)
+    every = ", ".join(f'"{name}"' for name in ALWAYS)
     canvas, _, _ = sheet_items(terms("d-240", f"\n[sheet]\ndiagrams = [{every}]\n"))
     assert any("Кривошипно-шатунный механизм" in getattr(i, "text", "") for i in canvas.items)
 

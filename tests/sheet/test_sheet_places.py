@@ -23,6 +23,9 @@ from tests.cover import chapters, charts, samples_with, sparse
 from tests.layouts import MAKERS, made
 from tests.sheet.sheet_samples import drawn, terms, terms_of
 
+# Those that every engine has: others stand in chapters of their own.
+ALWAYS = [name for name in DIAGRAMS if name not in ("counterweight", "torsion")]
+
 
 def faults(t) -> list[str]:
     canvas, width, height = drawn(t)
@@ -69,7 +72,7 @@ def test_no_place_lies_under_the_title_block(size):
 
 
 def test_everything_at_once():
-    every = f"\n[sheet]\ndiagrams = {list(DIAGRAMS)}\n".replace("'", '"')
+    every = f"\n[sheet]\ndiagrams = {ALWAYS}\n".replace("'", '"')
     assert faults(terms("ecoboost-10", every)) == []
     assert set(USUAL) < set(DIAGRAMS)
 

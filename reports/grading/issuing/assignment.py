@@ -26,8 +26,7 @@ from reports.model.evaluation import Evaluation, Graph, graph_of, nodes_of
 from reports.shared.errors import InputError, Problem
 
 _LIKE = re.compile(r"\s*\(\d+\)$")  # sheets of one kind: «П4.3 (2)»
-_COPY = 0.3
-_PICKS = ("element", "col_last")
+_COPY, _PICKS = 0.3, ("element", "col_last")
 # What models with the same blocks have in common.
 _SHARED = ("graph", "items", "points", "blocks", "fill_nodes", "states", "given_nodes",
            "live_nodes")  # fmt: skip

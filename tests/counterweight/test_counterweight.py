@@ -19,6 +19,7 @@ from reports.inputs.to_si.engine import to_engine
 from reports.model.blocks import Model
 from reports.model.evaluation import evaluate_model
 from reports.new.generate import generate_engine
+from reports.shared.errors import InputError
 from reports.tables.registry import build_model
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
@@ -170,3 +171,17 @@ def test_case_without_the_section_has_none():
     actual = solve(to_engine(sample("gots-diesel")))
     assert isinstance(actual._case, Case)
     assert not [key for key in actual.scalars if key.startswith("cw_")]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"outer_mm": 10.0}, "counterweight.outer_mm: наружный радиус противовеса 10 мм"),
+        ({"skirt_mm": 400.0}, "counterweight.skirt_mm: радиус, свободный под поршнем,"),
+    ],
+)
+def test_a_sector_without_room_is_refused_at_the_door(changes, said) -> None:
+    raw = to_mapping(sample("gots-diesel")) | {"counterweight": changes}
+    with pytest.raises(InputError) as caught:
+        load_mapping(raw, source="")
+    assert any(said in line for line in caught.value.lines())

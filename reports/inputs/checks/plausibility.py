@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band, diesel_rho, stated_kind
+from reports.inputs.checks.counterweight import check_counterweight
 from reports.inputs.checks.gas import check_indicated, indicated_of
 from reports.inputs.checks.layout import check_neighbours, check_one_rod, check_room
 from reports.inputs.checks.torsion import train_values
@@ -57,6 +58,7 @@ def check_plausibility(
     yield from _speed(model, sizes)
     yield from _shaft(model, sizes, accepted)
     yield from check_room(model, accepted)
+    yield from check_counterweight(model, sizes)
     yield from _efficiency(model)
     yield from _gas(model, model.gas, ())
     yield from check_indicated(model, sizes)

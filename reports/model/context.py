@@ -17,9 +17,13 @@ from reports.model.blocks import TIE
 from reports.model.shape import Scope
 from reports.shared.russian import short
 
-# What a chapter's text says of a key: value with unit, number, symbol, symbol = value, places.
-TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig")
+# What a chapter's text says of a key: value with unit, number, symbol, symbol = value; places of
+# tables, figures and sources; the values of a list that are beyond its limits, each with its mend.
+TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig", "src", "beyond")
 MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
+# What it says by its values alone: where a condition holds, where a list is within its limits.
+CASES = ("when", "within", "outside")
+CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(end))⟧")
 _SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
 
 
@@ -72,7 +76,8 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "roman": roman,
         "short": short,
         "tie": TIE,
-        **{word: partial(_mark, word) for word in TEXT_WORDS},
+        **{word: partial(_mark, word) for word in TEXT_WORDS + CASES},
+        "end": "⟦end⟧",
         **further,
     }
 

@@ -13,6 +13,7 @@ from reports.inputs.to_si.engine import to_engine
 from reports.inputs.units import number_text
 
 _GOAL = "loads"
+_LEAST_SHARE = 0.15  # of a throw's rotating masses: less is not worth a part
 _SIZES = {
     "skirt_mm": "вырезы юбки под противовес",
     "inner_mm": "радиус коренной шейки",
@@ -46,5 +47,8 @@ def counterweights_for(data: Mapping[str, Any]) -> NewCounterweights:
     limited = scalars["cw_taken"] < scalars["cw_best"]
     why = "больше сектор не берёт" if limited else "с ней сумма нагрузок коренных шеек наименьшая"
     notes = {f"counterweight.{key}": text for key, text in _SIZES.items()}
-    notes["crankshaft.webs.counterweight_kg"] = f"доля {share} вращающихся масс колена: {why}"
-    return NewCounterweights(section, float(f"{scalars['cw_reduced']:.4g}"), notes)
+    words, reduced = f"доля {share} вращающихся масс колена: {why}", scalars["cw_reduced"]
+    if scalars["cw_taken"] < _LEAST_SHARE:
+        words, reduced = f"нет: {words}", 0.0
+    notes["crankshaft.webs.counterweight_kg"] = words
+    return NewCounterweights(section, float(f"{reduced:.4g}"), notes)

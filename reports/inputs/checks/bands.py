@@ -38,7 +38,7 @@ class Band:
 
     ``key`` is a path of the file with the numbers of lists left out.  ``base`` divides the
     value: D, r, L [mm], n [min⁻¹], F (piston area in m²: the bounds of a large engine are
-    ``scaled``) or "".
+    ``scaled``), ΣF (that of a throw's pistons) or "".
     ``kind`` limits the band to an engine's kind (or number of strokes), ``zero`` lets a
     plain zero pass: there is no such part.
     """
@@ -92,6 +92,12 @@ def _mass(
     return Band(key, "F", f"{words}/F_п", low, high, source, "кг/м²", **more)  # type: ignore[arg-type]
 
 
+def _counterweight(low: float, high: float, kind: str = "") -> Band:
+    """Band of a web's counterweight, which balances the rods of a throw's pistons."""
+    key, words = "crankshaft.webs.counterweight_kg", "m_пр/ΣF_п"
+    return Band(key, "ΣF", words, low, high, unit="кг/м²", zero=True, kind=kind)
+
+
 def _share(key: str, words: str, low: float, high: float, **more: bool) -> Band:
     return Band(f"balance.{key}", "", words, low, high, **more)  # type: ignore[arg-type]
 
@@ -127,8 +133,8 @@ BANDS: tuple[Band, ...] = (
     _mass("masses.rod_big_end_kg", "m_2", 46, 400, TABLE_4),
     _mass("crankshaft.pin_mass_kg", "m_ш.ш", 35, 340),
     _mass("crankshaft.webs.mass_kg", "m_щ", 26, 255, zero=True),
-    _mass("crankshaft.webs.counterweight_kg", "m_пр", 48, 470, zero=True),
-    _mass("crankshaft.webs.counterweight_kg", "m_пр", 30, 295, zero=True, kind="petrol"),
+    _counterweight(42, 415),
+    _counterweight(22, 215, kind="petrol"),
     _mass("crankshaft.nose_mass_kg", "m_вп1", 18, 175, zero=True),
     _mass("crankshaft.rear_mass_kg", "m_вп2", 18, 175, zero=True),
     _mass("articulated.big_end_kg", "m_2п", 40, 390, zero=True),

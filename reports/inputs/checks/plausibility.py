@@ -12,7 +12,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from kshm.engine.arrangement import rods_beside
+from kshm.engine.arrangement import rods_beside, throws
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import BANDS, Band, diesel_rho, stated_kind
 from reports.inputs.checks.counterweight import check_counterweight
@@ -72,7 +72,7 @@ def check_plausibility(
 
 
 def _of_the_bore(entries: list[Tested]) -> list[Tested]:
-    return [entry for entry in entries if entry[1].base in ("D", "F")]
+    return [entry for entry in entries if entry[1].base in ("D", "F", "ΣF")]
 
 
 def _told(outside: list[Tested], accepted: Keys) -> Iterator[Finding]:
@@ -87,9 +87,10 @@ def _told(outside: list[Tested], accepted: Keys) -> Iterator[Finding]:
 
 
 def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
-    kind = stated_kind(model)
+    kind, area = stated_kind(model), sizes.piston_area
     bases = {
-        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": sizes.piston_area,
+        "": 1.0, "D": sizes.bore, "r": sizes.radius, "L": sizes.rod, "F": area,
+        "ΣF": area * max(map(len, throws(arrangement_of(model)))),
         "n": float(model.regime.speed_rpm),
     }  # fmt: skip
     keys_of_kind = {band.key for band in BANDS if band.kind and band.kind == kind}
@@ -99,7 +100,7 @@ def _tested(model: InputFile, sizes: Sizes) -> Iterator[Tested]:
         for path, value in values_at(model, band.key):
             if not (band.zero and value == 0):
                 over = abs(value) if band.base and band.zero else value
-                own_band = band.scaled(sizes.heavier) if band.base == "F" else band
+                own_band = band.scaled(sizes.heavier) if band.base.endswith("F") else band
                 yield path, own_band, over / bases[band.base]
 
 

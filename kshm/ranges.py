@@ -64,6 +64,13 @@ def hull(spans: Iterable[Span]) -> Span:
     return min(lows), max(highs)
 
 
+def side_of(value: float, span: Span) -> int:
+    """1 above a range, -1 below, 0 within; a compression is the greater, the further from zero."""
+    if span[0] <= value <= span[1]:
+        return 0
+    return 1 if abs(value) > max(map(abs, span)) else -1
+
+
 @dataclass(frozen=True, slots=True)
 class Ranges:
     """Ranges of one quantity, ends included, in the unit of its line.

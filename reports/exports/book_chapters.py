@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from reports.exports.book_faults import Own
 from reports.model.book_text import BookError, BookLine
-from reports.model.context import MARK
+from reports.model.context import CASE_MARK, MARK
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}
+_FURTHER = (*KINDS, "src", "beyond")
 _CALLED = {TABLE: "таблица", FIGURE: "рисунок"}
 _ODD_MARK = re.compile("⟦[^⟧]*⟧?")
 
 
 def lines_of(reading: Own) -> Iterator[tuple[str, str, BookLine]]:
     """Kinds and texts of the lines of all chapters, with their places."""
-    for chapter in reading.model.chapters:
+    for chapter in (each for each in reading.model.chapters if not each.name):
         for line in chapter.lines:
-            yield line.kind, line.text.strip(), BookLine(line.book, line.number, line.text)
+            line = replace(line, text=line.text.replace("@", "1"))  # any member's keys are alike
+            text = line.key if line.kind in ("show", "formula") else line.text.strip()
+            yield line.kind, text, BookLine(line.book, line.number, line.text)
 
 
 def kinds_of(reading: Own, key: str) -> list[str]:
@@ -39,13 +43,13 @@ def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
             yield reading.fault(line, f"формулы «{text}» нет",
                             "назовите величину или ТАБЛИЦА.СТОЛБЕЦ", text)  # fmt: skip
         for word, key in MARK.findall(text):
-            if word not in KINDS and key not in model.scalars and key not in model.fields:
+            if word not in _FURTHER and key not in model.scalars and key not in model.fields:
                 yield reading.fault(
                     line, f"в тексте нет «{key}»", "назовите величину или исходное", key
                 )
             if word in KINDS and KINDS[word] not in kinds_of(reading, key):
                 yield _of_another_kind(reading, line, word, key)
-        odd = _ODD_MARK.search(MARK.sub("", text))
+        odd = _ODD_MARK.search(CASE_MARK.sub("", MARK.sub("", text)))
         if odd is not None:
             yield reading.fault(line, f"«{odd[0].strip('⟦⟧')}» не разобрано",
                             'пишите {{ val("ИМЯ") }}')  # fmt: skip

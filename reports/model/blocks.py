@@ -18,6 +18,7 @@ from reports.model.charts import ChartSpec
 from reports.shared.russian import short
 
 _BEFORE = re.compile(r"\bprevious\(")
+_KEY = re.compile(r"\w+(?:\.\w+)?")  # with the column of a table
 _POINT = re.compile(r"gas_point_\d+_(?P<unit>deg|mpa)(?P<regime>_R\d+)?")
 
 TURN = "360"
@@ -99,13 +100,18 @@ class Scalar(Node):
     expr: str
     note: str = ""
     usual: tuple[float, float] | None = None
+    usual_unit: str = ""
+
+    @property
+    def usual_text(self) -> str:
+        """The usual span in print, ``20…150 МПа``; empty where there is none."""
+        span = "…".join(map(short, self.usual or ()))
+        return f"{span} {self.usual_unit}" if self.usual_unit else span
 
     @property
     def label(self) -> str:
         """The note with the usual span, as a list says it."""
-        if self.usual is None:
-            return self.note
-        return f"{self.note}: обычно {'…'.join(map(short, self.usual))}"
+        return f"{self.note}: обычно {self.usual_text}" if self.usual else self.note
 
 
 class Held(Enum):
@@ -178,20 +184,27 @@ Block = TableSpec | ScalarTable | Grid
 
 @dataclass(frozen=True, slots=True)
 class TextLine:
-    """A line of a chapter: ``kind`` is paragraph, heading, formula or show; where it is written."""
+    """A line of a chapter: its first word, ``paragraph`` without one; where it is written."""
 
     kind: str
     text: str
     book: str
     number: int
 
+    @property
+    def key(self) -> str:
+        """What a line is about: the block that it shows, the value of its formula."""
+        match = _KEY.match(self.text.strip())
+        return match[0] if match else ""
+
 
 @dataclass(frozen=True, slots=True)
-class OwnChapter:
-    """A chapter that a book says itself: its title and lines."""
+class BookChapter:
+    """A chapter that a book says itself: its title and lines, the name of one of the house."""
 
     title: str
     lines: tuple[TextLine, ...]
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -209,7 +222,7 @@ class Model:
     blocks: tuple[Block, ...]
     charts: tuple[ChartSpec, ...]
     remarks: tuple[str, ...] = ()
-    chapters: tuple[OwnChapter, ...] = ()
+    chapters: tuple[BookChapter, ...] = ()
     own_nodes: frozenset[str] = frozenset()  # what no solver knows
     department: frozenset[str] = frozenset()  # those of them that own books have
     left_out: tuple[str, ...] = ()
@@ -329,13 +342,14 @@ def judged(
     source: str = "проверка",
     words: tuple[str, str] = (YES, NO),
     usual: tuple[float, float] | None = None,
+    unit: str = "",
 ) -> tuple[Scalar, Scalar]:
     """Return a value and whether it passes; ``{value}`` in the test stands for it."""
     good, bad = words
     verdict = f'"{good}" if {test.format(value=value_key)} else "{bad}"'
     return (
-        Scalar(value_key, value, source, note=note, usual=usual, of="check_value"),
-        Scalar(key, verdict, note=note, usual=usual, of="check"),
+        Scalar(value_key, value, source, note=note, usual=usual, usual_unit=unit, of="check_value"),
+        Scalar(key, verdict, note=note, usual=usual, usual_unit=unit, of="check"),
     )
 
 

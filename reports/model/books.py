@@ -14,6 +14,7 @@ from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import FormulaError, is_condition, names, parse
 from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.sections.report import CHAPTERS
 from reports.inputs.solve_input import solved
 from reports.model.blocks import (
     ALLOWED,
@@ -21,10 +22,10 @@ from reports.model.blocks import (
     TURN,
     YES,
     Block,
+    BookChapter,
     Column,
     Grid,
     GridRow,
-    OwnChapter,
     Scalar,
     ScalarTable,
     TextLine,
@@ -51,11 +52,12 @@ from reports.model.shape import Part, stepped
 
 MOST_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)
-_SPAN = re.compile(r"(-?[\d.]+)…(-?[\d.]+)")  # a condition: within both ends
+_SPAN = re.compile(r"(-?[\d.]+)…(-?[\d.]+)(?: (\D\S*))?")  # a condition: within both ends
 _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
 )
+_TEXT_LINES = ("heading", "formula", "show", "insert", "pick", "mend")
 _HEADS = {
     "text": (r"(?P<title>.+)", "text ЗАГОЛОВОК"),
     "chapter": (r".+ [0-9A-F]{6}(?: smooth)?", "chapter НАЗВАНИЕ ЦВЕТ"),
@@ -122,7 +124,7 @@ class _BookReader:
     def __init__(self, shelf: Shelf, names: Mapping[str, Any], lines: BookPlaces) -> None:
         self._shelf, self._names = shelf, names
         self._places = lines
-        self._chapters: list[OwnChapter] = []
+        self._chapters: list[BookChapter] = []
         self._sheet = ""
         self._blocks: list[Block] = []
         self._charts: list[ChartSpec] = []
@@ -185,7 +187,7 @@ class _BookReader:
 
     def _said(self, block: _Open, word: str, tail: str, text: str) -> None:
         """Read a line of a chapter's text."""
-        kind = word if word in ("heading", "formula", "show") else "paragraph"
+        kind = word if word in _TEXT_LINES else "paragraph"
         said = tail if kind != "paragraph" else text
         block.lines.append(TextLine(kind, said, self._line.book, self._line.number))
 
@@ -273,8 +275,8 @@ class _BookReader:
                               "назовите его value: value <= 120", test)  # fmt: skip
         test = renamed(test, lambda name: value_name if name == "value" else name)
         self._placed(value_name, verdict)
-        source = source or "проверка"
-        return judged(value_name, verdict, value, _plain(test), title, source, words, ends)
+        source, unit = source or "проверка", (span and span[3]) or ""
+        return judged(value_name, verdict, value, _plain(test), title, source, words, ends, unit)
 
     def _allowed(self, block: _Open, text: str) -> tuple[Scalar, Scalar]:
         """``KEY = value | title``, held to the limit of the heading."""
@@ -325,7 +327,9 @@ class _BookReader:
             elif block.word == "text":
                 if not block.lines:
                     raise self._fault("в главе нет ни строки", "напишите абзац или show")
-                self._chapters.append(OwnChapter(block.about["title"], tuple(block.lines)))
+                title, lines = block.about["title"], tuple(block.lines)
+                name = title if title in CHAPTERS else ""
+                self._chapters.append(BookChapter(CHAPTERS.get(title, title), lines, name))
                 self._places.blocks[f"text {block.about['title']}"] = tuple(self._lines)
             else:
                 self._blocks.append(self._made(block))

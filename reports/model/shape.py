@@ -11,7 +11,7 @@ from functools import cached_property
 from kshm.engine.arrangement import Arrangement, pin_counts, pins, rods_beside, throws
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
-from reports.model.blocks import Block, OwnChapter
+from reports.model.blocks import Block, BookChapter
 from reports.model.charts import ChartSpec
 
 FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
@@ -285,7 +285,7 @@ class Part:
 
     blocks: tuple[Block, ...] = ()
     charts: tuple[ChartSpec, ...] = ()
-    chapters: tuple[OwnChapter, ...] = ()
+    chapters: tuple[BookChapter, ...] = ()
     own: frozenset[str] = frozenset()  # nodes of books whose numbers no solver gives
     department: frozenset[str] = frozenset()  # those of them that own books have
 

@@ -32,16 +32,18 @@ _PIN: Moves = (("pin_bore", -1), ("pin", 1), ("bosses", -1), ("eye_length", 1))
 _SHANK: Moves = (("shank_width", 1), ("shank_flange", 1), ("shank_web", 1), ("shank_height", 1),
                  ("rod_material", 1))  # fmt: skip
 _EYE: Moves = (("eye_outer", 1), ("eye_length", 1), ("rod_material", 1))
-# What lessens a stress, or makes a part safer, by the name of its check.
+# What lessens a stress, or makes a part safer, by its key.
 _MOVES: dict[str, Moves] = {
-    "crown": (("crown", 1),), "press": (("head_wall", 1),), "pull": (("head_wall", 1),),
-    "land": (("land", 1),), "q1": (("skirt", 1),), "q2": (("height", 1),),
-    "ring": (("ring_gap", -1),), "ring_work": (("ring_gap", -1),),
-    "pin_eye": (("eye_length", 1), ("pin", 1)),
-    "pin_boss": (("pin_length", 1), ("bosses", -1), ("pin", 1)),
-    "pin_bend": _PIN, "pin_shear": _PIN, "oval": _PIN[:2], "oval_in0": _PIN[:2],
-    "bush_in": (("eye_outer", 1), ("bush_wall", -1)),
-    "cap": (("cap_length", 1), ("bolts_apart", 1)),
+    "st_crown_MPa": (("crown", 1),), "st_land_MPa": (("land", 1),),
+    "st_press_MPa": (("head_wall", 1),), "st_pull_MPa": (("head_wall", 1),),
+    "st_q1_MPa": (("skirt", 1),), "st_q2_MPa": (("height", 1),),
+    "st_ring_MPa": (("ring_gap", -1),), "st_ring_work_MPa": (("ring_gap", -1),),
+    "st_pin_eye_MPa": (("eye_length", 1), ("pin", 1)),
+    "st_pin_boss_MPa": (("pin_length", 1), ("bosses", -1), ("pin", 1)),
+    "st_pin_bend_MPa": _PIN, "st_pin_shear_MPa": _PIN,
+    "st_oval_mm": _PIN[:2], "st_oval_in0_MPa": _PIN[:2],
+    "st_bush_in_MPa": (("eye_outer", 1), ("bush_wall", -1)),
+    "st_cap_MPa": (("cap_length", 1), ("bolts_apart", 1)),
     "st_eye_top_n": _EYE, "st_eye_n": _EYE, "st_shank_nx": _SHANK, "st_shank_ny": _SHANK,
     "st_bolt_n": (("bolt", 1), ("bolt_material", 1)), "st_web_n": (("web_material", 1),),
 }  # fmt: skip
@@ -136,9 +138,9 @@ class _Sizing:
         excess: dict[str, float] = {}
         for each in usual_stresses(section):
             value = results[each.key] / quantity(each.key).si
-            side = each.excess(value)
+            side = each.side(value)
             limit = each.most if side > 0 else each.low
-            excess[each.name] = math.log(abs(value) / limit) if side and limit else 0.0
+            excess[each.key] = math.log(abs(value) / limit) if side and limit else 0.0
         for key in SAFETIES:
             safety = results.get(key, math.inf)
             excess[key] = max(0.0, math.log(section.safety_allowed / safety))

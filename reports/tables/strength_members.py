@@ -19,41 +19,15 @@ from kshm.defaults import (
 )
 from kshm.mechanics.strength import EYE_M0, EYE_N0, RING, TORSION, Points
 from kshm.nomenclature.quantity import quantity
-from kshm.ranges import PART_SHARES, RANGES
+from kshm.ranges import PART_SHARES, RANGES, side_of
 from reports.inputs.sections.strength import PART_MATERIALS, StrengthSection
 from reports.model.shape import Scope
-from reports.shared.russian import short
 
 _FIGURES = 12  # decimals: what the print has of a slope, without noise
 SAFETIES = ("st_eye_top_n", "st_eye_n", "st_shank_nx", "st_shank_ny", "st_bolt_n", "st_web_n")
 ODD_FIFTHS = 1.0045237627951384  # sum of 1/n⁵ over odd n: 31/32 ζ(5)
 _BASES = {"bore": ("", "D"), "crankpin": ("pin_diameter_1_mm", "dш")}
 _NAMES = {"pin": "dп", "ring_radial": "t", "eye_outer": "dг", "eye_length": "lш"}
-_WALL, _PIN_WALL = "увеличить толщину стенки головки поршня", "увеличить толщину стенки пальца"
-_PIN_SIZES = "увеличить диаметр пальца или толщину его стенки"
-_GAP = "уменьшить разность зазоров замка"
-# Results held to a usual range, and what brings one back into it.
-_STRESSES: tuple[tuple[str, str, str], ...] = (
-    ("st_crown_MPa", "Напряжение в днище поршня", "увеличить толщину днища"),
-    ("st_press_MPa", "Напряжение сжатия поршня по канавке", _WALL),
-    ("st_pull_MPa", "Напряжение разрыва поршня по канавке", _WALL),
-    ("st_land_MPa", "Напряжение перемычки", "увеличить высоту перемычки"),
-    ("st_q1_MPa", "Давление юбки на цилиндр", "удлинить юбку"),
-    ("st_q2_MPa", "Давление поршня на цилиндр", "увеличить высоту поршня"),
-    ("st_ring_MPa", "Давление кольца на цилиндр", _GAP),
-    ("st_ring_work_MPa", "Напряжение кольца в работе", _GAP),
-    ("st_pin_eye_MPa", "Давление пальца на втулку",
-     "удлинить втулку шатуна или увеличить диаметр пальца"),
-    ("st_pin_boss_MPa", "Давление пальца на бобышки",
-     "удлинить палец или увеличить его диаметр"),
-    ("st_pin_bend_MPa", "Напряжение изгиба пальца", _PIN_SIZES),
-    ("st_pin_shear_MPa", "Напряжение среза пальца", _PIN_SIZES),
-    ("st_oval_mm", "Овализация пальца", _PIN_WALL),
-    ("st_oval_in0_MPa", "Напряжение овализации пальца", _PIN_WALL),
-    ("st_bush_in_MPa", "Напряжение запрессовки втулки", "уменьшить натяг втулки"),
-    ("st_cap_MPa", "Напряжение крышки шатуна",
-     "увеличить длину нижней головки или расстояние между болтами"),
-)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,12 +63,13 @@ def strength_names(scope: Scope) -> dict[str, object]:
         return {}
     return {
         "sizes": usual_sizes(section.kind),
+        "estimated": any(getattr(section, f"{key}_mm") is None for key in PART_SHARES),
         "materials": list(PART_MATERIALS.values()),
         "piston_share": PISTON_SHARE, "cap_share": CAP_SHARE, "groove_share": GROOVE_SHARE,
         "eye_share": EYE_SHARE, "turn_share": TURN_SHARE, "sizes_c": SIZES_C,
         "expansion": {"cylinder": IRON_EXPANSION, "bush": BUSH_EXPANSION,
                       "piston": piston_expansion(section)},
-        "stresses": usual_stresses(section), "safeties": SAFETIES,
+        "usual": {each.key: each for each in usual_stresses(section)}, "safeties": SAFETIES,
         "ring_points": RING, "eye_N0": EYE_N0, "eye_M0": EYE_M0,
         "torsion_lines": list(_lines(TORSION)), "torsion_end": TORSION[-1][0],
         "odd_fifths": ODD_FIFTHS,
@@ -115,18 +90,11 @@ def _lines(points: Points) -> Iterator[tuple[float, float]]:
 
 @dataclass(frozen=True, slots=True)
 class UsualStress:
-    """A result of a part with its usual range, in the unit of its quantity, and what mends it."""
+    """A result of a part with its usual range, in the unit of its quantity."""
 
     key: str
-    title: str
     low: float
     high: float
-    mend: str
-
-    @property
-    def name(self) -> str:
-        """Name of its check: ``crown`` of ``st_crown_MPa``."""
-        return self.key.removeprefix("st_").removesuffix("_MPa").removesuffix("_mm")
 
     @property
     def most(self) -> float:
@@ -134,20 +102,18 @@ class UsualStress:
         return max(abs(self.low), abs(self.high))
 
     @property
-    def usual(self) -> str:
-        """The range in print: ``20…150 МПа``."""
-        return f"{short(self.low)}…{short(self.high)} {quantity(self.key).unit_label}"
+    def unit(self) -> str:
+        """Unit of both ends."""
+        return quantity(self.key).unit_label
 
-    def excess(self, value: float) -> int:
-        """1 above the range, -1 below, 0 within; of a compression by its size."""
-        if self.low <= value <= self.high:
-            return 0
-        return 1 if abs(value) > self.most else -1
+    def side(self, value: float) -> int:
+        """1 above the range, -1 below, 0 within; see ``side_of``."""
+        return side_of(value, (self.low, self.high))
 
 
 def usual_stresses(section: StrengthSection) -> tuple[UsualStress, ...]:
     """Usual ranges of the results for the materials of an engine."""
     return tuple(
-        UsualStress(key, title, *RANGES[key].of(section.piston_material), mend)
-        for key, title, mend in _STRESSES
-    )
+        UsualStress(key, *RANGES[key].of(section.piston_material))
+        for key in RANGES if key.startswith("st_")
+    )  # fmt: skip

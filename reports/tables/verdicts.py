@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from kshm.ranges import side_of
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import NO, YES, Block, Held, Model, Scalar, ScalarTable, scalars_of
 from reports.model.evaluation import Values
@@ -55,7 +56,7 @@ def _judged(block: ScalarTable, scalars: Mapping[str, float | str]) -> Iterator[
 def _outside(value: float, usual: tuple[float, float] | None) -> Standing:
     if usual is None:
         return Standing.FAILED
-    return Standing.BELOW if value < usual[0] else Standing.ABOVE
+    return Standing.ABOVE if side_of(value, usual) > 0 else Standing.BELOW
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ import pytest
 
 from kshm.mechanics import strength as first
 from kshm.mechanics.strength import EYE_M0, EYE_N0, TORSION, SectionLoad, StressCycle
+from kshm.ranges import side_of
 from reports.commands.new_engine import new_text
 from reports.document.chapters.closing import checked
-from reports.document.chapters.strength import _MENDS
 from reports.document.report import Report
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
@@ -19,7 +19,7 @@ from reports.inputs.load import load_mapping
 from reports.model.blocks import Held, Model
 from reports.model.evaluation import Evaluation, evaluate_model
 from reports.tables.registry import build_model
-from reports.tables.strength_members import SAFETIES, UsualStress, usual_sizes, usual_stresses
+from reports.tables.strength_members import SAFETIES, usual_sizes
 from reports.tables.verdicts import failed_checks, weak_values
 from reports.workbook.layout import Layout
 from reports.workbook.sheets import BlockWriter
@@ -222,15 +222,16 @@ def test_new_gives_usual_sizes_with_their_ratio():
 def test_every_safety_says_what_mends_it():
     blocks = {block.id: block for block in model_of().blocks}
     keys = [scalar.key for scalar in blocks["strength_allowed"].scalars[::2]]
-    assert {key.removeprefix("value_") for key in keys} == _MENDS.keys()
-    assert all(each.mend for each in usual_stresses(model_of().input.strength))
+    (told,) = model_of().chapters
+    mends = {line.key for line in told.lines if line.kind == "mend"}
+    usual = {verdict.key.removeprefix("check_") for _, verdict in blocks["strength_ranges"].pairs}
+    assert mends == {key.removeprefix("value_") for key in {*keys, *usual}}
 
 
 @pytest.mark.parametrize(("value", "side"), [(10, -1), (20, 0), (150, 0), (151, 1), (-151, 1)])
 def test_the_side_of_a_usual_range(value: float, side: int):
-    assert UsualStress("st_crown_MPa", "", 20, 150, "").excess(value) == side
-    both = UsualStress("st_oval_in0_MPa", "", -150, 150, "")
-    assert both.excess(value) == both.excess(-value) == max(side, 0)
+    assert side_of(value, (20, 150)) == side
+    assert side_of(value, (-150, 150)) == side_of(-value, (-150, 150)) == max(side, 0)
 
 
 @pytest.mark.parametrize(

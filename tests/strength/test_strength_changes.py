@@ -39,7 +39,7 @@ def test_with_the_changes_made_all_is_within_its_limits(name: str):
     again = evaluate_model(build_model(load_mapping(raw, source="").model)).scalars
     for each in stresses:
         assert again[each.key] == pytest.approx(built.after[each.key] / quantity(each.key).si)
-        assert each.excess(again[each.key]) <= 0, each.key
+        assert each.side(again[each.key]) <= 0, each.key
     for key in set(SAFETIES) & again.keys():
         assert again[key] == pytest.approx(built.after[key])
         assert again[key] >= model.strength.safety_allowed - 1e-6

@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from kshm.defaults import FINE_STEP
 from kshm.nomenclature.quantity import UNITS
-from reports.document.chapters.record import Record, chosen, relevant
+from reports.document.chapters.record import Record, Write, chosen, relevant
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.numbering import Figure, Kind, TablePlan, Writer
@@ -179,6 +179,16 @@ class Chapter:
     def relevant(self) -> set[str]:
         """Names of the chosen chapters that apply to the engine."""
         return relevant(self.records, self.input)
+
+    @cached_property
+    def views(self) -> Mapping[str, Callable[[Any], TablePlan | Figure]]:
+        """Tables and figures that books show and the program makes."""
+        return {name: view for record in self.records for name, view in record.views.items()}
+
+    @cached_property
+    def inserts(self) -> Mapping[str, Write]:
+        """Texts that books insert and the program writes."""
+        return {name: write for record in self.records for name, write in record.inserts.items()}
 
     @cached_property
     def shape(self) -> Shape:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from markupsafe import Markup
 
+from reports.document.page.numbering import Figure, TablePlan
 from reports.inputs.sections.input_file import InputFile
 from reports.model.shape import Shape
 
@@ -43,6 +44,8 @@ class Record:
         findings: what the introduction says is found.
         sections: sections of the input file that no other chapter reads.
         keys: first letters of the results that it alone tells.
+        views: tables and figures of the program's own, by the names that a book shows.
+        inserts: text of the program's own, by the names that a book inserts.
     """
 
     name: str
@@ -55,6 +58,8 @@ class Record:
     findings: tuple[str, ...] = ()
     sections: tuple[str, ...] = ()
     keys: tuple[str, ...] = ()
+    views: Mapping[str, Callable[[Any], TablePlan | Figure]] = field(default_factory=dict)
+    inserts: Mapping[str, Write] = field(default_factory=dict)
 
 
 def chosen(records: Iterable[Record], model: InputFile) -> set[str]:

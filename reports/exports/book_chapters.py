@@ -21,9 +21,9 @@ def lines_of(reading: Own) -> Iterator[tuple[str, str, BookLine]]:
     """Kinds and texts of the lines of all chapters, with their places."""
     for chapter in (each for each in reading.model.chapters if not each.name):
         for line in chapter.lines:
-            line = replace(line, text=line.text.replace("@", "1"))  # any member's keys are alike
-            text = line.key if line.kind in ("show", "formula") else line.text.strip()
-            yield line.kind, text, BookLine(line.book, line.number, line.text)
+            first = replace(line, text=line.text.replace("@", "1"))  # members have alike keys
+            text = first.key if line.kind in ("show", "formula") else first.text.strip()
+            yield line.kind, text, BookLine(line.book, line.number, first.text)
 
 
 def kinds_of(reading: Own, key: str) -> list[str]:

@@ -31,9 +31,9 @@ _REYNOLDS = (
 )
 _MOTION = (
     r"\chi' = \bar M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu_{\mathrm{м}}}, \quad "
+    r"{B\,d\,\eta}, \quad "
     r"\chi\,\delta_F' = \bar M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{b_{\mathrm{подш}}\,d_{\mathrm{подш}}\,\mu_{\mathrm{м}}} + "
+    r"{B\,d\,\eta} + "
     r"\chi\dfrac{\omega_{\mathrm{цап}} + \omega_{\mathrm{вкл}}}{2}"
 )
 _SAFETY = (

@@ -110,7 +110,7 @@ def _of_subjects(chapter: Chapter) -> list[str]:
     return [
         next(iter(names.values()))
         for tex, names in own.items()
-        if len(names) == 1 and _bare(tex) not in others and _is_simple(tex)
+        if _bare(tex) not in others and _is_simple(tex)
     ]
 
 

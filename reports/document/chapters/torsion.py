@@ -33,10 +33,10 @@ _HOLZER = (
 _SUM = r"S_{\nu} = \left|\sum a_k\, e^{-j\nu\theta_k}\right|"
 _ENERGY = (
     r"A = \dfrac{M_{\nu} S_{\nu}}{D_{\nu}}, \qquad D_{\nu} = \omega \sum b_k a_k^2 + "
-    r"\eta \sum c_k \left(a_{k+1} - a_k\right)^2"
+    r"\eta_{\mathrm{в}} \sum c_k \left(a_{k+1} - a_k\right)^2"
 )
 _MOTION = (
-    r"\left(-\omega^2 \mathbf{J} + j\omega \mathbf{b} + \mathbf{c}\,(1 + j\eta)\right)"
+    r"\left(-\omega^2 \mathbf{J} + j\omega \mathbf{b} + \mathbf{c}\,(1 + j\eta_{\mathrm{в}})\right)"
     r"\mathbf{\theta}_{\nu} = \mathbf{M}_{\nu}, \qquad "
     r"\omega = \nu\,\Omega"
 )

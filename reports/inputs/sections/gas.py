@@ -90,7 +90,7 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     stroke_bore: float | None = _limited(
         "Отношение хода поршня к диаметру цилиндра", "S/D", NONE, "stroke_bore", None
     )
-    size_step_mm: float | None = _limited("Шаг ряда размеров D и S", "Δ", MM, "step", None)
+    size_step_mm: float | None = _limited("Шаг ряда размеров D и S", "Δ_D", MM, "step", None)
     rounding: Literal["nearest", "up"] | None = choice(
         "Округление размеров до ряда", ROUNDINGS, None
     )

@@ -71,7 +71,7 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
     crown_mm: float | None = _size("crown", "δ_дн")
     height_mm: float | None = _size("height", "H")
     skirt_mm: float | None = _size("skirt", "h_ю")
-    head_wall_mm: float | None = _size("head_wall", "s")
+    head_wall_mm: float | None = _size("head_wall", "s_г")
     land_mm: float | None = _size("land", "h_п")
     bosses_mm: float | None = _size("bosses", "b_б")
     ring_radial_mm: float | None = _size("ring_radial", "t")
@@ -89,7 +89,7 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
         "Температура стенки цилиндра", "t_ц", CELSIUS, 40, 300, USUAL, solver="cylinder_temperature"
     )
     head_c: float = number(
-        "Температура головки поршня", "t_г", CELSIUS, 60, 500, USUAL, solver="head_temperature"
+        "Температура головки поршня", "t_гол", CELSIUS, 60, 500, USUAL, solver="head_temperature"
     )
     skirt_c: float = number(
         "Температура юбки поршня", "t_ю", CELSIUS, 40, 350, USUAL, solver="skirt_temperature"

@@ -81,7 +81,7 @@ class TorsionSection(Strictly, usual=(Torsion,)):
     damping_nms_rad: float | None = number(
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )
-    loss_factor: float = number("Коэффициент потерь вала", "η", NONE, 0, 0.5, USUAL)
+    loss_factor: float = number("Коэффициент потерь вала", "η_в", NONE, 0, 0.5, USUAL)
     speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 60000, None)
     speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 60000, None)
     stress_allowed_mpa: float = number(

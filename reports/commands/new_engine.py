@@ -42,6 +42,7 @@ def new_text(
     sample: str | None,
     cylinders: int | None,
     strength: bool = False,
+    cycle: bool = False,
     **options: Any,  # noqa: ANN401
 ) -> str:
     """Return the file of a sample, of an own engine, or of an alternative to ``base``.
@@ -51,6 +52,7 @@ def new_text(
         sample: Value of --sample, which does not go with the other two.
         cylinders: Value of --cylinders.
         strength: Value of --strength, for an own engine.
+        cycle: Value of --cycle, for an own engine.
         options: ``layout``, ``strokes``, ``kind`` and the numbers of a task; None is not given.
 
     Raises:
@@ -58,7 +60,7 @@ def new_text(
     """
     if cylinders is None and base is None:
         extra = [key for key, value in options.items() if value is not None]
-        extra += ["strength"] * strength
+        extra += ["strength"] * strength + ["cycle"] * cycle
         if extra:
             raise KshmError(f"{_option(extra[0])}: ключ для своего двигателя; добавьте --cylinders")
         from reports.inputs.template import new_file
@@ -73,8 +75,9 @@ def new_text(
         value = options.get(key)
         if value is not None and not (math.isfinite(value) and value > 0):
             raise KshmError(f"{_option(key)}: значение должно быть больше нуля")
-    if base is not None and strength:
-        raise KshmError("--strength: у варианта раздел тот же, что в основе; уберите ключ")
+    for key, is_set in (("strength", strength), ("cycle", cycle)):
+        if base is not None and is_set:
+            raise KshmError(f"--{key}: у варианта раздел тот же, что в основе; уберите ключ")
     if base is not None:
         return _alternative(base, cylinders, options)
     from reports.new.generate import file_text, generate_engine
@@ -84,9 +87,8 @@ def new_text(
     kinds = {key: options[key] for key in ("layout", "kind") if options.get(key) is not None}
     numbers: dict[str, Any] = {key: options.get(key) for key in _NUMBERS}
     strokes = int(options.get("strokes") or 4)
-    return file_text(
-        generate_engine(cylinders, **kinds, strokes=strokes, strength=strength, **numbers)
-    )
+    added = {"strength": strength, "cycle": cycle}
+    return file_text(generate_engine(cylinders, **kinds, strokes=strokes, **added, **numbers))
 
 
 def _option(key: str) -> str:

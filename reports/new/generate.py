@@ -39,12 +39,13 @@ from reports.new.sizing import (
     size_notes,
     usual_for,
 )
+from reports.new.working_cycle import cycle_for
 from reports.shared.russian import cylindered
 
 # Two rods share a pin: its mass over table 4, as of the sample yamz-238.
 _SHARED_PIN = 1.4
 Notes = dict[str, str]
-FIRST = ("engine", "geometry", "regime", "gas")
+FIRST = ("engine", "geometry", "regime", "gas", "cycle")  # what is to be given
 LINE = "──── дальше — необязательное: подставлены обычные значения ────"
 
 
@@ -102,11 +103,13 @@ def generate_engine(
     strokes: int = 4,
     kind: str = "petrol",
     strength: bool = False,
+    cycle: bool = False,
     **values: float | None,
 ) -> NewEngine:
     """Engine for a task, ``values`` as fields of `EngineTask`; usual values elsewhere.
 
-    ``strength`` adds sizes of piston, pin and rod, usual ones that follow the load.
+    ``strength`` adds sizes of piston, pin and rod, usual ones that follow the load; ``cycle``
+    gives the working cycle, from which the pressures follow.
 
     Raises:
         InputError: there is no such engine.
@@ -135,6 +138,12 @@ def generate_engine(
     words = f"из обычных значений: около {number_text(round(power, 1))} кВт"
     if task.power_kw is not None:
         words = f"по заданию: {number_text(task.power_kw)} кВт"
+    if cycle:
+        new_cycle = cycle_for(data, usual, kind, task.power_kw)
+        data["gas"], data["cycle"] = new_cycle.gas, new_cycle.cycle
+        notes |= new_cycle.notes
+        model = load_mapping(data, source="kshm new").model
+    elif task.power_kw is not None:
         found_gas = pressures_for(model, task.power_kw, kind)
         data["gas"] |= found_gas.gas
         data["regime"]["indicated_power_kw"] = found_gas.indicated_kw
@@ -344,7 +353,7 @@ def file_text(engine: NewEngine) -> str:
     """Return the engine as a commented input file."""
     lines = [f"# {line}" for line in (*engine.head, *NUMBER_WORDS)]
     others = [name for name in SECTIONS if name not in FIRST and name in engine.data]
-    for name in FIRST:
+    for name in (each for each in FIRST if each in engine.data):
         lines += ["", *_section(name, engine.data[name], engine.notes)]
     lines += ["", f"# {LINE}"]
     for name in others:

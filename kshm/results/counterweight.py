@@ -170,10 +170,12 @@ class _Proposal:
 
     def turn(self) -> Columns:
         """Loads of the journals over the cycle without counterweights and with those proposed."""
-        states = (("bare", self.reactions(0.0)), ("new", self.reactions(self.share)))
+        bare, new = self.reactions(0.0), self.reactions(self.share)
         loads: Columns = {"phi_deg": self.case.raw.phi}
-        return loads | {f"cw_{key}{j}_kN": load
-                        for key, each in states for j, load in enumerate(each, 1)}  # fmt: skip
+        for j, pair in enumerate(zip(bare, new, strict=True), 1):
+            loads |= {f"cw_{key}{j}_kN": load
+                      for key, load in zip(("bare", "new"), pair, strict=True)}  # fmt: skip
+        return loads
 
     def loads(self) -> Scalars:
         """Mean and greatest loads of every journal: without, with given, with proposed weights."""

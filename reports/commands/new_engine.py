@@ -87,7 +87,7 @@ def new_text(
     kinds = {key: options[key] for key in ("layout", "kind") if options.get(key) is not None}
     numbers: dict[str, Any] = {key: options.get(key) for key in _NUMBERS}
     strokes = int(options.get("strokes") or 4)
-    added = {"strength": strength, "cycle": cycle}
+    added: dict[str, Any] = {"strength": strength, "cycle": cycle}
     return file_text(generate_engine(cylinders, **kinds, strokes=strokes, **added, **numbers))
 
 

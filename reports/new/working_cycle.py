@@ -58,7 +58,7 @@ class NewCycle:
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
+class _CycleWay:
     """A key of [cycle] between the values of the least and the greatest power."""
 
     key: str
@@ -81,7 +81,7 @@ def cycle_for(data: Mapping[str, Any], usual: Usual, kind: str, power_kw: float 
         InputError: no usual cycle gives the engine such a power.
     """
     if data["engine"]["strokes"] != 4:
-        raise KshmError("--cycle: расчёт цикла — для четырёхтактных; уберите ключ")
+        raise KshmError("--cycle: рассчитывается только четырёхтактный цикл; уберите ключ")
     gas = {"source": "cycle", **{key: usual.gas[key] for key in _GAS}, **_IGNITION}
     base = {"kind": kind, **_USUAL[kind]}
     if kind == "diesel":
@@ -111,13 +111,14 @@ def cycle_for(data: Mapping[str, Any], usual: Usual, kind: str, power_kw: float 
     raise InputError(Problem("--power", problem, "задайте другие размеры, частоту или цилиндры"))
 
 
-def _ways(kind: str) -> tuple[_Way, ...]:
+def _ways(kind: str) -> tuple[_CycleWay, ...]:
     """Ways to reach a power: the charge alone, then boost."""
-    boosted = _Way("boost_ratio", _LEAST_BOOST, _BOOST[kind], lambda ratio: _turbo(kind, ratio),
-                   "наддув")  # fmt: skip
+    boosted = _CycleWay(
+        "boost_ratio", _LEAST_BOOST, _BOOST[kind], lambda ratio: _turbo(kind, ratio), "наддув"
+    )
     if kind == "diesel":
-        return _Way("excess_air", 2.6, 1.35, lambda _: {}, "подача топлива"), boosted
-    return _Way("intake_factor", 0.7, 0.92, lambda _: {}, "наполнение"), boosted
+        return _CycleWay("excess_air", 2.6, 1.35, lambda _: {}, "подача топлива"), boosted
+    return _CycleWay("intake_factor", 0.7, 0.92, lambda _: {}, "наполнение"), boosted
 
 
 def _turbo(kind: str, ratio: float) -> Keys:

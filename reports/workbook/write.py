@@ -20,6 +20,7 @@ from reports.shared.files import temporary_failure
 from reports.shared.gc_pause import uncollected
 from reports.tables.verdicts import accepted_checks
 from reports.workbook import cockpit, motion, styles
+from reports.workbook.bars import draw_bars
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, contents_for, diagrams_of, heading, ordered
 from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
@@ -266,6 +267,7 @@ def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
             writer.list(sheet, block)
             if block.verdicts is not None:
                 colour_verdicts(sheet, HEADER_ROW, HEADER_ROW + _MOST_CHECKS, *block.verdicts)
+                draw_bars(sheet, block, writer.layout)
             if block.id == "checks":
                 # Beside its check stands why a discrepancy is accepted.
                 accepted = accepted_checks(model.input, model.blocks)

@@ -55,7 +55,7 @@ def test_usual_data_pass_their_checks(kind: str):
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(KshmError, match="для четырёхтактных"):
+    with pytest.raises(KshmError, match="только четырёхтактный"):
         generate_engine(2, strokes=2, cycle=True)
     with pytest.raises(InputError, match="обычный цикл даёт от"):
         generate_engine(4, cycle=True, power_kw=900.0, speed_rpm=5000.0, bore_mm=80.0,

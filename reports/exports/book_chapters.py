@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from reports.exports.book_faults import Own
-from reports.model.book_text import BookError, BookLine
+from reports.model.book_text import BookLine
 from reports.model.context import MARK
+from reports.shared.errors import BookError
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}

@@ -11,11 +11,10 @@ from markupsafe import Markup, escape
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import grid_table
 from reports.document.page.numbering import TablePlan
-from reports.formula.tex import NotPrintable
 from reports.model.blocks import Grid, OwnChapter, ScalarTable, TableSpec, TextLine
-from reports.model.book_text import BookError, cause_of, shelf_of
+from reports.model.book_text import cause_of, shelf_of
 from reports.model.context import MARK
-from reports.shared.errors import KshmError
+from reports.shared.errors import BookError, KshmError, NotPrintable
 
 _KINDS = {"tab": "table", "fig": "figure"}
 _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "Кривые — на рисунке {}."}

@@ -2,15 +2,15 @@
 
 KshmError
 ├── InputError (a ValueError)        a number, a file, an argument is wrong
-│   ├── CycleError                   no cycle follows from the inputs, ``kshm.cycle.fuel``
-│   ├── FilmError                    an oil film does not carry, ``kshm.mechanics.oil_orbit``
+│   ├── CycleError                   no cycle follows from the inputs
+│   ├── FilmError                    an oil film does not carry
 │   └── UnknownNameError             a KeyError and an AttributeError too
 └── those of the report engine       ``reports.shared.errors``
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -102,6 +102,37 @@ class InputError(KshmError, ValueError):
     ...     print(error.problems[0].where, error.problems[0].value)
     EndMass.mass -1
     """
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """``key`` of what is wrong or odd, the input ``field`` it is about, its numbers in SI.
+
+    ``field`` is the name of the input in the dataclasses of the cycle, such as
+    ``boost.pressure_ratio``.
+    """
+
+    key: str
+    field: str
+    numbers: Mapping[str, float]
+
+
+class CycleError(InputError):
+    """Input without a cycle; ``remark`` names it and the reason."""
+
+    def __init__(self, key: str, field: str, **numbers: float) -> None:
+        """Keep the remark; the text of the error is for developers."""
+        listed = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
+        super().__init__(Problem(field, key + (f" ({listed})" if listed else "")))
+        self.remark = Remark(key, field, numbers)
+
+
+class FilmError(InputError):
+    """Load that no film carries; ``bearing`` is its row."""
+
+    def __init__(self, bearing: int) -> None:
+        super().__init__(Problem(f"bearing {bearing}", "the oil film does not carry the load"))
+        self.bearing = bearing
 
 
 class UnknownNameError(InputError, KeyError, AttributeError):

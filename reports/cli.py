@@ -17,7 +17,7 @@ from reports.commands.common import BAD, DONE, HELP, RussianGroup, advice, error
 from reports.commands.engine import build, check, doctor, new, schema, solve
 from reports.commands.seek import optimise
 from reports.commands.studies import compare, sweep, validate
-from reports.shared.errors import KshmError
+from reports.shared.errors import KshmError, Unread
 from reports.web.command import serve
 
 
@@ -84,7 +84,7 @@ class _Russian(RussianGroup):
             from reports.shared.interrupt import asked
 
             if isinstance(error, OSError) and without_reader(error):
-                raise _Unread from error
+                raise Unread from error
             # A library that calls back, as one that builds a schema, may tell of the signal by an
             # error of its own.
             if asked():
@@ -96,7 +96,7 @@ class _Russian(RussianGroup):
         try:
             return super().make_context(*args, **kwargs)
         except OSError as error:
-            raise (_Unread if without_reader(error) else error) from None
+            raise (Unread if without_reader(error) else error) from None
 
     def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         """Run; exit codes as in the contract."""
@@ -119,13 +119,9 @@ class _Russian(RussianGroup):
         sys.exit(code if isinstance(code, int) else DONE)
 
 
-class _Unread(Exception):  # noqa: N818 - no error
-    """A broken pipe, as no OSError: click ends the program over those."""
-
-
 def _ended(error: Exception, verbose: bool) -> int:
     """Exit code of a failed run; prints the error unless the pipe is broken."""
-    if isinstance(error, _Unread) or (isinstance(error, OSError) and without_reader(error)):
+    if isinstance(error, Unread) or (isinstance(error, OSError) and without_reader(error)):
         # Output as long as it was wanted; but a warning unread has kept the work from being done.
         code = DONE if is_lost(sys.stdout) else BAD
         forget(sys.stdout)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from kshm.cycle.dizdn_listing import POWER_FACTOR, Listing, listing_cycle
-from kshm.cycle.fuel import ZERO_C, CycleError, Mixture, Remark, burn, mixture_heat
+from kshm.cycle.fuel import ZERO_C, Mixture, burn, mixture_heat
 from kshm.cycle.governor import Governor
 from kshm.cycle.inputs import CycleInputs, check_inputs, check_range
 from kshm.cycle.performance import (
@@ -40,6 +40,7 @@ from kshm.cycle.processes import (
     residual_temperature,
 )
 from kshm.cycle.speed_characteristic import Leiderman, SpeedPoint, speed_points
+from kshm.errors import CycleError, Remark
 
 HOT = 2800.0  # °C, end of the heat capacity formulas
 TOO_HOT = 3500.0  # K

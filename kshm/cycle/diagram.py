@@ -13,9 +13,9 @@ import numpy as np
 
 from kshm.arrays import Array
 from kshm.cycle.dizdn_listing import DEGREE, isobar_end
-from kshm.cycle.fuel import CycleError
 from kshm.cycle.performance import Cycle
 from kshm.engine.gas import PolytropicGas
+from kshm.errors import CycleError
 from kshm.mechanics.kinematics import displacement_exact
 
 # Width of a vertical line of the diagram where a function of φ is needed [rad]

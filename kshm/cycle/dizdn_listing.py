@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, burn, mixture_heat
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, burn, mixture_heat
 from kshm.cycle.inputs import CycleInputs, check_inputs
 from kshm.cycle.performance import (
     AIR_CP,
@@ -38,6 +38,7 @@ from kshm.cycle.processes import (
     ignite,
     residual_temperature,
 )
+from kshm.errors import CycleError
 
 DEGREE = 0.017453  # the program's π/180
 POWER_FACTOR = 0.00833

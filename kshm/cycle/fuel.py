@@ -18,7 +18,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from kshm.errors import InputError, Problem
+from kshm.errors import CycleError
 
 OXYGEN_SHARE = 0.208
 AIR_MOLAR_MASS = 28.96  # kg/kmol
@@ -29,29 +29,6 @@ ZERO_C = 273.0  # K, the method's 0 °C: 8.315·273 = 2270
 UPPER_START = 1500.0  # °C
 BLEND = 100.0  # K
 TEMPERATURE_PASSES = 6
-
-
-@dataclass(frozen=True, slots=True)
-class Remark:
-    """``key`` of what is wrong or odd, the input ``field`` it is about, its numbers in SI.
-
-    ``field`` is the name of the input in the dataclasses of the cycle, such as
-    ``boost.pressure_ratio``.
-    """
-
-    key: str
-    field: str
-    numbers: Mapping[str, float]
-
-
-class CycleError(InputError):
-    """Input without a cycle; ``remark`` names it and the reason."""
-
-    def __init__(self, key: str, field: str, **numbers: float) -> None:
-        """Keep the remark; the text of the error is for developers."""
-        listed = ", ".join(f"{name} = {value:.6g}" for name, value in numbers.items())
-        super().__init__(Problem(field, key + (f" ({listed})" if listed else "")))
-        self.remark = Remark(key, field, numbers)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.cycle.fuel import CycleError
+from kshm.errors import CycleError
 
 # Usual, from memory of the books on tractor diesels: 0.06…0.10 and 0.25…0.30.
 GOVERNOR_IRREGULARITY, IDLE_FUEL_SHARE = 0.08, 0.28

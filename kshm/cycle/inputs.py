@@ -10,7 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from kshm.cycle.fuel import CycleError, Fuel, check_fuel
+from kshm.cycle.fuel import Fuel, check_fuel
+from kshm.errors import CycleError
 
 Kind = Literal["diesel", "petrol"]
 _RPM = math.pi / 30

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, Mixture, Remark
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, Mixture
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
 from kshm.cycle.processes import Charge, Combustion, Compression, Expansion
+from kshm.errors import CycleError, Remark
 
 AIR_CP = 1005.0  # J/(kg·K)
 

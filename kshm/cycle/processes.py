@@ -17,8 +17,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, CycleError, HeatCapacity, Mixture, temperature_of
+from kshm.cycle.fuel import AIR, R_GAS, ZERO_C, HeatCapacity, Mixture, temperature_of
 from kshm.cycle.inputs import CycleInputs
+from kshm.errors import CycleError
 
 N1_START = 1.37
 N1_PASSES = 5

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.cycle.fuel import CycleError
+from kshm.errors import CycleError
 
 _DIESEL_FUEL = (1.55, -1.55, 1.0)
 _PETROL_FUEL = (1.2, -1.2, 1.0)

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kshm.arrays import Array
-from kshm.errors import InputError, Problem
+from kshm.errors import FilmError, InputError
 from kshm.mechanics.bearings import check_widths
 from kshm.mechanics.gas import Nodes, middle_slope
 
@@ -228,14 +228,6 @@ def _even(seen: Array, values: Array, mirror: int) -> Array:
     width, chord = np.diff(at), np.diff(y) / np.diff(at)
     slope = middle_slope(chord[:-1], chord[1:], width[:-1], width[1:])
     return Nodes(seen, values, slope).at(np.linspace(0, np.pi, _COLUMNS))
-
-
-class FilmError(InputError):
-    """Load that no film carries; ``bearing`` is its row."""
-
-    def __init__(self, bearing: int) -> None:
-        super().__init__(Problem(f"bearing {bearing}", "the oil film does not carry the load"))
-        self.bearing = bearing
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from kshm.arrays import Array, Columns, Results, Scalars, Tables
 from kshm.defaults import CLEARANCE_SHARES, FILLET_SHARE
 from kshm.engine.arrangement import hung
 from kshm.engine.bearings import Bearings
+from kshm.errors import FilmError
 from kshm.mechanics import bearings, journals
 from kshm.mechanics.bearings import (
     Balance,
@@ -28,7 +29,7 @@ from kshm.mechanics.bearings import (
 )
 from kshm.mechanics.journals import rod_bearing, rod_width
 from kshm.mechanics.kinematics import Position
-from kshm.mechanics.oil_orbit import Complex, FilmError, Orbits, orbits
+from kshm.mechanics.oil_orbit import Complex, Orbits, orbits
 from kshm.nomenclature.quantity import UNITS
 from kshm.results.case import Case, first_number, least_loaded
 from kshm.results.forces import bending_forces, oil_hole

@@ -29,7 +29,7 @@ from reports.document.page import overrides
 from reports.document.page.blocks import DocumentInfo
 from reports.document.page.floating import arranged, redrawn
 from reports.document.page.numbering import Draft, Name, Writer
-from reports.document.page.render import AttachedFile, RenderError, environment, render_pdf
+from reports.document.page.render import AttachedFile, environment, render_pdf
 from reports.document.page.style import USUAL, Style
 from reports.document.page.style import read as read_style
 from reports.document.text import texts
@@ -42,6 +42,7 @@ from reports.inputs.sections.report import ReportSection
 from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
 from reports.model.evaluation import Values, evaluate_model
+from reports.shared.errors import RenderError
 from reports.tables.registry import build_model
 
 if TYPE_CHECKING:

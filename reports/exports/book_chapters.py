@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from reports.exports.book_faults import Own
-from reports.model.book_text import BookError, BookLine
+from reports.model.book_text import BookLine
 from reports.model.context import CASE_MARK, MARK
+from reports.shared.errors import BookError
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}

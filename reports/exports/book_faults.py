@@ -14,18 +14,10 @@ from reports.formula.excel import compile_formula
 from reports.formula.parse import parse
 from reports.inputs.own_books import line_of_quantity, quantities_of
 from reports.model.blocks import Column, Grid, Model, TableSpec, nodes_in
-from reports.model.book_text import (
-    BookError,
-    BookLine,
-    BookPlaces,
-    Shelf,
-    at_fragment,
-    book_faults,
-    cause_of,
-)
+from reports.model.book_text import BookLine, BookPlaces, Shelf, at_fragment, book_faults, cause_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation
-from reports.shared.errors import one_line
+from reports.shared.errors import BookError, one_line
 from reports.workbook.chapters import diagrams_of, place_of
 from reports.workbook.layout import (
     CONTENTS_SHEET,

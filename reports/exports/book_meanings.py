@@ -13,9 +13,9 @@ from reports.formula.parse import AGGREGATES, parse
 from reports.inputs.own_books import sections_of
 from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model, TableSpec
-from reports.model.book_text import BookError, BookLine, environment_of
+from reports.model.book_text import BookLine, environment_of
 from reports.model.evaluation import node_of
-from reports.shared.errors import one_line
+from reports.shared.errors import BookError, one_line
 
 # Which arguments of a function are whole columns or runs; all others are values of one row.
 _WHOLE: Mapping[str, Callable[[int, int], bool]] = {

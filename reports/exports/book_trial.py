@@ -8,7 +8,7 @@ from pathlib import Path
 
 from reports.document.chapters.chapter import FORMULA
 from reports.document.report import Report
-from reports.document.text.mathsvg import FormulaImageError, formula
+from reports.document.text.mathsvg import formula
 from reports.exports.book_chapters import KINDS, kinds_of, lines_of
 from reports.exports.book_faults import Own
 from reports.exports.own_books import read_books, refuse_faults
@@ -17,10 +17,10 @@ from reports.inputs.load import load_mapping, load_toml
 from reports.inputs.own_books import declared, line_of_quantity, read_text
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Model
-from reports.model.book_text import BookError, BookLine, cause_of
+from reports.model.book_text import BookLine, cause_of
 from reports.model.context import MARK
 from reports.model.evaluation import Values, evaluate_model
-from reports.shared.errors import InputError, KshmError, Problem
+from reports.shared.errors import BookError, FormulaImageError, InputError, KshmError, Problem
 from reports.shared.resources import samples_dir
 from reports.word.omml import omath
 from reports.word.write import report_docx

@@ -15,11 +15,11 @@ from reports.exports.book_faults import Own
 from reports.exports.book_meanings import compared, misread
 from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
-from reports.model.book_text import BookError, BookPlaces, Shelf, shelf_of
+from reports.model.book_text import BookPlaces, Shelf, shelf_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation, Values
 from reports.model.shape import Scope
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import BookError, InputError, Problem
 from reports.tables.contexts import book_part
 from reports.tables.registry import kept_model
 from reports.tables.verdicts import Failed, checks_of, failed_checks

@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, SHIFTS, FormulaError, parse
+from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, SHIFTS, parse
+from reports.shared.errors import FormulaError
 
 LIBRARY = Path(__file__).with_name("functions.js")
 _FUNCTIONS = {

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from kshm.nomenclature.quantity import UNITS
 from reports.formula.mends import mended
+from reports.shared.errors import FormulaError
 
 # Row-wise functions and the number of their arguments (least, most).
 FUNCTIONS: dict[str, tuple[int, int]] = {
@@ -50,14 +51,6 @@ MOST_LETTERS, MOST_DEEP = 8000, 150  # of an expression: longer ones no spreadsh
 
 
 _COMMA = re.compile(r'^(?:[^"]|"[^"]*")*?(?<![\w.])\d+,\d')  # outside of texts
-
-
-class FormulaError(ValueError):
-    """An expression is not of the language: the part that is not, and in Russian how to mend it."""
-
-    def __init__(self, problem: str, fragment: str = "", mend: str = "") -> None:
-        super().__init__(problem)
-        self.fragment, self.mend = fragment, mend
 
 
 def is_known_function(name: str) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 
 from reports.formula.numeric import Resolver, evaluate_tree
 from reports.formula.parse import parse
+from reports.shared.errors import FormulaError
 
 _KEPT_DIGITS = 6
 _MIRRORED = {ast.Lt: ast.Gt, ast.LtE: ast.GtE, ast.Gt: ast.Lt, ast.GtE: ast.LtE}
@@ -47,15 +48,12 @@ def spans_of(condition: str, value: str, resolve: Resolver) -> Spans | None:
         The spans, none where the condition never holds; None where it is no matter of spans,
         as of a product of the value with itself.
     """
+    expression = parse(condition)
     try:
         with np.errstate(all="ignore"):
-            return _holds(parse(condition), value, resolve)
-    except _NoSpanError:
+            return _holds(expression, value, resolve)
+    except FormulaError:
         return None
-
-
-class _NoSpanError(Exception):
-    """The condition has no spans."""
 
 
 def _holds(node: ast.expr, value: str, resolve: Resolver) -> Spans:
@@ -77,7 +75,7 @@ def _holds(node: ast.expr, value: str, resolve: Resolver) -> Spans:
                 left, right = right, left
                 op = _MIRRORED.get(type(op), type(op))()
             return _solved(left, _within(op, _number(right, value, resolve)), value, resolve)
-    raise _NoSpanError
+    raise FormulaError("the condition has no spans")
 
 
 def _within(op: ast.cmpop, limit: float) -> Spans:
@@ -116,7 +114,7 @@ def _solved(node: ast.expr, spans: Spans, value: str, resolve: Resolver) -> Span
             inner, number = (left, right) if first else (right, left)
             spans = _undone(op, _number(number, value, resolve), spans, first=first)
             return _solved(inner, spans, value, resolve)
-    raise _NoSpanError
+    raise FormulaError("the condition has no spans")
 
 
 def _undone(op: ast.operator, number: float, spans: Spans, *, first: bool) -> Spans:
@@ -130,7 +128,7 @@ def _undone(op: ast.operator, number: float, spans: Spans, *, first: bool) -> Sp
             return _scaled(spans, 1.0 / number)
         case ast.Div() if number and first:
             return _scaled(spans, number)
-    raise _NoSpanError
+    raise FormulaError("the condition has no spans")
 
 
 def _names(node: ast.expr, value: str) -> bool:
@@ -139,13 +137,13 @@ def _names(node: ast.expr, value: str) -> bool:
 
 def _number(node: ast.expr, value: str, resolve: Resolver) -> float:
     if _names(node, value):
-        raise _NoSpanError
+        raise FormulaError("the condition has no spans")
     try:
         number = float(evaluate_tree(node, resolve))
     except (KeyError, TypeError, ValueError, ArithmeticError):  # a text, a column
-        raise _NoSpanError from None
+        raise FormulaError("the condition has no spans") from None
     if not math.isfinite(number):
-        raise _NoSpanError
+        raise FormulaError("the condition has no spans")
     return number
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from reports.formula.parse import AGGREGATES, SCALE_FUNCTIONS, SCALES, parse
+from reports.shared.errors import NotPrintable
 from reports.shared.russian import NBSP, grouped
 
 Symbols = Callable[[str], str]
@@ -34,10 +35,6 @@ class Raw(str):
     """A value that is TeX already and is put in as it stands."""
 
     __slots__ = ()
-
-
-class NotPrintable(ValueError):  # noqa: N818
-    """The expression has no plain printed form (a choice, an interpolation)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from kshm.nomenclature.symbols import plain_symbol
 from reports.inputs.meta import MAX_TEXT, Strictly, choice, number
 from reports.inputs.registry import SECTIONS
 from reports.inputs.units import InputUnit
-from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.errors import DeclarationError, InputError, Problem, one_line
 from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
 
 Texts = tuple[tuple[str, str], ...]
@@ -55,22 +55,6 @@ FORMS = {
 _TAG = re.compile("[<>]")
 
 
-class DeclarationError(ValueError):
-    """A declaration that is none: its line and what is wrong."""
-
-    def __init__(self, line: int, column: int, problem: str, hint: str) -> None:
-        super().__init__(problem)
-        self.line, self.column, self.what, self.hint = line, column, problem, hint
-
-
-class Misdeclared(ValueError):  # noqa: N818 - a part of DeclarationError
-    """What is wrong with a declaration of the right form, and how to mend it."""
-
-    def __init__(self, problem: str, hint: str) -> None:
-        super().__init__(problem)
-        self.hint = hint
-
-
 @dataclass(frozen=True)
 class Declared:
     """What a book declares: section of inputs with its title and model, quantities by key."""
@@ -97,7 +81,7 @@ class Declarations:
          "quantity": self._quantity}[word](tail)  # fmt: skip
         if len(self.fields) + len(self.quantities) > MOST_DECLARED:
             problem = f"объявлено больше {MOST_DECLARED} величин и исходных"
-            raise Misdeclared(problem, "разделите книгу")
+            raise DeclarationError(problem, "разделите книгу")
 
     def _titled(self, tail: str) -> None:
         heading = _matched(_SECTION, tail, "section")
@@ -135,10 +119,10 @@ class Declarations:
         row = _matched(_QUANTITY, tail, "quantity")
         key, (title, tex, unit, digits) = row["key"], _parts(row["rest"], 4)
         if key in self.quantities:
-            raise Misdeclared(f"величина «{key}» объявлена дважды", "уберите одну строку")
+            raise DeclarationError(f"величина «{key}» объявлена дважды", "уберите одну строку")
         if _is_of_program(key):
             problem = f"величину «{key}» объявляет сама программа"
-            raise Misdeclared(problem, "назовите свою иначе; программную берут без quantity")
+            raise DeclarationError(problem, "назовите свою иначе; программную берут без quantity")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
             raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
         if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
@@ -147,7 +131,7 @@ class Declarations:
         twin = next((each.key for each in self.quantities.values() if each.symbol == symbol), "")
         if twin:
             problem = f"обозначение «{symbol}» уже у «{twin}»"
-            raise Misdeclared(problem, "дайте величинам разные обозначения")
+            raise DeclarationError(problem, "дайте величинам разные обозначения")
         unit_name = next((name for name, unit in UNITS.items() if unit.label == label), label)
         self.quantities[key] = Quantity(key, tex, unit_name, safe_text(title), Digits(int(digits)))
 
@@ -157,18 +141,20 @@ class Declarations:
         self._named(head["section"])
         key = head["key"]
         if key in self.fields:
-            raise Misdeclared(f"исходное «{key}» объявлено дважды", "уберите одну строку")
+            raise DeclarationError(f"исходное «{key}» объявлено дважды", "уберите одну строку")
         if re.search(r"_r\d+$", key) or hasattr(Strictly, key):
-            raise Misdeclared(f"имя «{key}» занято программой", "назовите ключ иначе")
+            raise DeclarationError(f"имя «{key}» занято программой", "назовите ключ иначе")
         return key, _parts(head["rest"], parts)
 
     def _named(self, section: str) -> None:
         """Keep the name of the section, the same on all lines."""
         if self.section and section != self.section:
-            raise Misdeclared(f"в книге два раздела исходных: {self.section} и {section}",
+            raise DeclarationError(f"в книге два раздела исходных: {self.section} и {section}",
                               f"пишите {self.section}.КЛЮЧ или заведите вторую книгу")  # fmt: skip
         if section in _taken():
-            raise Misdeclared(f"имя раздела «{section}» занято программой", "назовите раздел иначе")
+            raise DeclarationError(
+                f"имя раздела «{section}» занято программой", "назовите раздел иначе"
+            )
         self.section = section
 
 
@@ -181,27 +167,29 @@ def declared(text: str) -> Declared:
     """
     lines = text.splitlines()
     if len(text.encode()) > MOST_BYTES:
-        raise DeclarationError(1, 1, f"книга больше {MOST_BYTES // 1000} КБ", "разделите её")
+        raise DeclarationError(f"книга больше {MOST_BYTES // 1000} КБ", "разделите её", 1)
     if len(lines) > MOST_LINES:
-        raise DeclarationError(MOST_LINES + 1, 1, f"строк больше {MOST_LINES}", "разделите книгу")
+        problem = f"строк больше {MOST_LINES}"
+        raise DeclarationError(problem, "разделите книгу", MOST_LINES + 1)
     reader = Declarations(text)
     for at, line in enumerate(lines, 1):
         if len(line) > MOST_LETTERS:
-            raise DeclarationError(at, MOST_LETTERS + 1, f"в строке больше {MOST_LETTERS} знаков",
-                                   "перенесите конец на строку с пробелом в начале")  # fmt: skip
+            problem = f"в строке больше {MOST_LETTERS} знаков"
+            hint = "перенесите конец на строку с пробелом в начале"
+            raise DeclarationError(problem, hint, at, MOST_LETTERS + 1)
         control = re.search("[\x00-\x08\x0b-\x1f\x7f\u2028\u2029]", line)
         if control is not None:
-            raise DeclarationError(at, control.start() + 1, "в строке управляющий символ",
-                                   "оставьте обычный текст")  # fmt: skip
+            problem, hint = "в строке управляющий символ", "оставьте обычный текст"
+            raise DeclarationError(problem, hint, at, control.start() + 1)
         statement = DECLARATION.fullmatch(line)
         if statement is None:
             continue
         try:
             reader.take(statement[1], statement[2].strip())
-        except Misdeclared as error:
-            raise DeclarationError(at, 1, str(error), error.hint) from None
+        except DeclarationError as error:
+            raise DeclarationError(error.what, error.hint, at) from None
         except ValueError as error:
-            raise DeclarationError(at, 1, str(error), f"пишите {FORMS[statement[1]]}") from None
+            raise DeclarationError(str(error), f"пишите {FORMS[statement[1]]}", at) from None
     if not reader.fields:
         return Declared("", reader.title, None, reader.quantities)
     model = create_model(f"Own_{reader.section}", __base__=Strictly, **reader.fields)

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from pathlib import Path
 
-from reports.shared.errors import InputError, one_line
+from reports.shared.errors import InputError, UnfitTable, one_line
 from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
 
 MAX_BYTES = 8_000_000
@@ -54,14 +54,6 @@ class WantedColumns:
     refused: Refuse
 
 
-class _UnfitError(Exception):
-    """Separator that does not read the file; ``rows`` counts the rows it did read."""
-
-    def __init__(self, rows: int, error: InputError, *, final: bool = False) -> None:
-        super().__init__()
-        self.rows, self.error, self.final = rows, error, final
-
-
 def text_of(file: Path, refused: Refuse) -> str:
     """Return the text of a recorder's or a spreadsheet's file: UTF-8, UTF-16 or Windows-1251.
 
@@ -87,11 +79,11 @@ def recorded(text: str, columns: WantedColumns) -> Recorded:
         InputError: there is no table of numbers, or it can be read in two ways.
     """
     readings: dict[Recorded, str] = {}
-    unfit: list[_UnfitError] = []
+    unfit: list[UnfitTable] = []
     for separator, called in _CALLED.items():
         try:
             reading = _read(_rows(text, separator), separator, columns)
-        except _UnfitError as error:
+        except UnfitTable as error:
             unfit.append(error)
         else:
             readings.setdefault(reading, f"столбцы через {called}")
@@ -144,7 +136,7 @@ def _read(rows: list[Row], separator: str, requested: WantedColumns) -> Recorded
     """Columns of angle and pressure between separators of one kind.
 
     Raises:
-        _UnfitError: it is not so that the file is written.
+        UnfitTable: it is not so that the file is written.
     """
     nothing = requested.refused("не найдена таблица чисел", "нужны столбцы угла и давления")
     like = [
@@ -152,7 +144,7 @@ def _read(rows: list[Row], separator: str, requested: WantedColumns) -> Recorded
     ]
     numeric = [sum(fields) > 1 for fields in like]
     if not any(numeric):
-        raise _UnfitError(0, nothing)
+        raise UnfitTable(0, nothing)
     start, score = _longest(numeric), sum(numeric)
     keys = [(requested.angle, "gas.angle_column")]
     keys += [(column, "gas.pressure_column") for column in requested.pressures]
@@ -170,11 +162,11 @@ def _read(rows: list[Row], separator: str, requested: WantedColumns) -> Recorded
         raise fault
     body = rows[first:]
     if len(body) < LEAST_ROWS:
-        raise _UnfitError(0, nothing)
+        raise UnfitTable(0, nothing)
     if separator == "," and _torn(rows[:first], body, tuple(columns), requested.units):
         problem = "запятая стоит и между столбцами, и в дробях"
         torn = requested.refused(problem, "сохраните таблицу через «;» или числа с точкой")
-        raise _UnfitError(len(body), torn, final=True)
+        raise UnfitTable(len(body), torn, final=True)
     angles, *pressures = zip(*values[first:], strict=True)
     above = takewhile(lambda row: sum(map(bool, row[1])) > 1, reversed(rows[:first]))
     heads = tuple(row[columns[0]] for _, row in above if columns[0] < len(row))
@@ -226,7 +218,7 @@ def _columns_beside(body: list[Row], first: int) -> Iterator[tuple[float, ...]]:
 def _fault(
     rows: list[Row], cells: list[list[str]], values: list[list[float | None]], first: int,
     separator: str, requested: WantedColumns,
-) -> _UnfitError | None:  # fmt: skip
+) -> UnfitTable | None:  # fmt: skip
     """First row that breaks the table of numbers."""
     refused, signs = requested.refused, [""] * len(cells[0])
     for i in range(first, len(rows)):
@@ -239,29 +231,29 @@ def _fault(
                 mend = _mend(cell, requested.units) or "оставьте одну таблицу без пропусков"
                 # A cell that is nearly a number is the reason, however few rows stand above it.
                 score = len(rows) if _mend(cell, requested.units) else i - first
-                return _UnfitError(score, refused(problem, mend))
+                return UnfitTable(score, refused(problem, mend))
             sign = "".join(mark for mark in ".," if mark in cell)
             signs[column] = signs[column] or sign
             if sign and sign != signs[column]:
                 problem = f"строка {line}: в столбце стоят и точка, и запятая"
-                return _UnfitError(i - first, refused(problem, "оставьте один знак дроби"))
+                return UnfitTable(i - first, refused(problem, "оставьте один знак дроби"))
         if separator in ", " and len(fields) != len(rows[first][1]):
             problem = f"строка {line}: чисел {len(fields)}, а выше {len(rows[first][1])}"
             hint = "в таблице должно быть одно число столбцов"
-            return _UnfitError(i - first, refused(problem, hint))
+            return UnfitTable(i - first, refused(problem, hint))
     return _thousands(rows, cells, first, refused)
 
 
 def _thousands(
     rows: list[Row], cells: list[list[str]], first: int, refused: Refuse
-) -> _UnfitError | None:
+) -> UnfitTable | None:
     """Return first "1,234" of a column that has whole hundreds without a sign beside such cells."""
     for column in zip(*cells[first:], strict=True):
         signed = [i for i, cell in enumerate(column) if "," in cell or "." in cell]
         whole = any(cell.lstrip("-+−").isdecimal() and len(cell) > 2 for cell in column)
         if signed and whole and all(_THOUSANDS.fullmatch(column[i]) for i in signed):
             problem = f"строка {rows[first + signed[0]][0]}: «{column[signed[0]]}» читается двояко"
-            return _UnfitError(len(rows), refused(problem, "уберите разделители тысяч"), final=True)
+            return UnfitTable(len(rows), refused(problem, "уберите разделители тысяч"), final=True)
     return None
 
 
@@ -274,7 +266,7 @@ def _column(
         if 1 <= column <= width:
             return column - 1, 0
         problem, hint = f"нет столбца {column}", f"в таблице столбцов {width}"
-        raise _UnfitError(score, requested.refused(problem, hint, key=key))
+        raise UnfitTable(score, requested.refused(problem, hint, key=key))
     names = [fields for _, fields in rows[:first]]
     word = str(column).strip().casefold()
     for i, fields in reversed([*enumerate(names)]):  # the heading is the nearest row
@@ -284,12 +276,12 @@ def _column(
             return (exact or indices)[0], i + 1
         if indices:
             problem = f"столбцов «{one_line(str(column), 40)}» несколько"
-            raise _UnfitError(score, requested.refused(problem, "укажите номер", key=key))
+            raise UnfitTable(score, requested.refused(problem, "укажите номер", key=key))
     nearest = [fields for fields in reversed(names) if len([*filter(None, fields)]) > 1]
     heads = [one_line(name, 20) for fields in nearest[:2] for name in fields if name]
     hint = f"есть: {', '.join(heads[:12])}" if heads else "у столбцов нет заголовков: укажите номер"
     problem = f"нет столбца «{one_line(str(column), 40)}»"
-    raise _UnfitError(score, requested.refused(problem, hint, key=key))
+    raise UnfitTable(score, requested.refused(problem, hint, key=key))
 
 
 def _torn(

@@ -14,7 +14,7 @@ import numpy as np
 
 from kshm.arrays import Array, Tables
 from kshm.defaults import FINE_STEP
-from kshm.mechanics.oil_orbit import FilmError
+from kshm.errors import FilmError
 from kshm.mechanics.wear import ray_sums
 from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import Quantity, quantity

@@ -13,14 +13,14 @@ from typing import Any
 
 import jinja2
 
-from reports.formula.parse import FormulaError, names
+from reports.formula.parse import names
 from reports.inputs.own_books import Texts, book_name
 from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of
 from reports.model.sandbox import StrictEnvironment, rendered
 from reports.model.statements import said_of, unpaired
-from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.errors import BookError, FormulaError, one_line
 from reports.shared.resources import templates_dir
 
 _MARK = "\x1f"
@@ -59,15 +59,6 @@ class BookPlaces:
         lines = self.blocks.get(name) or self.charts.get(name) or ()
         having = (line for line in lines if word and word in line.text)
         return next(having, lines[0] if lines else None)
-
-
-class BookError(InputError):
-    """A mistake in a book: where it stands there, what it is, how to mend it."""
-
-    def __init__(self, book: str, line: int, column: int, problem: str, hint: str = "") -> None:
-        at = f"{one_line(book, 60)}: строка {line}, столбец {column}"
-        super().__init__(Problem(at, one_line(problem, 200), hint))
-        self.line, self.column = line, column
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from kshm.arrays import Columns
 from kshm.nomenclature.quantity import UNITS
-from reports.formula.parse import FormulaError, is_condition, names, parse
+from reports.formula.parse import is_condition, names, parse
 from reports.inputs.own_books import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import CHAPTERS
@@ -37,7 +37,6 @@ from reports.model.blocks import (
 )
 from reports.model.blocks import TableSpec as Table
 from reports.model.book_text import (
-    BookError,
     BookLine,
     BookPlaces,
     Shelf,
@@ -49,6 +48,7 @@ from reports.model.book_text import (
 from reports.model.charts import ChartLines, ChartSpec
 from reports.model.rename import renamed
 from reports.model.shape import Part, stepped
+from reports.shared.errors import BookError, FormulaError
 
 MOST_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)

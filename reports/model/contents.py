@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 
-from reports.model.book_text import BookError, Shelf, house_shelf
+from reports.model.book_text import Shelf, house_shelf
+from reports.shared.errors import BookError
 
 _PLACE = re.compile(r"^place (before|chain|after) (\d+)( alone)?$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)

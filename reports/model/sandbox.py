@@ -34,10 +34,6 @@ _WIDE = re.compile(r"%[-+ #0]*\d{3}|%[^a-zA-Z%]*\*|%[^a-zA-Z%]*\.\d{3}")
 _STEP, _JOIN = "_step", "_join"
 
 
-class LimitError(SecurityError):
-    """The work of a book has no end in sight."""
-
-
 @dataclass
 class Budget:
     """Work that a book may still do."""
@@ -50,26 +46,26 @@ class Budget:
         """One step of a loop."""
         self.steps -= 1
         if self.steps < 0:
-            raise LimitError(f"шагов циклов больше {MOST_STEPS}")
+            raise SecurityError(f"шагов циклов больше {MOST_STEPS}")
         self.in_time()
 
     def call(self) -> None:
         """One call."""
         self.calls -= 1
         if self.calls < 0:
-            raise LimitError(f"вызовов больше {MOST_CALLS}")
+            raise SecurityError(f"вызовов больше {MOST_CALLS}")
         self.in_time()
 
     def in_time(self) -> None:
         """Refuse work beyond the time."""
         if time.process_time() > self.until:
-            raise LimitError(f"счёт дольше {SECONDS:g} с")
+            raise SecurityError(f"счёт дольше {SECONDS:g} с")
 
 
 def bounded(text: str) -> str:
     """Return a text within its length."""
     if len(text) > MOST_TEXT:
-        raise LimitError(f"текст длиннее {MOST_TEXT} знаков")
+        raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
     return text
 
 
@@ -135,21 +131,21 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
         """Arithmetic of numbers; texts may be joined and filled in."""
         if operator == "%" and isinstance(left, str):
             if _WIDE.search(left):
-                raise LimitError("ширина в формате больше двух знаков")
+                raise SecurityError("ширина в формате больше двух знаков")
             return bounded(super().call_binop(context, operator, left, right))
         if operator == "*" and isinstance(left, str | list | tuple) and isinstance(right, int):
             if len(left) * right > MOST_TEXT:
-                raise LimitError(f"текст длиннее {MOST_TEXT} знаков")
+                raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
             return super().call_binop(context, operator, left, right)
         if operator == "+" and isinstance(left, str | list | tuple):
             if len(left) + len(right) > MOST_TEXT:
-                raise LimitError(f"текст длиннее {MOST_TEXT} знаков")
+                raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
             return super().call_binop(context, operator, left, right)
         numbers = isinstance(left, int | float) and isinstance(right, int | float)
         if not numbers or (operator == "**" and (abs(left) > 1e6 or abs(right) > 64)):
-            raise LimitError(f"действие {operator} книге запрещено с такими значениями")
+            raise SecurityError(f"действие {operator} книге запрещено с такими значениями")
         if max(abs(left), abs(right)) > 1e18:
-            raise LimitError("число больше 10¹⁸")
+            raise SecurityError("число больше 10¹⁸")
         return super().call_binop(context, operator, left, right)
 
     def get_template(self, name: Any, *args: Any, **options: Any) -> Any:  # noqa: ANN401
@@ -167,7 +163,7 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
     def _range(self, *bounds: int) -> range:
         numbers = range(*bounds)
         if len(numbers) > MOST_STEPS:
-            raise LimitError(f"шагов циклов больше {MOST_STEPS}")
+            raise SecurityError(f"шагов циклов больше {MOST_STEPS}")
         return numbers
 
     def _joined(self, *parts: object) -> str:
@@ -178,7 +174,7 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
         if not old:
             raise SecurityError("replace не знает, что заменить")
         if len(whole) + whole.count(old) * len(new) > 10 * MOST_TEXT:
-            raise LimitError(f"текст длиннее {10 * MOST_TEXT} знаков")
+            raise SecurityError(f"текст длиннее {10 * MOST_TEXT} знаков")
         return whole.replace(old, new)
 
 
@@ -191,7 +187,7 @@ def rendered(name: str, names: Any, environment: jinja2.Environment) -> str:  # 
     for part in environment.get_template(name).generate(names):
         length += len(part)
         if length > MOST_OUTPUT:
-            raise LimitError(f"вывод больше {MOST_OUTPUT // 1000} КБ")
+            raise SecurityError(f"вывод больше {MOST_OUTPUT // 1000} КБ")
         parts.append(part)
     return "".join(parts)
 

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.recalculation.array_functions import NOT_LIFTED, WRONG, register
-from reports.recalculation.formulas import PLACES, TEXT_NUMBER, UnknownFormula, is_doubtful
+from reports.recalculation.formulas import PLACES, TEXT_NUMBER, is_doubtful
 from reports.recalculation.grid import Area, CellGrid, Run, is_backwards
 from reports.recalculation.minimal_xlsx import plain_book
+from reports.shared.errors import UnknownFormula
 
 if TYPE_CHECKING:
     from formualizer import Workbook

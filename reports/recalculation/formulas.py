@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 
 from reports.recalculation.array_functions import UNITS
 from reports.recalculation.functions import ALLOWED, BY_PERSON, TAKES_ARRAYS, TAKES_RANGES
+from reports.shared.errors import UnknownFormula
 
 MAX_LENGTH = 8192
 MAX_ROW, MAX_COLUMN = 1_048_576, 16_384
@@ -46,10 +47,6 @@ GOOGLE_ARRAY = "формула Google Таблиц, которой нет в .xl
 _DOUBTFUL = re.compile(r"\s*[-+]?(?:\d[\d\s]*[.,][\d.,]*|[.,]\d+)(?:[eE][-+]?\d+)?\s*%?\s*")
 _NUMBER = re.compile(r"\s*[-+]?\d[\d\s.,]*(?:[eE][-+]?\d+)?\s*%?\s*|[.,]\d+")
 _ENDS = (("op", ","), ("op", ")"))
-
-
-class UnknownFormula(ValueError):  # noqa: N818 - it is not the student's error
-    """A formula that the referee cannot calculate for certain: a person must look."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,10 +18,6 @@ Constant = float | str | bool
 _FEW = 8  # runs of a column that are looked through faster than they are put in order
 
 
-class BadBook(ValueError):  # noqa: N818 - an expected find
-    """A workbook that cannot be read; the message is Russian."""
-
-
 @dataclass(frozen=True, slots=True)
 class Area:
     """A rectangle of cells."""

@@ -12,16 +12,16 @@ from lxml import etree
 
 from reports.recalculation.formulas import (
     Token,
-    UnknownFormula,
     column_number,
     formula_of,
     pattern,
     ref_of,
     unquoted,
 )
-from reports.recalculation.grid import MAX_SHEETS, Area, BadBook, CellGrid
+from reports.recalculation.grid import MAX_SHEETS, Area, CellGrid
 from reports.recalculation.ranges import cross, pick
 from reports.recalculation.sheets import MAIN, Forms, parse_xml, read_sheet, rich_text
+from reports.shared.errors import BadBook, UnknownFormula
 from reports.workbook.intake import STRICT, Package
 
 _MOST = 60  # tokens of a name: nobody calls more than that by one word

@@ -12,24 +12,18 @@ from math import isfinite, nan
 
 from lxml import etree
 
-from reports.recalculation.formulas import (
-    UnknownFormula,
-    column_number,
-    filled,
-    formula_at,
-    row_template,
-)
+from reports.recalculation.formulas import column_number, filled, formula_at, row_template
 from reports.recalculation.grid import (
     MAX_CELLS,
     MAX_COLUMN,
     MAX_ROW,
     Area,
-    BadBook,
     CellColumn,
     CellGrid,
     Constant,
     Run,
 )
+from reports.shared.errors import BadBook, UnknownFormula
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
 _VALUES = re.compile(rb"(?<=<v>)[^<]+(?=</v>)")

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import Formula, UnknownFormula, quoted
+from reports.recalculation.formulas import Formula, quoted
 from reports.recalculation.grid import Area, CellColumn, CellGrid, Constant, Run
+from reports.shared.errors import UnknownFormula
 
 _SCRATCH = "\N{GREEK SMALL LETTER PHI}"
 _COMPARISONS = frozenset(("op", sign) for sign in ("=", "<>", "<", ">", "<=", ">="))

@@ -13,8 +13,8 @@ from concurrent.futures import Future
 from typing import Any, TypeVar
 
 from reports.shared.background import processors
-from reports.shared.errors import KshmError, SystemPartMissing
-from reports.shared.workers import Died, NeverStarted, Workers
+from reports.shared.errors import Died, KshmError, NeverStarted, SystemPartMissing
+from reports.shared.workers import Workers
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

@@ -20,7 +20,7 @@ from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from reports.shared.background import end_with_parent
-from reports.shared.errors import KshmError, one_line
+from reports.shared.errors import Died, KshmError, NeverStarted, one_line
 from reports.shared.interrupt import held
 
 if TYPE_CHECKING:
@@ -48,14 +48,6 @@ def processes(needs: str) -> ForkServerContext | SpawnContext:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["reports.shared.orphaned", needs])  # before the first copy
     return context
-
-
-class Died(Exception):  # noqa: N818 - what happened to the process
-    """The process has died of its question."""
-
-
-class NeverStarted(Exception):  # noqa: N818 - what happened to the process
-    """Processes die or hang before they are ready."""
 
 
 class Workers:

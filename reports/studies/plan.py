@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from kshm.chain.solve import solve_chunks
 from kshm.cycle.cycle import CycleRun
 from kshm.engine.engine import Engine
-from kshm.mechanics.oil_orbit import FilmError
+from kshm.errors import FilmError
 from kshm.results.chosen import ChosenQuantities, of_batch
 from reports.inputs.fields import Field, Path, iter_fields, to_mapping
 from reports.inputs.revisions import Revisions

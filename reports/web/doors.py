@@ -32,9 +32,9 @@ from reports.grading.batch.tries import told_of_try
 from reports.grading.pages.moodle import check_upload
 from reports.grading.reading.selfcheck import refuse_foreign, remarks
 from reports.inputs.form_fields import Data
-from reports.shared.errors import InputError, KshmError, OutputError, Problem
+from reports.shared.errors import Died, InputError, KshmError, NeverStarted, OutputError, Problem
 from reports.shared.files import make_dir
-from reports.shared.workers import Died, NeverStarted, Workers
+from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.shares import Turns
 

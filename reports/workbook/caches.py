@@ -25,6 +25,7 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.writer.excel import ExcelWriter
 
 from kshm.nomenclature.symbols import LOWER, UPPER
+from reports.shared.errors import CacheError
 from reports.workbook.sheets import CacheValues, FilledColumn, Runs
 from reports.workbook.styles import FONT, SIZE
 
@@ -99,10 +100,6 @@ def _words(chart: etree._Element) -> str:
 
 def _text(title: etree._Element | None) -> str:
     return "" if title is None else "".join(t.text or "" for t in title.iter(f"{{{_A}}}t"))
-
-
-class CacheError(ValueError):
-    """A formula cell has no finite value to be cached."""
 
 
 class Readable(Protocol):

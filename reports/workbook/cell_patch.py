@@ -15,6 +15,7 @@ from xml.sax.saxutils import escape
 
 from openpyxl.utils import column_index_from_string, get_column_letter
 
+from reports.shared.errors import SharedFormulaError
 from reports.workbook.caches import sheet_parts
 from reports.workbook.intake import repacked
 
@@ -33,10 +34,6 @@ _SAVED = re.compile(
 )
 _BOOK, _TYPES, _CHAIN = "xl/workbook.xml", "[Content_Types].xml", "xl/calcChain.xml"
 _RELATIONS = "xl/_rels/workbook.xml.rels"
-
-
-class SharedFormulaError(ValueError):
-    """A cell holds a formula that stands for others, too; the message is its address."""
 
 
 def with_cells(data: bytes, title: str, values: Mapping[tuple[int, int], Value]) -> bytes:

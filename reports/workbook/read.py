@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any
 
 from reports.inputs.fields import POINT_KEYS, iter_fields
 from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.own_books import MOST_LINES, DeclarationError, Texts, path_of_cell
+from reports.inputs.own_books import MOST_LINES, Texts, path_of_cell
 from reports.inputs.registry import SECTIONS
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import DeclarationError, InputError, Problem
 from reports.workbook.intake import check_package
 from reports.workbook.layout import (
     BOOK_MARK,

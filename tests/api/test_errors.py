@@ -13,8 +13,7 @@ import pytest
 
 import kshm
 import reports
-from kshm.cycle.fuel import CycleError
-from kshm.mechanics.oil_orbit import FilmError
+from kshm.errors import CycleError, FilmError
 from reports.shared.errors import OutputError, SystemPartMissing
 from tests.api.test_api import small
 from tests.conftest import ROOT

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 import tomlkit
 
-from kshm.mechanics.oil_orbit import FilmError, orbits
+from kshm.errors import FilmError
+from kshm.mechanics.oil_orbit import orbits
 from reports.exports.build import load_input
 from reports.inputs.fields import to_mapping
 from reports.inputs.solve_input import solved

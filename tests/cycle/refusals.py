@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from kshm.cycle.fuel import CycleError
+from kshm.errors import CycleError
 from reports.inputs.to_si.cycle import text_of
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from kshm.cycle.cycle import bore_for, cycle, design, round_to_series
 from kshm.cycle.dizdn_listing import Listing
-from kshm.cycle.fuel import CycleError
 from kshm.cycle.inputs import FrictionLaw
+from kshm.errors import CycleError
 from reports.inputs.to_si.cycle import text_of
 from tests.cycle.refusals import refused
 

@@ -11,8 +11,9 @@ import pytest
 import kshm
 from kshm.cycle.cycle import cycle
 from kshm.cycle.dizdn_listing import Listing
-from kshm.cycle.fuel import FUELS, CycleError
+from kshm.cycle.fuel import FUELS
 from kshm.cycle.inputs import FrictionLaw
+from kshm.errors import CycleError
 from reports.inputs.to_si.cycle import TEXTS, text_of
 from reports.shared.russian import short
 from tests.cycle.refusals import refused

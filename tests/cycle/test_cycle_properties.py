@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from kshm.cycle.cycle import cycle, design
 from kshm.cycle.diagram import indicator_diagram
-from kshm.cycle.fuel import FUELS, CycleError
+from kshm.cycle.fuel import FUELS
 from kshm.cycle.inputs import Boost
 from kshm.cycle.performance import heat_balance
 from kshm.cycle.processes import compress, fill
+from kshm.errors import CycleError
 from reports.inputs.to_si.cycle import text_of
 from tests.cycle.cycle_engines import ENGINES
 from tests.cycle.energy import cycle_energy

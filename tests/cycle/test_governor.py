@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kshm.cycle.fuel import CycleError
 from kshm.cycle.governor import Governor, branch
+from kshm.errors import CycleError
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.conftest import sample
 

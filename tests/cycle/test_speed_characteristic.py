@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from kshm.cycle.fuel import CycleError
 from kshm.cycle.speed_characteristic import (
     LEIDERMAN,
     Leiderman,
@@ -13,6 +12,7 @@ from kshm.cycle.speed_characteristic import (
     from_adaptability,
     speed_points,
 )
+from kshm.errors import CycleError
 from reports.inputs.to_si.cycle import text_of
 from tests.cycle.refusals import refused
 

@@ -1,6 +1,7 @@
 import pytest
 
-from reports.document.page.numbering import Draft, Numbering, NumberingError
+from reports.document.page.numbering import Draft, Numbering
+from reports.shared.errors import NumberingError
 
 
 @pytest.fixture

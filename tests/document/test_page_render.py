@@ -7,15 +7,10 @@ import tempfile
 import pytest
 
 from reports.document.figures.curves import Panel, PlotCurve, curves_figure
-from reports.document.page.render import (
-    AttachedFile,
-    RenderError,
-    environment,
-    render,
-    render_pdf,
-)
+from reports.document.page.render import AttachedFile, environment, render, render_pdf
 from reports.document.text.mathsvg import formula
 from reports.draw.fonts import fonts_css
+from reports.shared.errors import RenderError
 from tests.document.pdftools import fonts_of, pages_of, poppler
 
 PAGE = """<!DOCTYPE html><html lang="ru"><head><title>Отчёт</title><style>

@@ -61,7 +61,7 @@ def test_powers_of_ten_are_printed_as_such():
 
 def test_a_broken_reference_is_told(monkeypatch):
     from reports.document import report
-    from reports.document.page.numbering import NumberingError
+    from reports.shared.errors import NumberingError
 
     few = report.CHAPTERS[:4]
     monkeypatch.setattr(report, "CHAPTERS", few)

@@ -9,12 +9,13 @@ from unittest import mock
 import pytest
 
 from reports.document.chapters import opening
-from reports.document.text.symbols import SymbolError, inline_html
+from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.new.generate import generate_engine
+from reports.shared.errors import SymbolError
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, plain
 from tests.document.test_report_symbols import assert_substitutions_hold

@@ -12,7 +12,7 @@ from reports.document.report import Report
 from reports.document.text.mathsvg import formula, formula_lines
 from reports.document.text.terms import book_place, plain_number, unit_tex
 from reports.document.text.tex import case_parts
-from reports.formula.tex import NotPrintable
+from reports.shared.errors import NotPrintable
 from tests.document.pdftools import fonts_of, pages_of
 from tests.document.report_samples import ONE, html_page, terms, terms_of
 

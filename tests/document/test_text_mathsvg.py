@@ -11,13 +11,8 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
 
 from reports.document.text import mathtext
-from reports.document.text.mathsvg import (
-    FormulaImage,
-    FormulaImageError,
-    formula,
-    formula_lines,
-    plain,
-)
+from reports.document.text.mathsvg import FormulaImage, formula, formula_lines, plain
+from reports.shared.errors import FormulaImageError
 
 LONG = (
     r"j_{\mathrm{п}}=r\omega^2\left(\cos\varphi+\lambda\cos2\varphi\right)"

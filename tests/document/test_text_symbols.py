@@ -9,17 +9,11 @@ import pytest
 
 from reports.document import report
 from reports.document.text import mathsvg
-from reports.document.text.symbols import (
-    SymbolError,
-    indexed,
-    inline_html,
-    remark_html,
-    spoken,
-    titled_html,
-)
+from reports.document.text.symbols import indexed, inline_html, remark_html, spoken, titled_html
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.evaluation import evaluate_model
+from reports.shared.errors import SymbolError
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.cover import ALL

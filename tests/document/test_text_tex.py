@@ -1,6 +1,7 @@
 import pytest
 
-from reports.document.text.tex import TexError, break_points, for_mathtext, tree
+from reports.document.text.tex import break_points, for_mathtext, tree
+from reports.shared.errors import TexError
 
 
 def tokens(nodes):

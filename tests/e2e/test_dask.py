@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 import re
 import signal
+import subprocess
+import sys
+import time
 import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -24,6 +28,7 @@ from reports.shared import parallel_map
 from reports.shared.errors import KshmError
 from reports.shared.resources import samples_dir
 from reports.studies import sweep as run_module
+from reports.studies.journal import journal_path
 from reports.studies.sweep import SweepOptions, sweep
 from reports.web.app import Settings, create_app
 from tests.grading import classroom
@@ -83,6 +88,35 @@ def test_a_study_survives_a_killed_worker_byte_for_byte(
     assert far.read_bytes() == near.read_bytes()
     assert len(killed) == 1
     assert gone(killed[0])
+
+
+def share_done(part: Path) -> float:
+    """How much of a study its file of finished rows holds."""
+    if not part.exists() or b"\n" not in (data := part.read_bytes()):
+        return 0.0
+    head = json.loads(data.partition(b"\n")[0])
+    return len(data) / (8 * head["rows"] * len(head["quantities"]))
+
+
+def test_a_study_killed_at_a_third_goes_on_byte_for_byte(cluster: Any, tmp_path: Path) -> None:
+    """``kill -9`` of the command, not of a worker; the cluster lives on."""
+    vary = ("regime.speed_rpm=1500:4400:60", "crankshaft.webs.*.counterweight_kg=-0.1:1.5:40")
+    far, near = tmp_path / "far.parquet", tmp_path / "near.parquet"
+    words = [sys.executable, "-m", "reports", "sweep", BASE, "-o", far]
+    words += ["--dask", cluster.scheduler_address]
+    words += [word for text in vary for word in ("--vary", text)]
+    process = subprocess.Popen(list(map(str, words)), stderr=subprocess.DEVNULL)
+    while process.poll() is None and share_done(journal_path(far)) < 0.3:
+        time.sleep(0.002)
+    process.kill()
+    process.wait()
+    assert 0.3 <= share_done(journal_path(far)) < 1 and not far.exists()
+    options = SweepOptions(dask=cluster.scheduler_address, resume=True)
+    again = sweep(BASE, vary, far, options=options)
+    whole = sweep(BASE, vary, near, options=SweepOptions(jobs=1))
+    assert (again.points, again.failed) == (whole.points, whole.failed) and again.failed
+    assert far.read_bytes() == near.read_bytes()
+    assert [path.name for path in tmp_path.glob("far*")] == ["far.parquet"]
 
 
 def tree(folder: Path) -> dict[str, bytes]:

@@ -9,8 +9,8 @@ from openpyxl import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.read import read_grid
+from reports.shared.errors import UnknownFormula
 
 NAMES = {
     "k": "PI()/180", "g": "Лист!$A$1*2", "cell": "Лист!$A$2", "of_cell": "cell+1",

@@ -16,8 +16,8 @@ from reports.grading.batch import pool
 from reports.grading.batch.pool import grade_all
 from reports.grading.reading.submissions import collect
 from reports.shared import workers as room
-from reports.shared.errors import InputError
-from reports.shared.workers import Died, NeverStarted, Workers
+from reports.shared.errors import Died, InputError, NeverStarted
+from reports.shared.workers import Workers
 
 
 def calling() -> Callable[..., Any]:

@@ -9,11 +9,12 @@ import pytest
 
 from reports.inputs.load import load_toml
 from reports.model.blocks import Grid, ScalarTable, TableSpec
-from reports.model.book_text import BookError, BookLine, Shelf, book_faults, house_shelf
+from reports.model.book_text import BookLine, Shelf, book_faults, house_shelf
 from reports.model.books import read_book
 from reports.model.contents import contents_of
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope
+from reports.shared.errors import BookError
 from reports.shared.resources import samples_dir
 from reports.tables.contexts import book_part
 from reports.tables.registry import build_model

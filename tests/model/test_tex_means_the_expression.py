@@ -14,9 +14,10 @@ import pytest
 from reports.document.text.terms import Terms
 from reports.formula.numeric import evaluate
 from reports.formula.parse import names
-from reports.formula.tex import NotPrintable, chosen, to_tex
+from reports.formula.tex import chosen, to_tex
 from reports.model.blocks import Node
 from reports.model.evaluation import evaluate_model
+from reports.shared.errors import NotPrintable
 from reports.tables.registry import build_model
 from tests.conftest import sample
 

@@ -12,8 +12,8 @@ from reports.cli import main
 from reports.document.report import Report
 from reports.inputs.load import load_toml
 from reports.model.blocks import Model
-from reports.model.book_text import BookError
 from reports.model.evaluation import Values, evaluate_model
+from reports.shared.errors import BookError
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from reports.tables.verdicts import outcomes

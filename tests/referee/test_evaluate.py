@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import UnknownFormula, formula_of, pattern, quoted, render
+from reports.recalculation.formulas import formula_of, pattern, quoted, render
 from reports.recalculation.functions import ALLOWED, BY_ENGINE, BY_PERSON, BY_PROGRAM
 from reports.recalculation.read import read_grid
 from reports.recalculation.trial_sheet import Bench, Cells, PinnedGrid, pinned, unrounded
+from reports.shared.errors import UnknownFormula
 from reports.workbook.caches import sheet_parts
 from tests.referee.books import engine_of
 from tests.workbook.made import coarse_book

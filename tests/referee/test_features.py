@@ -12,8 +12,8 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.formula import ArrayFormula
 
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.read import read_grid
+from reports.shared.errors import UnknownFormula
 from tests.referee.features import DATA, DIFFERENT, FEATURES, NAMES, SHEET
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import CellValue

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from reports.recalculation.formulas import (
-    UnknownFormula,
-    filled,
-    formula_at,
-    pattern,
-    render,
-    row_template,
-)
+from reports.recalculation.formulas import filled, formula_at, pattern, render, row_template
 from reports.recalculation.grid import Area
+from reports.shared.errors import UnknownFormula
 from tests.referee.books import engine_of
 
 

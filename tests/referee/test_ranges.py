@@ -9,8 +9,8 @@ from openpyxl import Workbook
 from openpyxl.workbook.defined_name import DefinedName
 
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.read import read_grid
+from reports.shared.errors import UnknownFormula
 from tools.referees.by_libreoffice import LibreOffice
 
 # In each row from the second to the fifth; the angles stand in column A, some more in row 9.

@@ -8,9 +8,10 @@ import re
 import pytest
 
 from reports.recalculation import sheets
-from reports.recalculation.grid import BadBook, CellGrid
+from reports.recalculation.grid import CellGrid
 from reports.recalculation.read import read_grid
 from reports.recalculation.sheets import Forms, read_sheet
+from reports.shared.errors import BadBook
 from tests.grading.forms import as_excel
 from tests.referee.books import SHEET, book_of, grid_of
 from tests.workbook.made import coarse_book

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reports.document.text.tex import TexError
 from reports.document.text.texts import FORMULA
+from reports.shared.errors import TexError
 from reports.word.omml import displayed, omath
 from tests.cover import chapters, samples_with, sparse
 from tests.word.docx_samples import NAME, NUMBER, M, W, docx_of, page_of, part, root_of, text_of

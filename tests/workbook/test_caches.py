@@ -11,7 +11,8 @@ from lxml import etree
 from openpyxl import Workbook
 from openpyxl.chart import Reference, ScatterChart, Series
 
-from reports.workbook.caches import CacheError, finish
+from reports.shared.errors import CacheError
+from reports.workbook.caches import finish
 from reports.workbook.sheets import CacheValues
 from tests.workbook.lint import MAIN, C
 from tests.workbook.made import coarse_book

@@ -11,13 +11,14 @@ from unicodedata import normalize
 import pytest
 
 from kshm.nomenclature.symbols import BASE, LOWER, UPPER, symbol_runs
-from reports.document.text.symbols import SymbolError, inline_html
+from reports.document.text.symbols import inline_html
 from reports.formula.excel import compile_formula
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Model, TableSpec, nodes_in
 from reports.new.generate import generate_engine
+from reports.shared.errors import SymbolError
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.conftest import sample, sample_names

@@ -13,11 +13,12 @@ from openpyxl import load_workbook
 
 from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
-from reports.formula.parse import FormulaError, names, parse
+from reports.formula.parse import names, parse
 from reports.formula.tex import to_tex
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.shape import FIRING
+from reports.shared.errors import FormulaError
 from reports.tables.registry import build_model
 from reports.workbook import cockpit
 from reports.workbook.caches import sheet_parts

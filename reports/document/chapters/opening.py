@@ -21,7 +21,7 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.charts import mechanism_of, sizes_figure, throw_of
 from reports.document.page.numbering import Figure, TablePlan
-from reports.document.text.symbols import SymbolError, inline_html
+from reports.document.text.symbols import inline_html
 from reports.document.text.terms import (
     Terms,
     field_title,
@@ -35,6 +35,7 @@ from reports.inputs.sections.gas import TableGasSection
 from reports.inputs.sections.input_file import LAYOUTS, InputFile
 from reports.model.context import diagram_kind
 from reports.model.shape import Shape
+from reports.shared.errors import SymbolError
 from reports.shared.russian import cylindered, instrumental, joined
 from reports.tables.left_out import unused
 

@@ -17,11 +17,10 @@ from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.texts import limits
 from reports.formula.numeric import evaluate
-from reports.formula.tex import NotPrintable
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
-from reports.model.book_text import BookError, cause_of, shelf_of
+from reports.model.book_text import cause_of, shelf_of
 from reports.model.context import CASE_MARK, MARK
-from reports.shared.errors import KshmError
+from reports.shared.errors import BookError, KshmError, NotPrintable
 from reports.shared.russian import capital, fixed, uncapital
 from reports.shared.standing import WORDS, Standing
 from reports.tables.verdicts import JudgedValue, outcomes

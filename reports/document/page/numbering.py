@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 
 from reports.document.page.blocks import TableBlock
 from reports.document.text.terms import WhereItem
+from reports.shared.errors import NumberingError
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -26,10 +27,6 @@ _WORDS: dict[Kind, tuple[str, str]] = {
     "source": ("источник", "src"),
 }
 _KEPT_ROWS = 10  # a longer table that must not break would leave half a page empty
-
-
-class NumberingError(ValueError):
-    """A reference, a placing or a declaration does not fit the others."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from reports.document.text.symbols import inline_html
 from reports.document.text.texts import FORMULA
 from reports.draw import fonts
 from reports.shared.doctor import need_pango
+from reports.shared.errors import RenderError
 from reports.shared.font_coverage import boxed
 from reports.shared.gc_pause import uncollected
 from reports.shared.russian import NBSP, joined
@@ -86,10 +87,6 @@ def _typed(pdf: Any, file: dict[str, Any]) -> None:  # noqa: ANN401
         if file["UF"].string.endswith(ending):
             stream = pdf.objects[int(file["EF"]["F"].split()[0])]
             stream.extra["Subtype"] = f"/{media.replace('/', '#2f')}"
-
-
-class RenderError(RuntimeError):
-    """WeasyPrint warned or refused: the PDF would not be what the template says."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,6 @@ from reports.document.text.tex import (
     FRACTIONS,
     GREEK,
     BreakPoint,
-    TexError,
     TexNode,
     break_points,
     case_lines,
@@ -39,6 +38,7 @@ from reports.document.text.tex import (
     tree,
 )
 from reports.document.text.texts import pictured
+from reports.shared.errors import FormulaImageError, TexError
 from reports.shared.russian import MINUS, NBSP
 
 _UNITS = 1000.0  # size at which mathtext sets the formula; one em of the result
@@ -79,10 +79,6 @@ def complaints(name: str) -> Iterator[list[str]]:
         yield collector.lines
     finally:
         logger.handlers[:], logger.propagate = handlers, propagate
-
-
-class FormulaImageError(ValueError):
-    """The TeX of a formula cannot be set."""
 
 
 @dataclass(frozen=True, slots=True)

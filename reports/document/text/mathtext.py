@@ -20,16 +20,14 @@ from matplotlib.ft2font import LoadFlags
 from matplotlib.mathtext import MathTextParser, VectorParse
 from pyparsing import ParseResults
 
+from reports.shared.errors import TexError
+
 lib: Any = _mathtext
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)")
 _SPACE = re.compile(r"\\hspace\s*\{\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))\s*\}")
 _GROUP = re.compile(r"\\math([a-z]+)\s*\{")
 _SIGN = re.compile(r"[a-zA-Z0-9+\-*/<>=:,.;!?&@()\[\]|\x80-\U0001ffff]")
 _ESCAPED = {"\\" + sign for sign in "%{}[]_|"}
-
-
-class _Unknown(Exception):  # noqa: N818
-    """A construct left to the library."""
 
 
 def read(text: str, size: float) -> VectorParse:
@@ -69,7 +67,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         """Return the whole text."""
         parts = self._text.split("$")
         if len(parts) % 2 == 0 or "\\$" in self._text or "'" in self._text:
-            raise _Unknown
+            raise TexError
         boxes = []
         for number, part in enumerate(parts):
             if number % 2 == 0:
@@ -78,7 +76,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
             self._s, self._at = part, 0
             nodes = self._tokens()
             if self._at < len(part) or not nodes:
-                raise _Unknown
+                raise TexError
             boxes.append(lib.Hlist(nodes))
             self.pop_state()
         return lib.Hlist(boxes)
@@ -94,12 +92,12 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
             return s[self._at]
         match = _COMMAND.match(s, self._at)
         if match is None:
-            raise _Unknown
+            raise TexError
         return match.group()
 
     def _take(self, token: str) -> None:
         if self._next() != token:
-            raise _Unknown
+            raise TexError
         self._at += len(token)
 
     def _tokens(self) -> list[Any]:
@@ -117,7 +115,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         if token == r"\hspace":
             match = _SPACE.match(self._s, self._at)
             if match is None:
-                raise _Unknown
+                raise TexError
             self._at = match.end()
             return _one(self.customspace({"space": float(match[1])}))
         begin = self._at
@@ -126,7 +124,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         while (sign := self._next()) in ("_", "^"):
             self._at += 1
             if self._s[self._at : self._at + 1] == " ":  # the library would set the space
-                raise _Unknown
+                raise TexError
             indices += [sign, self._placeable(self._next())]
         if indices:
             parts["subsuper"] = indices
@@ -141,7 +139,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
             return _one(rule(self, begin))
         if group := _GROUP.match(self._s, begin):
             if group[1] not in self._fontnames:
-                raise _Unknown
+                raise TexError
             self._at = group.end()
             return self._group(group[1])
         if token[1:] in self._accent_map:
@@ -154,7 +152,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         if token[1:] in self._function_names:
             self._at += len(token)
             return _one(self.function(self._s, begin, {"name": token[1:]}))
-        raise _Unknown
+        raise TexError
 
     def _group(self, font: str = "") -> Any:  # noqa: ANN401
         self.push_state()
@@ -171,7 +169,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
         nodes = self._tokens()
         self._take("}")
         if not nodes:
-            raise _Unknown
+            raise TexError
         return lib.Hlist(nodes)
 
     def _named(self, begin: int) -> Any:  # noqa: ANN401
@@ -189,7 +187,7 @@ class _GlyphReader(lib.Parser):  # type: ignore[misc]
     def _delimiter(self) -> str:
         token = self._next()
         if token not in self._delims:
-            raise _Unknown
+            raise TexError
         self._at += len(token)
         return token
 

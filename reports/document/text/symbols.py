@@ -12,17 +12,10 @@ from collections.abc import Sequence
 
 from markupsafe import Markup, escape
 
-from reports.document.text.tex import (
-    FRACTIONS,
-    GREEK,
-    TexError,
-    TexNode,
-    case_lines,
-    is_cases,
-    tree,
-)
+from reports.document.text.tex import FRACTIONS, GREEK, TexNode, case_lines, is_cases, tree
 from reports.document.text.texts import rich
 from reports.formula.tex import input_symbol_tex
+from reports.shared.errors import SymbolError, TexError
 from reports.shared.russian import MINUS, NBSP
 
 SIGNS = {
@@ -77,10 +70,6 @@ _INVISIBLE = re.compile(r"\\(?:left|right)\.")
 _INSTEAD = (("{,}", ","), (r"\\", ";"), (r"\left|", r"\mathrm{модуль} ("), (r"\right|", ")"))
 _ATOM = re.compile(r"[\w,.°′]+")
 _SPOKEN_WORD = re.compile(r"[a-z]{2,}", re.IGNORECASE)
-
-
-class SymbolError(ValueError):
-    """The TeX is no simple symbol."""
 
 
 @functools.lru_cache(maxsize=4096)

@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from reports.shared.errors import TexError
+
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|.", re.DOTALL)
 FRACTIONS = {r"\frac", r"\dfrac", r"\tfrac"}
 _TAKES_ONE = {"_", "^", r"\mathrm", r"\mathbf", r"\mathit", r"\text", r"\overline", r"\bar"}
@@ -43,10 +45,6 @@ _RENAMED = {r"\le": r"\leq", r"\ge": r"\geq", r"\text": r"\mathrm", r"\ne": r"\n
 _BIG = {r"\sum", r"\int", r"\prod", r"\oint"}
 _DEGREE = re.compile(r"\^(?:\{\\circ\}|\\circ(?![A-Za-z]))")
 _PRIMES = re.compile("'+")
-
-
-class TexError(ValueError):
-    """The TeX is not well formed."""
 
 
 @dataclass(frozen=True, slots=True)

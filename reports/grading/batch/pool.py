@@ -23,9 +23,9 @@ from typing import Any
 from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.work_digest import Work
 from reports.grading.reading.submissions import Submission
-from reports.shared.errors import InputError, KshmError
+from reports.shared.errors import Died, InputError, KshmError, NeverStarted
 from reports.shared.parallel_map import in_order
-from reports.shared.workers import MEMORY, Died, NeverStarted, Workers
+from reports.shared.workers import MEMORY, Workers
 
 TIMEOUT_S = 60.0
 _NEEDS = "reports.grading.batch.worker"  # by name: this process marks nothing

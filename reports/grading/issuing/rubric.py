@@ -10,11 +10,11 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
-from reports.formula.parse import FormulaError, parse
+from reports.formula.parse import parse
 from reports.inputs import messages
 from reports.inputs.load import tables_of
 from reports.inputs.normalise import read_text
-from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.errors import FormulaError, InputError, Problem, one_line
 
 Share = Annotated[float, Field(ge=0, le=1)]
 Positive = Annotated[float, Field(gt=0)]

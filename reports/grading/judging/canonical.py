@@ -12,12 +12,8 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
 
-from reports.recalculation.formulas import (
-    Token,
-    UnknownFormula,
-    ref_of,
-    unquoted,
-)
+from reports.recalculation.formulas import Token, ref_of, unquoted
+from reports.shared.errors import UnknownFormula
 
 Tree = tuple[Any, ...]  # ("num", 2.0), ("node", "P3_1.s_mm", 0), ("sum", …), ("cos", …)
 _DEEP = 8  # helper cells that refer to each other

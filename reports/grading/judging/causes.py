@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reports.formula.numeric import evaluate_tree
-from reports.formula.parse import FormulaError, names, parse
+from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
 from reports.grading.judging.foreign import OtherVariant, Variants
 from reports.grading.judging.judgement import (
@@ -32,6 +32,7 @@ from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
 from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
+from reports.shared.errors import FormulaError
 from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)

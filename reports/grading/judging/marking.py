@@ -55,11 +55,10 @@ from reports.inputs.ranges import ParameterRange
 from reports.model.blocks import TURN
 from reports.model.evaluation import Evaluation
 from reports.recalculation.evaluate import Evaluator
-from reports.recalculation.formulas import UnknownFormula
-from reports.recalculation.grid import BadBook, CellGrid
+from reports.recalculation.grid import CellGrid
 from reports.recalculation.read import read_grid
 from reports.recalculation.sheets import Forms
-from reports.shared.errors import InputError
+from reports.shared.errors import BadBook, InputError, UnknownFormula
 from reports.shared.russian import short
 from reports.workbook.intake import Package, check_data
 from reports.workbook.layout import Layout

@@ -13,8 +13,8 @@ from reports.grading.issuing.assignment import Item
 from reports.grading.judging.trial_evaluation import Trial
 from reports.grading.reading.student import StudentBook
 from reports.model.evaluation import Evaluation
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.trial_sheet import Bench, PinnedGrid
+from reports.shared.errors import UnknownFormula
 
 Array = NDArray[np.float64]
 _LEAST, _NOISE = 1e-6, 1e-9  # share of a number, and what is left of A − A

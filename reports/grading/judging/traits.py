@@ -20,8 +20,9 @@ from reports.grading.judging.judgement import EMPTY, WRONG
 from reports.grading.judging.work_digest import Trait, idle_steps
 from reports.grading.reading.restoring import own_formulas
 from reports.grading.reading.student import StudentBook
-from reports.recalculation.formulas import Formula, Token, UnknownFormula, render
+from reports.recalculation.formulas import Formula, Token, render
 from reports.recalculation.grid import Run
+from reports.shared.errors import UnknownFormula
 from reports.workbook.layout import Layout
 
 FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT, NAME = (

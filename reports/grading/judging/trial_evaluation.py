@@ -28,8 +28,9 @@ from reports.inputs.fields import Field, cell_name
 from reports.inputs.ranges import ParameterRange
 from reports.inputs.units import MM, MPA
 from reports.model.evaluation import Evaluation
-from reports.recalculation.formulas import Formula, UnknownFormula
+from reports.recalculation.formulas import Formula
 from reports.recalculation.trial_sheet import Bench, Cells, PinnedGrid, by_column, full, rounds
+from reports.shared.errors import UnknownFormula
 
 _TRIES = 12
 _LEAST, _MOST = 0.02, 0.08  # how much the third set changes a number

@@ -36,7 +36,7 @@ from reports.grading.reading.circularity import filled_copy
 from reports.grading.reading.student import LOST, Answer, StudentBook, known_values
 from reports.grading.reading.typed import TEXT_NUMBER
 from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, TEXT
-from reports.recalculation.formulas import UnknownFormula
+from reports.shared.errors import UnknownFormula
 
 _PASTED = "верно только при углах своих строк или считает от вписанных чисел: откуда они?"
 _IDLE = "одно и то же, какие бы числа ни стояли там, куда ссылается формула: вычислено ли это?"

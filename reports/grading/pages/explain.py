@@ -19,9 +19,8 @@ from reports.grading.pages.pages import number, rows
 from reports.grading.reading.student import StudentBook
 from reports.grading.reading.submissions import collect, find_owner
 from reports.recalculation.formulas import column_number, render
-from reports.recalculation.grid import BadBook
 from reports.recalculation.read import read_grid
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import BadBook, InputError, Problem
 from reports.shared.russian import short
 from reports.workbook.intake import check_data
 from reports.workbook.layout import Layout, RowReferences, at_row

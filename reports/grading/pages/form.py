@@ -20,9 +20,9 @@ from reports.exports.numbers import neutralised
 from reports.grading.issuing.names import skeletons
 from reports.grading.issuing.names import words as words_of
 from reports.grading.issuing.rubric import Rubric
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import InputError, Problem, SharedFormulaError
 from reports.shared.file_types import read_bytes
-from reports.workbook.cell_patch import SharedFormulaError, Value, with_cells
+from reports.workbook.cell_patch import Value, with_cells
 from reports.workbook.intake import check_data
 
 MAX_BYTES = 20_000_000

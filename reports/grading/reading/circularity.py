@@ -9,8 +9,8 @@ import numpy as np
 from reports.grading.reading.student import StudentBook, shown_in
 from reports.grading.reading.typed import means_something
 from reports.recalculation.evaluate import BLANK, ERROR, TEXT, Evaluator
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.trial_sheet import Cells, pinned
+from reports.shared.errors import UnknownFormula
 
 
 def circles(student: StudentBook) -> frozenset[str]:

@@ -13,8 +13,8 @@ from functools import cached_property
 from reports.grading.issuing.handout import anchor_name, cell_name
 from reports.model.blocks import Model, TableSpec
 from reports.recalculation.evaluate import NUMBER, Evaluator
-from reports.recalculation.formulas import UnknownFormula
 from reports.recalculation.grid import CellGrid
+from reports.shared.errors import UnknownFormula
 from reports.shared.russian import capital
 from reports.workbook.layout import (
     KEY_COLUMN,

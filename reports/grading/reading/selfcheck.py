@@ -22,11 +22,9 @@ from reports.grading.reading.student import LOST, StudentBook
 from reports.grading.reading.submissions import collect, own_properties
 from reports.model.blocks import Model
 from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, NUMBER, TEXT
-from reports.recalculation.formulas import UnknownFormula
-from reports.recalculation.grid import BadBook
 from reports.recalculation.read import read_grid, worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
-from reports.shared.errors import InputError, Problem
+from reports.shared.errors import BadBook, InputError, Problem, UnknownFormula
 from reports.tables.registry import build_model
 from reports.workbook.inputs import shown
 from reports.workbook.intake import Package, check_package

@@ -15,9 +15,10 @@ from reports.grading.reading.placement import Location, Placement, find_places
 from reports.grading.reading.typed import DATE, as_meant, carried, dates, number_of
 from reports.model.evaluation import Evaluation
 from reports.recalculation.evaluate import BLANK, ERROR, NUMBER, Evaluator
-from reports.recalculation.formulas import UnknownFormula, is_doubtful
+from reports.recalculation.formulas import is_doubtful
 from reports.recalculation.grid import Area, CellGrid, Run
 from reports.recalculation.trial_sheet import Cells, needed, pinned
+from reports.shared.errors import UnknownFormula
 from reports.workbook.intake import Package
 from reports.workbook.layout import Cell, Layout
 

@@ -16,9 +16,9 @@ from reports.grading.issuing.handout import TICKET_NAME, TICKET_TITLE
 from reports.grading.issuing.names import skeletons
 from reports.grading.issuing.names import words as words_of
 from reports.grading.issuing.register import PATTERN, Issued, Register
-from reports.recalculation.grid import BadBook, CellGrid
+from reports.recalculation.grid import CellGrid
 from reports.recalculation.sheets import parse_xml
-from reports.shared.errors import InputError, Problem, one_line
+from reports.shared.errors import BadBook, InputError, Problem, one_line
 from reports.shared.files import reason
 from reports.workbook.intake import LOCK, MAX_FILE, Package
 

@@ -7,10 +7,11 @@ from dataclasses import replace
 from typing import Any
 
 from kshm.cycle.cycle import CycleRun, Wanted, run_cycle
-from kshm.cycle.fuel import FUELS, CycleError, Fuel, Remark
+from kshm.cycle.fuel import FUELS, Fuel
 from kshm.cycle.governor import Governor
 from kshm.cycle.inputs import Boost, CycleInputs, FrictionLaw
 from kshm.cycle.speed_characteristic import LEIDERMAN, Leiderman, from_adaptability
+from kshm.errors import CycleError, Remark
 from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
 from reports.inputs.fields import Path

@@ -46,18 +46,17 @@ def figures() -> Iterator[Figure]:
     yield Figure("двигатель исследования: чтение изменения", each, "мс")
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "study.parquet"
-        vary = vary_text(SOME)
+        vary = _vary(SOME)
         begin = time.process_time()
         points = run_sweep(BASE, vary, target, options=SweepOptions(jobs=1)).points
         spent = time.process_time() - begin
         yield Figure("исследование на одном ядре: двигатель", 1000 * spent / points, "мс")
         command = [sys.executable, "-m", "reports", "sweep", str(BASE), "-o", str(target)]
-        cost = run([*command, *(word for text in vary_text(MANY) for word in ("--vary", text))])
+        cost = run([*command, *(word for text in _vary(MANY) for word in ("--vary", text))])
         yield Figure(f"исследование {MANY} двигателей на всех ядрах: время", cost.wall, "с")
         yield Figure(f"исследование {MANY} двигателей: память", cost.memory, "МБ")
 
 
-def vary_text(points: int) -> list[str]:
-    """Axes of a study of so many points."""
+def _vary(points: int) -> list[str]:
     counts = (points // SIDE, SIDE)
     return [text.format(count) for text, count in zip(VARIED, counts, strict=True)]

@@ -16,7 +16,6 @@ import tempfile
 from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
-from urllib.parse import urlsplit
 
 from itsdangerous import BadData, URLSafeSerializer
 from starlette.exceptions import HTTPException
@@ -32,7 +31,7 @@ from reports.inputs.form_fields import Data
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
-from reports.web.doors import Rate, Shown, ask, body, caller, earlier, get, post, shown
+from reports.web.doors import Rate, Shown, address_of_server, ask, body, caller, earlier, get, post, shown
 from reports.web.jobs import Queue
 
 _FILES = {"base.toml": "base.toml", "rubric.toml": "rubric.toml", "roster": "Список"}
@@ -195,19 +194,9 @@ class Classes(Queue):
             for book in books
         ]  # fmt: skip
 
-    def _address(self, request: Request) -> str:
-        """Return the address of this server as a telephone in the same network knows it."""
-        settings, origin = (
-            request.app.state.settings,
-            f"{request.url.scheme}://{request.url.netloc}",
-        )
-        is_local = urlsplit(origin).hostname in ("127.0.0.1", "localhost", "::1")
-        printed = next(iter(settings.addresses), "") if is_local else ""
-        return str(settings.public or printed or origin).rstrip("/")
-
     async def _links(self, request: Request) -> Response:
         folder, stream = self._inside(request), io.StringIO(newline="")
-        writer, address = csv.writer(stream, delimiter=";"), self._address(request)
+        writer, address = csv.writer(stream, delimiter=";"), address_of_server(request)
         writer.writerow(["№", "Студент", "Группа", "Ссылка", "Сдано", "Попыток"])
         for each in self._books(folder):
             when = f"{datetime.fromtimestamp(each['when']):%d.%m.%Y %H:%M}" if each["when"] else ""
@@ -221,7 +210,7 @@ class Classes(Queue):
         """Return the link of a student as a QR code, of number 0 the address itself."""
         import segno
 
-        number, address = request.path_params["number"], f"{self._address(request)}/"
+        number, address = request.path_params["number"], f"{address_of_server(request)}/"
         books = self._books(self._inside(request)) if number else [{"number": 0}]
         each = next((book for book in books if book["number"] == number), None)
         if each is None:
@@ -247,7 +236,7 @@ class Classes(Queue):
              "rows": summary.get("rows", []), "groups": summary.get("groups", []),
              "decided": summary.get("decided", []),
              "files": [*files], "graded": sum(name.startswith(PAGES) for name in pages),
-             "address": self._address(request)},
+             "address": address_of_server(request)},
             {**files, **pages, **works, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip

@@ -52,7 +52,7 @@ _SLOWED, SLOWED_S = (429, 503), 2.0
 _KINDS = ("application/json", "application/octet-stream")
 _HEADERS = {
     "content-security-policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+        "default-src 'none'; script-src 'self' blob:; style-src 'self' 'unsafe-inline'; "
         "img-src 'self' data:; font-src 'self' data:; connect-src 'self'; form-action 'none'; "
         "base-uri 'none'; frame-ancestors 'none'"
     ),
@@ -179,6 +179,15 @@ class Guard(BaseHTTPMiddleware):
 def caller(request: Request) -> str:
     """Return the address from which a request comes."""
     return request.client.host if request.client else ""
+
+
+def address_of_server(request: Request) -> str:
+    """Return the address of this server as a telephone in the same network knows it."""
+    settings: Settings = request.app.state.settings
+    origin = f"{request.url.scheme}://{request.url.netloc}"
+    is_local = urlsplit(origin).hostname in ("127.0.0.1", "localhost", "::1")
+    printed = next(iter(settings.addresses), "") if is_local else ""
+    return str(settings.public or printed or origin).rstrip("/")
 
 
 def visitor(request: Request) -> str:

@@ -23,7 +23,7 @@ const curvesOf = (own, other, colours) => [own, other].filter(Boolean).flatMap((
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
     label: second ? `${curve.name} (второй)` : curve.name, borderColor: colours[i % colours.length],
-    borderDash: second ? [2, 4] : DASHES[i % 6], showLine: second || i || !chart.strokes, line: second ? "dotted" : i ? "dashed" : "solid",
+    borderDash: second ? [2, 4] : DASHES[i % 6], showLine: second || i || !chart.strokes,
   })));
 
 const hidden = new Set(); // curves that a person has switched off, by chart and name
@@ -76,9 +76,9 @@ function words(chart) {
   const isFree = (px, py) => taken.every(([tx, ty]) => Math.abs(tx - px) > 48 || Math.abs(ty - py) > 16);
   const sets = chart.data.datasets.map((set, i) => [set, chart.isDatasetVisible(i)]).filter(([, isVisible]) => isVisible);
   ink.save();
-  if (own.kind === "line" && sets.length > 1) for (const [set] of sets) {
+  if (sets.length > 1) for (const [set] of sets) {
     const points = set.data.filter(p => p.y !== null && p.x >= x.min && p.x <= x.max);
-    const far = p => Math.abs(p.y - (y.min + y.max) / 2);
+    const far = own.kind === "line" ? p => Math.abs(p.y - (y.min + y.max) / 2) : p => Math.hypot(p.x, p.y);
     const spots = points.toSorted((a, b) => far(b) - far(a)).map(p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)]);
     const [px, py] = spots.find(spot => isFree(...spot)) ?? [];
     if (px === undefined) continue;
@@ -201,7 +201,7 @@ function drag(event, own) {
 // A title with the symbols of its curves as symbols.
 const titled = ({title, curves}) => symbol(curves.reduce((text, {name}) => text.replace(name.replace("_", ""), name), title));
 
-// A chart with its legend, which says the values at φ and switches curves.
+// A chart whose curves are called by their names; below it their values at φ, by which they are switched.
 export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, other, dark.matches, isPrinted, state.switched], () => {
   const colours = inks(), curves = curvesOf(own, other, colours), {color} = getComputedStyle(document.body);
   const shown = curve => !hidden.has(key(own, curve)), onPointer = event => drag(event, own);
@@ -223,7 +223,7 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
         <i class="cursor" /><span>${curves.map(({borderColor}) => html`<i class="dot" style=${`--ink: ${borderColor}`} />`)}</span>
         <div class="tip" hidden /></div>
       <ul class="legend">${curves.map(curve => html`
-        <li><button aria-pressed=${String(shown(curve))} style=${`--line: ${curve.line}; --ink: ${curve.borderColor}`}
+        <li><button aria-pressed=${String(shown(curve))} style=${`--ink: ${curve.borderColor}`}
           onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output aria-live="off" /></button></li>`)}</ul>
     </figure>`;
 });

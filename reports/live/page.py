@@ -54,7 +54,8 @@ def live_page(model: Model, book: bytes, stem: str) -> bytes:
     modules = {"program.js": _address(pack.script), "fine.js": _address(pack.fine_script)}
     summary = "\n".join(_summary(model, data, Evaluation(model)))
     text = Template((_HERE / "page.html").read_text("utf-8")).substitute(
-        name=escape(data["name"]), about=escape(_about(model, data), quote=True), summary=summary, style=_style(), charts=_chart_scripts(),
+        name=escape(data["name"]), about=escape(_about(model, data), quote=True),
+        summary=summary, style=_style(), charts=_chart_scripts(),
         data=_inside(json.dumps(data, ensure_ascii=False, separators=(",", ":"))),
         gate=(_STATIC / "gate.js").read_text("utf-8"),
         modules=json.dumps({**_modules(), **modules}, separators=(",", ":")),
@@ -87,7 +88,8 @@ def _summary(model: Model, data: Data, evaluation: Evaluation) -> Iterator[str]:
 
 def _about(model: Model, data: Data) -> str:
     """Key numbers in a line: what a link to the page says of it."""
-    lines = (_line(each["title"], each["key"], model, Evaluation(model)) for each in data["numbers"])
+    value = Evaluation(model)
+    lines = (_line(each["title"], each["key"], model, value) for each in data["numbers"])
     return "; ".join(f"{title.lower()} {text} {unit}".strip() for title, text, unit in lines)
 
 

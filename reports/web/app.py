@@ -36,7 +36,16 @@ from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
 from reports.web.doors import (
-    Desk, Guard, Settings, address_of_server, asked, book, failed, get, post, read,
+    Desk,
+    Guard,
+    Settings,
+    address_of_server,
+    asked,
+    book,
+    failed,
+    get,
+    post,
+    read,
 )  # fmt: skip
 from reports.web.jobs import OFFERED, Jobs
 from reports.web.shares import Turns, Unfinished
@@ -56,7 +65,10 @@ _PAGES = {
 async def page(request: Request, name: str, root: str = ".") -> Response:
     """Return a page whose script lies beside this module; ``root`` leads from its address."""
     request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
-    text, (title, about) = Template((STATIC / "page.html").read_text(encoding="utf-8")), _PAGES[name]
+    text, (title, about) = (
+        Template((STATIC / "page.html").read_text(encoding="utf-8")),
+        _PAGES[name],
+    )
     return HTMLResponse(text.substitute(name=name, root=root, title=title, about=about,
                                         address=escape(address_of_server(request))))  # fmt: skip
 

@@ -38,7 +38,7 @@ def solved(page: Any) -> Solution:
 
 
 def settle(page: Any) -> None:
-    until(page, "!live.state.running && !live.state.later")
+    until(page, "live.isIdle()")
 
 
 def opened_sheet(page: Any, key: str) -> None:
@@ -137,7 +137,7 @@ def test_charts_are_as_wide_as_their_places_whichever_way_a_window_changes(page:
 def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
     # All at once, as all errors are told at once: a field that stays silent is found all the same.
     silent = page.evaluate(r"""async () => {
-        const ids = [...document.querySelectorAll("#five input[inputmode], #fields .field input[inputmode]")]
+        const ids = [...document.querySelectorAll(":is(#five, #fields) .field input[inputmode]")]
             .map(({id}) => id).filter(id => !/[[](?!1[\]])/.test(id)); // of lists the first entry
         const was = ids.map(id => document.getElementById(id).value);
         const type = async texts => {
@@ -146,7 +146,7 @@ def test_every_fields_error_is_shown_at_the_field(page: Any) -> None:
                 input.value = texts[i];
                 input.dispatchEvent(new Event("input"));
             });
-            do await new Promise(done => setTimeout(done, 300)); while (live.state.running || live.state.later);
+            do await new Promise(done => setTimeout(done, 300)); while (!live.isIdle());
         };
         await type(ids.map(() => "abc"));
         const silent = ids.filter(id => {
@@ -171,24 +171,24 @@ def test_entries_of_lists_come_and_go(page: Any) -> None:
         group = page.locator(f"details[data-key='{key}']")
         group.evaluate("group => { group.open = true; }")
         group.get_by_role("button", name="Добавить").click()
-        until(page, f"{size} === {before + 1} && !live.state.running && !live.state.later")
+        until(page, f"{size} === {before + 1} && live.isIdle()")
         fields = page.locator(f"[id^='f-{key}[{before + 1}]']")
         assert fields.count() >= 2 and fields.first.is_visible()
         group.get_by_role("button", name=f"Убрать {before + 1}", exact=True).click()
-        until(page, f"{size} === {before} && !live.state.running && !live.state.later")
+        until(page, f"{size} === {before} && live.isIdle()")
     assert not page.locator(".error").count()
     page.click("#undo")
-    until(page, f"{size} === {before + 1} && !live.state.running && !live.state.later")
+    until(page, f"{size} === {before + 1} && live.isIdle()")
     # A whole section, and a further regime, go and come alike.
     page.locator("details[data-key=torsion]").evaluate("group => { group.open = true; }")
     page.locator("details[data-key=torsion]").get_by_role("button", name="Убрать раздел").click()
-    until(page, "!live.state.raw.torsion && !live.state.running && !live.state.later")
+    until(page, "!live.state.raw.torsion && live.isIdle()")
     page.get_by_role("button", name="Ещё один режим").click()
-    until(page, "live.state.raw.regimes?.length === 1 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.regimes?.length === 1 && live.isIdle()")
     page.fill("[id='f-regimes[1].speed_rpm']", "777")
-    until(page, "live.state.raw.regimes[0].speed_rpm === 777 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.regimes[0].speed_rpm === 777 && live.isIdle()")
     page.evaluate("fresh(ask('api/new', {sample: 'gots-diesel'}))")
-    until(page, "!live.state.raw.regimes?.length && !live.state.running && !live.state.later")
+    until(page, "!live.state.raw.regimes?.length && live.isIdle()")
 
 
 def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
@@ -198,12 +198,12 @@ def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
     page.click("#keep")
     page.fill("[id='f-geometry.bore_mm']", "95,5")
     until(page, f"Chart.getChart(document.querySelector('#chart-fig46 canvas'))"
-                f".data.datasets.length === {2 * curves} && !live.state.running && !live.state.later")  # fmt: skip
+                f".data.datasets.length === {2 * curves} && live.isIdle()")  # fmt: skip
     both = [page.inner_text(f"tr[data-key=M_mean] td:nth-child({i})") for i in (3, 4)]
     assert both[1] == mean != both[0]
     page.click("#drop")
     page.click("#undo")
-    until(page, "live.state.raw.geometry.bore_mm === 88 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm === 88 && live.isIdle()")
     first = page.inner_html("#mechanism")
     page.click("#strip button >> nth=2")
     settle(page)
@@ -321,19 +321,19 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     until(page, "!document.querySelector('.error') && live.state.raw.geometry.bore_mm === 84.5")
     tab_to(page, "[data-key='geometry.bore_mm'] [type=range]")
     page.keyboard.press("ArrowRight")
-    until(page, "live.state.raw.geometry.bore_mm > 84.5 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm > 84.5 && live.isIdle()")
     tab_to(page, "[data-key=report] summary")
     page.keyboard.press("Enter")
     tab_to(page, "[data-key='report.chapters'] summary")
     page.keyboard.press("Enter")
     tab_to(page, "[data-key='report.chapters'] button")
     page.keyboard.press("Enter")
-    until(page, "live.state.raw.report.chapters?.length === 1 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.report.chapters?.length === 1 && live.isIdle()")
     page.keyboard.press("Shift+Tab")
     chapter = "live.state.raw.report.chapters[0]"  # one: the less to wait for
     while (first := page.evaluate(chapter)) != "kinematics":
         page.keyboard.press("ArrowDown")
-        until(page, f"{chapter} !== '{first}' && !live.state.running && !live.state.later")
+        until(page, f"{chapter} !== '{first}' && live.isIdle()")
     pdf, book = taken(page, "xlsx", "pdf")
     assert pdf.startswith(b"%PDF")
 
@@ -347,11 +347,11 @@ def test_an_own_engine_by_the_keyboard_alone_to_workbook_and_pdf(
     page.keyboard.press("Enter")
     tab_to(page, "#upload")  # its dialog is the browser's own
     page.set_input_files("#upload", tmp_path / "edited.xlsx")
-    until(page, "live.state.raw.geometry.bore_mm === 91.25 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm === 91.25 && live.isIdle()")
     assert "91,25" in taken(page, "html")[0].decode()
     tab_to(page, "#undo")
     page.keyboard.press("Enter")
-    until(page, "live.state.raw.geometry.bore_mm < 90 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm < 90 && live.isIdle()")
     assert not page.faults
     page.context.close()
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from kshm import solve
+from reports.inputs.form_fields import Data
 from reports.inputs.load import load_mapping, load_remote
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.form_fields import Data
 from reports.inputs.template import list_samples
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.live import describe

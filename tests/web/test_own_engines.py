@@ -26,13 +26,13 @@ def first(browser: Any, served: Served) -> Iterator[Any]:
 
 
 def ready(page: Any) -> None:
-    until(page, "Boolean(window.live?.state.last) && !live.state.running && !live.state.later")
+    until(page, "Boolean(window.live?.state.last) && live.isIdle()")
 
 
 def bore(page: Any, text: str) -> None:
     page.evaluate("document.querySelector('[data-key=geometry]').open = true")
     page.fill(BORE, text)
-    until(page, f"live.state.raw.geometry.bore_mm === {text.replace(',', '.')} && !live.state.running && !live.state.later")
+    until(page, f"live.state.raw.geometry.bore_mm === {text.replace(',', '.')} && live.isIdle()")
 
 
 def another(page: Any, address: str) -> Any:
@@ -95,7 +95,7 @@ def test_a_link_in_the_address_of_the_same_tab_opens_beside(
 ) -> None:
     address = friends(browser, served, "84")
     first.evaluate("hash => { location.hash = hash; }", address.partition("#")[2])
-    until(first, "live.state.raw.geometry.bore_mm === 84 && !live.state.running && !live.state.later")
+    until(first, "live.state.raw.geometry.bore_mm === 84 && live.isIdle()")
     assert first.evaluate(STORED) == [84, 91.5]
     assert "#" not in first.url
 
@@ -125,14 +125,14 @@ def test_two_tabs_with_one_engine_keep_both(served: Served, first: Any) -> None:
 
 def test_a_sample_or_a_file_does_not_take_the_own_engines_place(first: Any) -> None:
     first.evaluate("fresh(ask('api/new', {sample: 'yamz-236'}))")
-    until(first, "live.state.raw.geometry.bore_mm === 130 && !live.state.running && !live.state.later")
+    until(first, "live.state.raw.geometry.bore_mm === 130 && live.isIdle()")
     assert first.evaluate(STORED) == [130, 91.5] or first.evaluate(STORED) == [91.5, 130]
     first.click("#undo")
-    until(first, "live.state.raw.geometry.bore_mm === 91.5 && !live.state.running && !live.state.later")
+    until(first, "live.state.raw.geometry.bore_mm === 91.5 && live.isIdle()")
     bore(first, "90")
     assert sorted(first.evaluate(STORED)) == [90, 130]
     first.select_option("select#own", index=1)
-    until(first, "live.state.raw.geometry.bore_mm === 130 && !live.state.running && !live.state.later")
+    until(first, "live.state.raw.geometry.bore_mm === 130 && live.isIdle()")
     assert first.is_disabled("#undo")  # its steps are those of another engine
 
 
@@ -142,7 +142,7 @@ def test_an_engine_goes_only_when_asked(first: Any) -> None:
     assert first.evaluate(STORED) == [91.5]
     first.evaluate("window.confirm = () => true")
     first.click("#away")
-    until(first, "live.state.raw.geometry.bore_mm === 88 && !live.state.running && !live.state.later")
+    until(first, "live.state.raw.geometry.bore_mm === 88 && live.isIdle()")
     assert first.evaluate(STORED) == []
 
 
@@ -161,5 +161,5 @@ def test_a_full_store_is_told(first: Any) -> None:
             try { localStorage[`full${i}`] = "x".repeat(size); } catch { size /= 2; }
     }""")
     first.click("#keep")  # a second engine beside it: twice as much
-    until(first, "Boolean(live.state.other) && !live.state.running && !live.state.later")
+    until(first, "Boolean(live.state.other) && live.isIdle()")
     assert "не сохранил" in first.inner_text("#news")

@@ -44,13 +44,13 @@ def textbook(page: Any) -> Iterator[None]:
 
 def settle(page: Any) -> None:
     page.wait_for_timeout(50)
-    until(page, "!live.state.running && !live.state.later && live.state.last && !live.state.wrong.length")
+    until(page, "live.isIdle() && live.state.last && !live.state.wrong.length")
 
 
 def settled(page: Any) -> None:
     """Wait for what the server says of a value once a person pauses."""
     page.wait_for_timeout(50)
-    until(page, "!live.state.running && !live.state.later")
+    until(page, "live.isIdle()")
 
 
 def is_phone(page: Any) -> bool:
@@ -80,7 +80,7 @@ def test_the_mechanism_is_the_first_thing_and_stays_above_or_beside_the_fields(p
 @pytest.mark.parametrize(("sample", "cylinders"), [("yamz-238", 8), ("vw-1600", 4)])
 def test_all_cylinders_are_seen_at_once(page: Any, sample: str, cylinders: int) -> None:
     page.evaluate("name => fresh(ask('api/new', {sample: name}))", sample)
-    until(page, f"live.state.last.moves.each.length === {cylinders} && !live.state.running && !live.state.later")
+    until(page, f"live.state.last.moves.each.length === {cylinders} && live.isIdle()")
     assert page.locator("#strip button").count() == cylinders
     for where in ("#mechanism", "#strip")[: 1 if is_phone(page) else 2]:
         assert page.locator(f"{where} .piston").count() == cylinders
@@ -202,27 +202,29 @@ def test_another_layout_is_one_tap_without_a_fault(page: Any) -> None:
     steps = page.evaluate("live.state.past.length")
     for shape, layout, count in (("V8", "v", 8), ("О4", "opposed", 4), ("Р6", "inline", 6)):
         page.click(f"[data-shape={shape}]")
-        until(page, f"live.state.raw.engine.cylinders === {count} && !live.state.running && !live.state.later")
+        until(page, f"live.state.raw.engine.cylinders === {count} && live.isIdle()")
         settle(page)
-        assert page.evaluate("[live.state.raw.engine.layout, live.state.errors, live.state.wrong]") == [
+        assert page.evaluate(
+            "[live.state.raw.engine.layout, live.state.errors, live.state.wrong]"
+        ) == [
             layout,
             [],
             [],
         ]
         assert page.locator("#strip button").count() == count
     page.click("[data-shape=Р3]")  # nothing is lost on the way back
-    until(page, "live.state.raw.engine.cylinders === 3 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.engine.cylinders === 3 && live.isIdle()")
     assert page.evaluate("JSON.stringify(live.state.raw)") == before
     for count in (6, 4):
         page.click("#undo")
-        until(page, f"live.state.raw.engine.cylinders === {count} && !live.state.running && !live.state.later")
+        until(page, f"live.state.raw.engine.cylinders === {count} && live.isIdle()")
     assert page.evaluate("live.state.past.length") == steps + 2
 
 
 def test_the_number_of_cylinders_in_its_field_makes_another_shaft_too(page: Any) -> None:
     page.locator("[data-key=engine]").evaluate("group => { group.open = true; }")
     page.select_option("[id='f-engine.cylinders']", "5")
-    until(page, "live.state.raw.engine.cylinders === 5 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.engine.cylinders === 5 && live.isIdle()")
     settle(page)
     assert page.evaluate("live.state.raw.crankshaft.throw_angles_deg.length") == 5
 
@@ -234,7 +236,7 @@ def test_samples_have_pictures_and_russian_names(page: Any) -> None:
     assert all(any("а" <= c <= "я" for c in text.lower()) for text in samples.all_inner_texts())
     assert page.locator("#samples svg").count() == samples.count()
     page.click("[data-sample=yamz-236]")
-    until(page, "live.state.raw.geometry.bore_mm === 130 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm === 130 && live.isIdle()")
 
 
 def test_an_engine_from_a_task_sheet(page: Any) -> None:
@@ -244,7 +246,7 @@ def test_an_engine_from_a_task_sheet(page: Any) -> None:
     for key, text in task.items():
         page.fill(f"#task [name={key}]", text)
     page.get_by_role("button", name="Составить").click()
-    until(page, "live.state.raw.geometry.bore_mm === 110 && !live.state.running && !live.state.later")
+    until(page, "live.state.raw.geometry.bore_mm === 110 && live.isIdle()")
     assert page.evaluate("live.state.raw.regime.speed_rpm") == 2200
     assert page.evaluate("live.state.errors.length + live.state.wrong.length") == 0
     page.evaluate("document.getElementById('task').reset()")
@@ -284,7 +286,9 @@ def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any
     page.fill(BORE, "91")
     page.fill("[id='f-regime.speed_rpm']", "4100")
     until(page, "live.state.raw.regime.speed_rpm === 4100")
-    solution = solve(*engine_and_cycle(load_mapping(page.evaluate("live.state.raw"), source="").model))
+    solution = solve(
+        *engine_and_cycle(load_mapping(page.evaluate("live.state.raw"), source="").model)
+    )
     keys = page.evaluate("""keys => keys.filter(key => kshm.keys().includes(key)
         && !live.isFixed(key))""", [*solution.scalars])  # fmt: skip
     assert len(keys) > 100 and {"M_mean", "M_max"} <= {*keys}
@@ -297,7 +301,9 @@ def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any
             value = page.evaluate("""key => live.state.engine.main.has(key) && !live.isFixed(key)
                 && kshm.get(key)""", f"{table}.{column}")  # fmt: skip
             assert value is False or distance(wanted.tolist(), value) < 1e-9, (table, column)
-    assert page.inner_text("[data-key=N_e_calc] b") == fixed(page.evaluate("kshm.get('N_e_calc')"), 2)
+    assert page.inner_text("[data-key=N_e_calc] b") == fixed(
+        page.evaluate("kshm.get('N_e_calc')"), 2
+    )
     assert page.evaluate("live.state.last.moves.forces.Ps_MPa.values") != before
     assert page.evaluate(f"{CHART}.data.datasets[0].data[90].y") == pytest.approx(
         page.evaluate("live.state.engine.fine.get('P4_1.Pg_MPa')[90]")

@@ -31,7 +31,7 @@ export async function ask(path, data) {
   try {
     const answer = await fetch(path, data && {
       method: "POST", body: data instanceof Blob ? data : JSON.stringify(data),
-      headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream"},
+      headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream", ...data instanceof File && {"X-Name": encodeURIComponent(data.name)}},
     });
     return {...await answer.json(), ...answer.status === 503 && {busy: Number(answer.headers.get("retry-after")) || 2}};
   } catch {

@@ -1,7 +1,7 @@
 // The class's page: an engine that calculates here; the server has files, other structures, what `check` says.
 import {alerts, ask, choice, download, given, html, insist, list, memo, picker, printed, send, set, state, wait} from "./common.js";
 import {put, section} from "./fields.js";
-import {engines, keep, last, remove, seen, storedJobs, storeJobs, text} from "./own.js";
+import {differences, engines, keep, last, remove, seen, storedJobs, storeJobs, text} from "./own.js";
 import {clip} from "./scene.js";
 import {begin, charts, engineOf, five, makeCard, moveFirst, moves, numbers, paper, read, rest, retype, scene, tables, take, turn, type} from "./view.js";
 import {toml} from "./takeaway.js";
@@ -163,8 +163,15 @@ async function away() {
   await open(last());
 }
 
-const listed = () => state.engines.map(each => [each.id, [each.raw.engine?.name || "Двигатель",
-  new Date(each.date).toLocaleString("ru", {dateStyle: "short", timeStyle: "short"})].join(", ")]);
+const differing = (raw, other) => { // in words: one or two values
+  const all = differences(raw, other).filter(([key]) => state.titles[key]);
+  return [...all.slice(0, 2).map(([key, value]) => `${state.titles[key].toLowerCase()} ${printed(value, 9)}`), all.length > 2 && `и ещё ${all.length - 2}`].filter(Boolean).join(", ");
+};
+const listed = () => state.engines.map((each, i) => {
+  const alike = state.engines.findLast((other, k) => k !== i && other.raw.engine?.name === each.raw.engine?.name);
+  return [each.id, [each.raw.engine?.name || "Двигатель", alike && differing(each.raw, alike.raw),
+    new Date(each.date).toLocaleString("ru", {dateStyle: "short", timeStyle: "short"})].filter(Boolean).join(", ")];
+});
 
 async function follow(hash) { // once: the address is free again, and the engine stands beside the own ones
   history.replaceState(null, "", location.pathname);
@@ -285,6 +292,7 @@ const data = ({fields} = state.choices) => html`
       <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
       <button id="keep" disabled=${!state.engine} onClick=${compare}>Сравнить с этим</button>
       <button id="drop" hidden=${!state.other} onClick=${drop}>Убрать второй</button></p>
+    ${state.other && html`<p id="other"><small>Второй, точками: ${state.other.engine?.name ?? "двигатель"}${differing(state.other, state.raw) && `: ${differing(state.other, state.raw)}`}</small></p>`}
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
     <div id="fields">${state.groups.map(group => section(group, change, reshape))}</div>
@@ -325,7 +333,8 @@ await begin({
   choices: await insist("api/choices"), open: new Set(innerWidth > 900 ? ["geometry"] : []),
   again: () => { state.raw ? state.isAsked && settle() : arrive(); state.jobs.forEach(watch); },
 }, page, later);
-Object.assign(globalThis, {ask, fresh}); // for a person's console and for the tests
+Object.assign(globalThis, {ask, fresh});
+live.isIdle = () => !state.running && !state.later; // for a person's console and for the tests
 addEventListener("hashchange", () => { // a link put into the address of this very page
   const hash = location.hash.slice(1);
   if (hash && hash !== state.linked && !document.getElementById(hash)) follow(hash);

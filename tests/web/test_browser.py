@@ -16,7 +16,7 @@ from kshm.results.solution import Solution
 from reports.inputs.load import load_mapping
 from reports.inputs.to_si.engine import engine_and_cycle
 from tests.web import axe
-from tests.web.conftest import Served, opened, photo, until
+from tests.web.conftest import Served, opened, photo, tab_to, until
 
 # What a chart on the page holds: the numbers that are drawn, not what the server sent.
 CURVES = """id => Chart.getChart(document.querySelector(`#chart-${id} canvas`)).data.datasets
@@ -197,8 +197,9 @@ def test_two_engines_over_each_other_and_another_cylinder(page: Any) -> None:
     mean = page.inner_text("tr[data-key=M_mean] td:nth-child(3)")
     page.click("#keep")
     page.fill("[id='f-geometry.bore_mm']", "95,5")
-    until(page, f"Chart.getChart(document.querySelector('#chart-fig46 canvas'))"
-                f".data.datasets.length === {2 * curves} && live.isIdle()")  # fmt: skip
+    until(page, "live.state.raw.geometry.bore_mm === 95.5 && live.isIdle()")
+    assert len(page.evaluate(CURVES, "fig46")) == 2 * curves
+    assert "диаметр цилиндра 88" in page.inner_text("#other")  # the names are the same
     both = [page.inner_text(f"tr[data-key=M_mean] td:nth-child({i})") for i in (3, 4)]
     assert both[1] == mean != both[0]
     page.click("#drop")
@@ -253,22 +254,6 @@ def test_the_names_of_the_forces_stand_within_the_picture(page: Any) -> None:
         return cut;
     }""")
     assert cut == []
-
-
-def tab_to(page: Any, selector: str) -> None:
-    """Go on by the Tab key alone; every stop on the way is seen and has its outline."""
-    for _ in range(400):
-        page.keyboard.press("Tab")
-        stop = page.evaluate("""selector => {
-            const e = document.activeElement, held = e.closest(".button") || e;
-            const seen = held.getBoundingClientRect().width > 0 &&
-                [e, held].some(each => getComputedStyle(each).outlineStyle !== "none");
-            return [e.matches(selector), seen || e === document.body, e.outerHTML.slice(0, 120)];
-        }""", selector)  # fmt: skip
-        assert stop[1], stop[2]
-        if stop[0]:
-            return
-    raise AssertionError(selector)
 
 
 def typed(page: Any, text: str) -> None:

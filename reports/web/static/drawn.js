@@ -55,9 +55,14 @@ async function library() {
   isThere = true;
 }
 
-// «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves.
-function write(ink, text, x, y, colour) {
+// «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves, the plot's edge holds it.
+function write(ink, text, x, y, colour, {left, right} = {left: 0, right: Infinity}) {
   const [name, index = "", rest = ""] = text.split(/_(\(\d+\)|[^ _,;=(/]+)/);
+  const wide = [[name, 13], [index, 10], [rest, 13]].reduce((sum, [part, size]) => {
+    ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
+    return sum + ink.measureText(part).width;
+  }, 0);
+  x = Math.max(Math.min(x, right - wide - 2), left + 2);
   const under = getComputedStyle(ink.canvas.closest("figure")).backgroundColor;
   Object.assign(ink, {fillStyle: colour, strokeStyle: under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
   for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
@@ -83,7 +88,7 @@ function words(chart) {
     const [px, py] = spots.find(spot => isFree(...spot)) ?? [];
     if (px === undefined) continue;
     taken.push([px, py]);
-    write(ink, set.label, Math.min(px + 6, area.right - 44), Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor);
+    write(ink, set.label, px + 6, Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor, area);
   }
   ink.beginPath();
   ink.rect(area.left, area.top, area.width, area.height);
@@ -103,7 +108,7 @@ function stroke(ink, {path}, {scales: {x, y}}, number) { // a part of a path in 
   ink.stroke();
 }
 
-function vector(ink, {marks}, {scales: {x, y}}) {
+function vector(ink, {marks}, {chartArea: area, scales: {x, y}}) {
   const {color} = getComputedStyle(document.body), at = (px, py) => [x.getPixelForValue(px), y.getPixelForValue(py)];
   const [from, to] = [at(0, 0), at(marks.x, marks.y)], along = Math.atan2(to[1] - from[1], to[0] - from[0]);
   Object.assign(ink, {strokeStyle: color, fillStyle: color, lineWidth: 1.5});
@@ -121,8 +126,8 @@ function vector(ink, {marks}, {scales: {x, y}}) {
   ink.stroke();
   ink.setLineDash([]);
   const out = Math.abs(x.getPixelForValue(marks.mean) - from[0]) * Math.SQRT1_2;
-  write(ink, marks.name, to[0] + 10, to[1] + (to[1] < from[1] ? 10 : -10), color);
-  write(ink, marks.meanName, from[0] + out + 4, from[1] + out + 6, color);
+  write(ink, marks.name, to[0] + 10, to[1] + (to[1] < from[1] ? 10 : -10), color, area);
+  write(ink, marks.meanName, from[0] + out + 4, from[1] + out + 6, color, area);
 }
 
 async function drawLater(canvas, ...given) {
@@ -222,7 +227,7 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
         <canvas ref=${canvas => canvas && (isThere ? draw : drawLater)(canvas, own, curves, color)} role="img" aria-label=${own.title} />
         <i class="cursor" /><span>${curves.map(({borderColor}) => html`<i class="dot" style=${`--ink: ${borderColor}`} />`)}</span>
         <div class="tip" hidden /></div>
-      <ul class="legend">${curves.map(curve => html`
+      <ul class="legend" hidden=${curves.length < 2 && !own.x_is_angle}>${curves.map(curve => html`
         <li><button aria-pressed=${String(shown(curve))} style=${`--ink: ${curve.borderColor}`}
           onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output aria-live="off" /></button></li>`)}</ul>
     </figure>`;

@@ -201,7 +201,7 @@ export const scene = more => {
     set({last: {...state.last, moves: moves()}});
   });
   return html`<section id="scene" aria-label="Механизм">
-    <div id="stage"><figure>${front}</figure><div id="strip" role="group" aria-label="Силы цилиндра" style=${`--count: ${Math.ceil(now.each.length / (now.each.length > 6 ? 2 : 1))}`} hidden=${now.each.length < 2}>${strip}</div>
+    <div id="stage"><figure>${front}</figure><div id="strip" role="group" aria-label="Силы цилиндра" style=${`--all: ${now.each.length}; --count: ${Math.ceil(now.each.length / (now.each.length > 6 ? 2 : 1))}`} hidden=${now.each.length < 2}>${strip}</div>
       <div id="drive">
         <button id="play" class="first" aria-pressed=${String(state.isPlaying)} onClick=${play}>${state.isPlaying ? "Стоп" : "Пуск"}</button>
         <label for="phi">φ <output id="angle" aria-live="off" /></label>

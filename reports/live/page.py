@@ -14,13 +14,10 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from reports.formula.javascript import LIBRARY
-from reports.live import describe
-from reports.live.program import CALCULATOR, LiveProgram, program_of
-from reports.model.blocks import Model, nodes_in
+from reports.live.pack import packed
+from reports.model.blocks import Model
 from reports.model.evaluation import Evaluation
 from reports.shared.russian import fixed, written
-from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.cell_patch import without_caches
 from reports.workbook.course import short_model
@@ -31,11 +28,9 @@ _HERE = Path(__file__).parent
 _STATIC = _HERE.parent / "web" / "static"
 # Modules by their names; the page finds each by its map of imports.
 _MODULES = {
-    "preact.mjs": _STATIC / "vendor" / "preact.mjs", "htm.mjs": _STATIC / "vendor" / "htm.mjs",
-    "common.js": _STATIC / "common.js", "drawn.js": _STATIC / "drawn.js",
-    "scene.js": _STATIC / "scene.js", "fields.js": _STATIC / "fields.js",
-    "functions.js": LIBRARY, "calculator.js": CALCULATOR,
-    "numbers.js": _HERE / "numbers.js", "takeaway.js": _HERE / "takeaway.js",
+    **{f"{name}.mjs": _STATIC / "vendor" / f"{name}.mjs" for name in ("preact", "htm")},
+    **{f"{name}.js": _STATIC / f"{name}.js" for name in
+       ("common", "drawn", "scene", "fields", "calculator", "numbers", "takeaway", "view")},
     "live.js": _HERE / "live.js",
 }  # fmt: skip
 _CHARTS = ("chart.umd.min.js", "hammer.min.js", "chartjs-plugin-zoom.min.js")
@@ -53,49 +48,19 @@ def live_page(model: Model, book: bytes, stem: str) -> bytes:
         book: the workbook that the page carries.
         stem: what its files are called.
     """
-    data, modules = _data(model, book, stem)
+    short = short_model(model)
+    pack = packed(model, short)
+    data = {**pack.data, "file": stem, "book": _book(short, book)}
+    modules = {"program.js": _address(pack.script), "fine.js": _address(pack.fine_script)}
     summary = "\n".join(_summary(model, data, Evaluation(model)))
     text = Template((_HERE / "page.html").read_text("utf-8")).substitute(
-        name=escape(data["name"]), summary=summary, style=_style(), charts=_chart_scripts(),
+        name=escape(data["name"]), about=escape(_about(model, data), quote=True),
+        summary=summary, style=_style(), charts=_chart_scripts(),
         data=_inside(json.dumps(data, ensure_ascii=False, separators=(",", ":"))),
-        gate=(_HERE / "gate.js").read_text("utf-8"),
+        gate=(_STATIC / "gate.js").read_text("utf-8"),
         modules=json.dumps({**_modules(), **modules}, separators=(",", ":")),
     )  # fmt: skip
     return text.encode()
-
-
-def _data(model: Model, book: bytes, stem: str) -> tuple[Data, dict[str, str]]:
-    """Return the data of the page and the modules of its programs."""
-    short, drawn = short_model(model), describe.with_joints(model)
-    charts, scene = describe.charts(short), describe.scene(drawn)
-    curves = [key for chart in charts for key in describe.keys_of(chart)]
-    program = program_of(model, (*short.nodes, *curves))
-    fine_model = describe.with_joints(_fine(model))
-    nodes = [key for key in curves if key in fine_model.nodes and key not in program.fixed]
-    fine = program_of(fine_model, (*nodes, *describe.scene_keys(scene)))
-    used = frozenset(program.inputs_read | fine.inputs_read)
-    fields = list(describe.fields(model, used))
-    data = {
-        **describe.about(model.input), "file": stem, "fields": fields,
-        "main": describe.main_fields(model), "sentences": describe.sentences(),
-        "sheets": describe.sheets(short), "checks": describe.checks(short), "charts": charts,
-        "numbers": describe.key_numbers(short), "scene": scene, "remarks": model.remarks,
-        "fixedTables": _fixed_tables(short, program), "program": program.data(),
-        "fine": fine.data(), "book": _book(short, book),
-    }  # fmt: skip
-    return data, {"program.js": _address(program.script()), "fine.js": _address(fine.script())}
-
-
-def _fine(model: Model) -> Model:
-    """Return the same engine with the step of the curves."""
-    calculation = model.input.calculation.model_copy(update={"step_deg": describe.FINE_DEG})
-    return build_model(model.input.model_copy(update={"calculation": calculation}))
-
-
-def _fixed_tables(model: Model, program: LiveProgram) -> list[str]:
-    """Titles of the blocks that hold what only a build finds."""
-    blocks = {key: block.title for block in model.blocks for key, _ in nodes_in(block)}
-    return sorted({blocks[key] for key in program.fixed & blocks.keys()})
 
 
 def _book(model: Model, book: bytes) -> Data:
@@ -119,6 +84,13 @@ def _summary(model: Model, data: Data, evaluation: Evaluation) -> Iterator[str]:
     rows = [(each["title"], fixed(float(evaluation.value(each["value"])), 4),
              str(evaluation.value(each["key"]))) for each in data["checks"]]  # fmt: skip
     yield from _table("Проверки", rows)
+
+
+def _about(model: Model, data: Data) -> str:
+    """Key numbers in a line: what a link to the page says of it."""
+    value = Evaluation(model)
+    lines = (_line(each["title"], each["key"], model, value) for each in data["numbers"])
+    return "; ".join(f"{title.lower()} {text} {unit}".strip() for title, text, unit in lines)
 
 
 def _line(
@@ -162,8 +134,7 @@ def _style() -> str:
         data = b64encode((_STATIC / "vendor" / match[1]).read_bytes()).decode()
         return f"url(data:font/woff2;base64,{data})"
 
-    texts = ((_STATIC / "style.css").read_text("utf-8"), (_HERE / "live.css").read_text("utf-8"))
-    return _FONT.sub(font, "\n".join(texts))
+    return _FONT.sub(font, (_STATIC / "style.css").read_text("utf-8"))
 
 
 @lru_cache(maxsize=1)

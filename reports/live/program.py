@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from reports.formula.javascript import Script, columns_script, gives_text, value_script
+from reports.formula.javascript import LIBRARY, Script, columns_script, gives_text, value_script
 from reports.formula.parse import names
 from reports.model.blocks import Column, Model, TableSpec
 from reports.model.evaluation import Evaluation, Graph, node_of
 
-CALCULATOR = Path(__file__).with_name("calculator.js")
+CALCULATOR = Path(__file__).parents[1] / "web" / "static" / "calculator.js"
 Step = list[Any]  # function, rows (0 of a value), numbers of what it gives, of what it takes
 
 
@@ -41,9 +42,9 @@ class LiveProgram:
     fixed: frozenset[str]
 
     def script(self) -> str:
-        """Return the functions as a module of JavaScript."""
+        """Return the functions as a module of JavaScript that stands alone."""
         body = ",\n".join(self.functions)
-        return f'import {{F}} from "./functions.js";\nexport const functions = [\n{body}];\n'
+        return f"{LIBRARY.read_text('utf-8')}\nexport const functions = [\n{body}];\n"
 
     def data(self) -> dict[str, Any]:
         """Return the rest as plain data."""
@@ -67,6 +68,13 @@ class LiveProgram:
     def size(self) -> int:
         """Letters of the functions and the data."""
         return len(self.script()) + len(json.dumps(self.data(), ensure_ascii=False))
+
+
+def built_values(model: Model) -> dict[str, Any]:
+    """Return by their keys the values that no formula gives."""
+    compiler = _Compiler(model)
+    value = compiler.evaluation.value
+    return {key: np.asarray(value(key)).tolist() for key in compiler.fixed}
 
 
 def program_of(model: Model, nodes: Iterable[str]) -> LiveProgram:
@@ -96,10 +104,19 @@ class _Compiler:
     @cached_property
     def fixed(self) -> frozenset[str]:
         """What is calculated at build, and all that follows from it."""
-        graph, nodes, model = Graph(self.model), self.model.nodes, self.model
-        first = {f"{table.id}.{column.key}" for table in model.tables.values()
-                 for column in table.columns if table.is_computed(column)}  # fmt: skip
-        return frozenset(key for key in nodes if key in first or first & graph.ancestors(key))
+        graph, readers = Graph(self.model), defaultdict[str, list[str]](list)
+        for key in self.model.nodes:
+            for each in graph.references(key):
+                readers[each].append(key)
+        waiting = [f"{table.id}.{column.key}" for table in self.model.tables.values()
+                   for column in table.columns if table.is_computed(column)]  # fmt: skip
+        fixed: set[str] = set()
+        while waiting:
+            key = waiting.pop()
+            if key not in fixed:
+                fixed.add(key)
+                waiting += readers[key]
+        return frozenset(fixed & self.model.nodes.keys())
 
     def compiled(self, nodes: Iterable[str]) -> LiveProgram:
         """Return the program that gives these nodes."""

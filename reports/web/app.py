@@ -6,6 +6,7 @@ import contextlib
 import secrets
 import shutil
 from collections.abc import AsyncIterator
+from html import escape
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -34,20 +35,42 @@ from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import Desk, Guard, Settings, asked, book, failed, get, post, read
+from reports.web.doors import (
+    Desk,
+    Guard,
+    Settings,
+    address_of_server,
+    asked,
+    book,
+    failed,
+    get,
+    post,
+    read,
+)  # fmt: skip
 from reports.web.jobs import OFFERED, Jobs
 from reports.web.shares import Turns, Unfinished
 from reports.workbook.charts import COLOURS
 
 STATIC = Path(__file__).parent / "static"
 SESSION_S = 12 * 3600
+_PAGES = {
+    "engine": ("Кривошипно-шатунный механизм: кинематика и динамика", "Двигатель, который считает "
+               "сам себя: меняйте размеры, и всё движется: силы, момент, нагрузки, проверки."),
+    "teacher": ("Группы: варианты и проверка работ", "Страница преподавателя."),
+    "student": ("Моя работа: кинематика и динамика двигателя", "Задание, рабочая книга, срок и "
+                "сдача."),
+}  # fmt: skip  # title of a page and what its link says of it
 
 
 async def page(request: Request, name: str, root: str = ".") -> Response:
     """Return a page whose script lies beside this module; ``root`` leads from its address."""
     request.session.setdefault("visitor", secrets.token_urlsafe(16))  # the place in the queue
-    text = Template((STATIC / "page.html").read_text(encoding="utf-8"))
-    return HTMLResponse(text.substitute(name=name, root=root))
+    text, (title, about) = (
+        Template((STATIC / "page.html").read_text(encoding="utf-8")),
+        _PAGES[name],
+    )
+    return HTMLResponse(text.substitute(name=name, root=root, title=title, about=about,
+                                        address=escape(address_of_server(request))))  # fmt: skip
 
 
 async def choices(_: Request) -> Data:
@@ -92,8 +115,7 @@ def create_app(settings: Settings) -> Guard:
         post("/api/new", asked, engine.fresh),
         post("/api/read", read),
         post("/api/start", asked, engine.start, "raw"),
-        post("/api/solve", asked, engine.answer, "raw", "sheet", "cylinder"),
-        post("/api/toml", asked, engine.as_toml, "raw"),
+        post("/api/settle", asked, engine.settle, "raw"),
         post("/api/book", book),
         *jobs.routes(),
         *classes.routes(),

@@ -16,7 +16,6 @@ import tempfile
 from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
-from urllib.parse import urlsplit
 
 from itsdangerous import BadData, URLSafeSerializer
 from starlette.exceptions import HTTPException
@@ -26,16 +25,33 @@ from starlette.routing import Route
 
 from reports.exports.numbers import neutralised
 from reports.grading.batch.grade import PAGES
-from reports.grading.issuing.register import FILE, SECRET, kept_secret, load_register
+from reports.grading.issuing.register import FILE, SECRET, Issued, kept_secret, load_register
 from reports.grading.pages.side_by_side import COMPARED
-from reports.inputs.form_fields import Data
+from reports.inputs.form_fields import Data, groups
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
-from reports.web.doors import Rate, Shown, ask, body, caller, earlier, get, post, shown
+from reports.web.doors import (
+    Rate,
+    Shown,
+    address_of_server,
+    ask,
+    body,
+    caller,
+    earlier,
+    get,
+    post,
+    shown,
+)
 from reports.web.jobs import Queue
 
 _FILES = {"base.toml": "base.toml", "rubric.toml": "rubric.toml", "roster": "Список"}
+_TITLES = {
+    "summary.html": "Сводка по группе", "gradebook.csv": "Ведомость .csv",
+    "gradebook.xlsx": "Ведомость .xlsx", "moodle.csv": "Оценки и замечания для Moodle .csv",
+    "moodle-worksheet.csv": "Заполненная ведомость Moodle .csv",
+    "moodle-feedback.zip": "Отзывы для Moodle .zip",
+}  # fmt: skip  # what a link to a file is called
 _SECRET = ("--secret", SECRET)
 _ENTERED, _MOST_ENTERED = "sessions.json", 200  # of the instructor's browsers
 
@@ -195,19 +211,9 @@ class Classes(Queue):
             for book in books
         ]  # fmt: skip
 
-    def _address(self, request: Request) -> str:
-        """Return the address of this server as a telephone in the same network knows it."""
-        settings, origin = (
-            request.app.state.settings,
-            f"{request.url.scheme}://{request.url.netloc}",
-        )
-        is_local = urlsplit(origin).hostname in ("127.0.0.1", "localhost", "::1")
-        printed = next(iter(settings.addresses), "") if is_local else ""
-        return str(settings.public or printed or origin).rstrip("/")
-
     async def _links(self, request: Request) -> Response:
         folder, stream = self._inside(request), io.StringIO(newline="")
-        writer, address = csv.writer(stream, delimiter=";"), self._address(request)
+        writer, address = csv.writer(stream, delimiter=";"), address_of_server(request)
         writer.writerow(["№", "Студент", "Группа", "Ссылка", "Сдано", "Попыток"])
         for each in self._books(folder):
             when = f"{datetime.fromtimestamp(each['when']):%d.%m.%Y %H:%M}" if each["when"] else ""
@@ -221,7 +227,7 @@ class Classes(Queue):
         """Return the link of a student as a QR code, of number 0 the address itself."""
         import segno
 
-        number, address = request.path_params["number"], f"{self._address(request)}/"
+        number, address = request.path_params["number"], f"{address_of_server(request)}/"
         books = self._books(self._inside(request)) if number else [{"number": 0}]
         each = next((book for book in books if book["number"] == number), None)
         if each is None:
@@ -246,8 +252,9 @@ class Classes(Queue):
             {**read_json(folder / "about.json"), **self.about(folder.name), "students": students,
              "rows": summary.get("rows", []), "groups": summary.get("groups", []),
              "decided": summary.get("decided", []),
-             "files": [*files], "graded": sum(name.startswith(PAGES) for name in pages),
-             "address": self._address(request)},
+             "files": [[name, _TITLES.get(name, name)] for name in files],
+             "graded": sum(name.startswith(PAGES) for name in pages),
+             "address": address_of_server(request)},
             {**files, **pages, **works, "issued.zip": folder / "issued.zip"},
             {name: folder / name for name in ("moodle.zip", "worksheet.csv")},
         )  # fmt: skip
@@ -280,7 +287,7 @@ class Classes(Queue):
             "title": record["title"], "student": book.student.full, "file": book.file,
             **_handed(work, record.get("deadline") or ""), "open": bool(row.get("page")),
             "deadline": record.get("deadline") or "",
-            "points": row.get("points"), "status": row.get("status", ""),
+            "points": row.get("points"), "status": row.get("status", ""), "task": _task(book),
         }  # fmt: skip
         limit, tried = register.rubric.attempts.tries, len(entry["earlier"]) + entry["handed"]
         entry["handed"] = entry["handed"] or bool(row.get("file"))
@@ -298,6 +305,15 @@ class Classes(Queue):
             {**entry, "closed": closed, "tries": [tried, limit]}, files, {"work": work},
             closed=closed, tries=str(folder / "issued") if early else "",
         )  # fmt: skip
+
+
+def _task(book: Issued) -> Data:
+    """Return what a student calculates: the engine and the data of his variant."""
+    fields = (each for group in groups(book.raw) for entry in group["entries"] for each in entry)
+    return {"engine": book.raw["engine"]["name"], "rows": [
+        {key: each[key] for key in ("title", "symbol", "value", "unit")}
+        for each in fields if each["key"] in book.drawn
+    ]}  # fmt: skip
 
 
 def _is_past(until: str) -> bool:

@@ -19,7 +19,7 @@ from functools import partial
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, BinaryIO
-from urllib.parse import urlsplit
+from urllib.parse import unquote, urlsplit
 
 from starlette.exceptions import HTTPException
 from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
@@ -39,6 +39,7 @@ from reports.web import engine
 from reports.web.shares import Turns
 
 _FOLDER = "earlier"
+_MOST_NAME = 60  # letters of a file's name, four bytes each at most
 _MOST = 20  # of one student: thirty megabytes each
 Door = Callable[..., Awaitable[Response | Data | None]]
 MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
@@ -52,7 +53,7 @@ _SLOWED, SLOWED_S = (429, 503), 2.0
 _KINDS = ("application/json", "application/octet-stream")
 _HEADERS = {
     "content-security-policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+        "default-src 'none'; script-src 'self' blob:; style-src 'self' 'unsafe-inline'; "
         "img-src 'self' data:; font-src 'self' data:; connect-src 'self'; form-action 'none'; "
         "base-uri 'none'; frame-ancestors 'none'"
     ),
@@ -181,6 +182,15 @@ def caller(request: Request) -> str:
     return request.client.host if request.client else ""
 
 
+def address_of_server(request: Request) -> str:
+    """Return the address of this server as a telephone in the same network knows it."""
+    settings: Settings = request.app.state.settings
+    origin = f"{request.url.scheme}://{request.url.netloc}"
+    is_local = urlsplit(origin).hostname in ("127.0.0.1", "localhost", "::1")
+    printed = next(iter(settings.addresses), "") if is_local else ""
+    return str(settings.public or printed or origin).rstrip("/")
+
+
 def visitor(request: Request) -> str:
     """Who asks: address and cookie together, the latter only if this server has given it."""
     return f"{caller(request)}/{request.session.get('visitor', '')}"
@@ -291,10 +301,14 @@ async def body(request: Request) -> Data:
 
 @contextlib.asynccontextmanager
 async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -> AsyncIterator[Path]:
-    """Yield the body of a request as a file that goes with the block, unless it is moved."""
-    state = request.app.state
+    """Yield the body of a request as a file that goes with the block, unless it is moved.
+
+    It is called as its sender calls it, else ``name``.
+    """
+    state, sent = request.app.state, unquote(request.headers.get("x-name", ""))
+    stem = re.sub(r'[\\/:*?"<>|\x00-\x1f]+', " ", Path(sent).stem).strip(" .")[:_MOST_NAME]
     with tempfile.TemporaryDirectory(prefix="book-", dir=state.settings.data) as folder:
-        path = Path(folder, name)
+        path = Path(folder, f"{stem or Path(name).stem}{Path(name).suffix}")
         async with state.uploading.turn(visitor(request), WAIT_S):
             with path.open("wb") as stream:
                 await _read(request, stream, most, FILE_S)

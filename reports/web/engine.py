@@ -14,20 +14,20 @@ import click
 from reports.commands.common import error_text
 from reports.commands.engine import new
 from reports.commands.new_engine import new_text
-from reports.exports import live
 from reports.exports.own_books import refuse_faults
 from reports.inputs.fields import to_mapping
 from reports.inputs.form_fields import Data, absent, groups, without_foreign
-from reports.inputs.load import load_remote, parsed
+from reports.inputs.load import Loaded, load_remote, parsed
 from reports.inputs.normalise import normalise, read_text
 from reports.inputs.own_books import OWNER
 from reports.inputs.ranges import split_ranges
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import LAYOUTS
-from reports.inputs.solve_input import solved
+from reports.inputs.solve_input import solution_remarks, solved
 from reports.inputs.template import list_samples, new_file
-from reports.model.book_text import shelf_of
-from reports.model.contents import Contents, contents_of
+from reports.live.pack import packed
+from reports.live.program import built_values
+from reports.model.blocks import Model
 from reports.new.generate import NewEngine, file_text
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
@@ -84,48 +84,40 @@ def read_book(path: str) -> Data:
 
 
 def start(raw: Mapping[str, Any]) -> Data:
-    """Fields of an input in groups, its charts by sheets, and the input as it was understood.
+    """Fields of an input in groups, the input as it was understood, the engine for the browser.
 
     What is wrong with its values stands among the errors; the fields are shown all the same.
     """
     plain = without_foreign(normalise(raw))
     state: Data = {"errors": []}
     try:
-        model = load_remote(plain).model
-        plain = to_mapping(model)
-        refuse_faults(model)
-        drawn = dict.fromkeys(chart.sheet for chart in kept_model(model).charts)
-        contents = contents_of(shelf_of(model.books))
-        state["sheets"] = sorted((_sheet(title, contents) for title in drawn),
-                                 key=lambda sheet: not sheet[0])  # fmt: skip
+        loaded = load_remote(plain)
+        plain = to_mapping(loaded.model)
+        model, more = _built(loaded)
+        pack = packed(model, model)
+        state |= {"engine": pack.data, "scripts": [pack.script, pack.fine_script], **more}
     except InputError as error:
         state["errors"] = [problem.words() for problem in error.problems]
     return {**state, "raw": plain, "groups": list(groups(plain)), "absent": absent(plain)}
 
 
-def _sheet(title: str, contents: Contents) -> tuple[str, str, str]:
-    """A sheet, what stands on it in words, its chapter; a journal's number goes with the words."""
-    plain, _, number = title.partition(" (")
-    for chapter in contents.chapters:
-        for name, heading in chapter.sheets:
-            tail = title.removeprefix(name)
-            if name in (plain, title) or (tail != title and tail.strip().isdigit()):
-                more = number.rstrip(")") if name == plain else tail.strip()
-                return title, f"{heading} {more}".strip(), chapter.title
-    return title, "Прочее", "Прочее"
+def settle(raw: Mapping[str, Any]) -> Data:
+    """Return what a browser cannot find of an engine: remarks of ``check``, values of the build.
+
+    Raises:
+        InputError: what is wrong with its values together.
+    """
+    model, more = _built(load_remote(raw))
+    return {**more, "built": built_values(model)}
 
 
-def answer(raw: Mapping[str, Any], sheet: str | None, cylinder: int = 0) -> Data:
-    """Numbers of an engine, the charts of a sheet, what moves; without a sheet the checks alone."""
-    loaded = load_remote(raw)
-    model, solution = kept_model(loaded.model), solved(loaded.model)
-    if sheet is None:  # the checks take longer
-        return live.checks(model)
-    return {
+def _built(loaded: Loaded) -> tuple[Model, Data]:
+    refuse_faults(loaded.model)
+    model = kept_model(loaded.model)
+    solved(loaded.model)
+    return model, {
         "warnings": [problem.words() for problem in loaded.warnings],
-        "results": list(live.results(model, solution)),
-        "charts": live.charts(model, solution, sheet),
-        "moves": live.moving(solution, cylinder),
+        "remarks": [*model.remarks, *(each.line for each in solution_remarks(loaded.model))],
     }
 
 
@@ -173,5 +165,5 @@ def ready(books: str = "") -> Callable[..., Data]:
     ``books`` is the folder of own books that the owner allows.
     """
     os.environ[OWNER] = books
-    answer(fresh({"sample": "gots-diesel"})["raw"], "П4.1")
+    start(fresh({"sample": "gots-diesel"})["raw"])
     return operator.call

@@ -70,9 +70,9 @@ async def person(base: str, number: int, until: float, seen: Seen) -> None:
         while time.monotonic() < until:
             raw["geometry"]["bore_mm"] = round(chance.uniform(84, 92), 3)
             began = time.perf_counter()
-            answer = await web.post("/api/solve", json={"raw": raw, "sheet": "П4.1"})
+            answer = await web.post("/api/settle", json={"raw": raw})
             seen.took.append(time.perf_counter() - began)
-            if answer.status_code != 200 or "charts" not in answer.json():
+            if answer.status_code != 200 or "built" not in answer.json():
                 seen.bad.append(answer.text[:200])
             await asyncio.sleep(chance.uniform(1, 4))
 
@@ -135,7 +135,7 @@ async def hostile(base: str, until: float, seen: Seen) -> None:
 
         heads = {"content-type": "application/octet-stream"}
         await asyncio.gather(
-            *(flood("/api/solve", json={"raw": raw, "sheet": "П4.1"}) for _ in range(FLOOD)),
+            *(flood("/api/settle", json={"raw": raw}) for _ in range(FLOOD)),
             *(flood("/api/book", content=book, headers=heads) for _ in range(4)),
             *(flood("/api/files", json={"raw": raw, "kind": "pdf"}) for _ in range(2)),
             *(dangle() for _ in range(50)),

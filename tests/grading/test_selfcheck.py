@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from openpyxl import Workbook
+from openpyxl import Workbook, load_workbook
 
 from reports.cli import main
 from reports.grading.reading.selfcheck import findings, is_work_book, remarks
@@ -37,8 +38,18 @@ def test_what_a_page_tells_is_short_and_no_condition(tmp_path: Path) -> None:
     path.write_bytes(classroom.handout())
     issued = tmp_path / "выдана.xlsx"
     issued.write_bytes(classroom.handout())
+    blank = sum(len(item.nodes) for item in classroom.assignment().items)
+    (line,) = remarks(str(path), str(issued))["remarks"]  # nothing is filled in: one line
+    assert re.fullmatch(r"пуст[аы] (\d+) ячее?[кй]\w*: книга не заполнена", line), line
+    assert int(line.split()[1]) > blank
+
+    begun = load_workbook(path)
+    cell = Layout.of(classroom.assignment().model).cells["lam"]
+    begun[cell.sheet].cell(cell.row, cell.column).value = 0.3
+    begun.save(path)
     lines = remarks(str(path), str(issued))["remarks"]
     assert len(lines) == 21 and "пусто" in lines[0] and "и ещё замечаний: " in lines[-1]
+    path.write_bytes(classroom.handout())
     issued.write_bytes(classroom.handout(2))
     assert "выдана не вам" in remarks(str(path), str(issued))["remarks"][0]
     issued.write_bytes(classroom.handout())

@@ -39,7 +39,8 @@ def test_the_same_headings_tables_commands_and_pictures():
     assert commands(one) == commands(other)
     pictures = [re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text("utf-8")) for page in READMES]
     assert pictures[0] == pictures[1]
-    assert len(pictures[0]) == 5
+    assert len(pictures[0]) == 6
+    assert (ROOT / pictures[0][1]).stat().st_size < 1_500_000  # the clip
     assert all((ROOT / name).is_file() for name in pictures[0])
 
 

@@ -36,8 +36,10 @@ def live(browser: Any, live_file: Callable[[str], Path]) -> Opened:
     """Open a live page from its file with the network off; any request is a fault."""
     contexts = []
 
-    def opened(name: str, width: int = 1366, **more: Any) -> Any:
-        more = {"viewport": {"width": width, "height": 844}, "reduced_motion": "reduce"} | more
+    def opened(
+        name: str, width: int = 1366, height: int = 844, before: str = "", **more: Any
+    ) -> Any:
+        more = {"viewport": {"width": width, "height": height}, "reduced_motion": "reduce"} | more
         context = browser.new_context(offline=True, **more)
         contexts.append(context)
         page = context.new_page()
@@ -46,6 +48,7 @@ def live(browser: Any, live_file: Callable[[str], Path]) -> Opened:
         page.on("console", lambda m: m.type == "error" and page.faults.append(m.text))
         page.on("request", lambda r: r.url.startswith(("file:", "data:", "blob:"))
                 or page.faults.append(r.url))  # fmt: skip
+        page.add_init_script(before)
         page.goto(live_file(name).as_uri())
         return page
 

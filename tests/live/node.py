@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from reports.formula.javascript import LIBRARY
 from reports.live.program import CALCULATOR, LiveProgram
 from tests.conftest import missing
 
@@ -46,7 +45,7 @@ def calculated(program: LiveProgram, folder: Path, edits: Sequence[Edit] = ()) -
     if node is None:
         missing("node", "nodejs npm")
     for name, text in {
-        "package.json": '{"type": "module"}', "functions.js": LIBRARY.read_text("utf-8"),
+        "package.json": '{"type": "module"}',
         "calculator.js": CALCULATOR.read_text("utf-8"), "program.js": program.script(),
         "data.json": json.dumps({"data": program.data(), "edits": [*map(dict, edits)]}),
         "main.js": _MAIN,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -24,7 +25,7 @@ from tests.live.conftest import Opened
 from tests.live.node import distance
 from tests.referee.changes import changed_everywhere
 from tests.web import axe
-from tests.web.conftest import until
+from tests.web.conftest import tab_to, until
 from tools.referees.by_libreoffice import LibreOffice
 
 MOST_BYTES = 3_000_000
@@ -85,17 +86,27 @@ def test_a_value_beyond_its_limits_leaves_the_last_good_engine(live: Opened) -> 
     assert message == "engine.cylinders: это строение двигателя; нужен build"
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(1366, "light"), (390, "dark")])
+SIZES = [(390, 844), (844, 390), (768, 1024), (1366, 768), (1920, 1080)]
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
 def test_the_page_fits_and_a_reader_of_screens_finds_its_way(
-    width: int, scheme: str, live: Opened
+    width: int, height: int, live: Opened
 ) -> None:
-    page = live("gots-diesel", width, color_scheme=scheme)
+    page = live("gots-diesel", width, height)
     page.wait_for_selector("#chart-fig50 canvas")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    assert axe.faults(page) == []
-    tops = page.evaluate("""["#five [data-key='geometry.bore_mm'] input", "#charts figure"]
-        .map(each => document.querySelector(each).getBoundingClientRect().top)""")
-    assert max(tops) < 2 * 844
+    assert axe.faults(page) == []  # light and dark
+    if width == 390:
+        tops = page.evaluate("""["#five [data-key='geometry.bore_mm'] input", "#charts figure"]
+            .map(each => document.querySelector(each).getBoundingClientRect().top)""")
+        assert max(tops) < 2 * height
+    assert not page.faults
+
+
+def test_nothing_is_announced_while_it_moves_and_once_when_it_stops(live: Opened) -> None:
+    page = live("gots-diesel")
+    page.wait_for_selector("#chart-fig50 canvas")
     page.evaluate("live.state.spoken = []; new MutationObserver(all => live.state.spoken.push("
                   "...all.map(e => e.target.textContent).filter(Boolean)))"
                   ".observe(document.querySelector('[role=status]'), {subtree: true, "
@@ -109,6 +120,79 @@ def test_the_page_fits_and_a_reader_of_screens_finds_its_way(
     page.get_by_role("button", name="Стоп").click()
     until(page, "new Set(live.state.spoken).size === 1")
     assert not page.faults
+
+
+# A phone on its side; windows of 1366 × 768 and 1024 × 768 at 200 %.
+@pytest.mark.parametrize(("width", "height"), [(844, 390), (683, 384), (512, 384)])
+def test_the_mechanism_is_usable_in_a_low_window(width: int, height: int, live: Opened) -> None:
+    page = live("yamz-238", width, height)
+    page.wait_for_selector("#charts canvas")
+    page.locator("#drive").evaluate("e => e.scrollIntoView({block: 'end'})")
+    boxes = {each: page.locator(each).bounding_box() for each in ("#mechanism", "#play", "#phi")}
+    for each, box in boxes.items():
+        assert box["y"] >= -1 and box["y"] + box["height"] <= height + 1, each
+        assert box["x"] >= 0 and box["x"] + box["width"] <= width, each
+    assert boxes["#mechanism"]["height"] > 0.5 * height
+    assert boxes["#phi"]["width"] > 150
+    page.locator("#five input[type=range]").first.scroll_into_view_if_needed()
+    box = page.locator("#five input[type=range]").first.bounding_box()  # nothing lies over it
+    hit = page.evaluate("([x, y]) => document.elementFromPoint(x, y).type",
+                        [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])  # fmt: skip
+    assert hit == "range"
+
+
+def test_the_keyboard_alone_changes_turns_reads_and_takes_home(live: Opened) -> None:
+    page = live("gots-diesel")
+    page.wait_for_selector("#charts canvas")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.hash") == "#results"  # past the fields
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "sheet"
+    page.keyboard.press("ArrowDown")
+    until(page, "live.state.sheet !== ''")
+    page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
+    tab_to(page, "#five [data-key='geometry.bore_mm'] input")
+    before = page.inner_text("[data-key=M_mean] b")
+    page.keyboard.press("Control+A")
+    page.keyboard.type("91,5")
+    until(page, "kshm.get('geometry_bore_mm') === 91.5")
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowRight")
+    until(page, "kshm.get('geometry_bore_mm') > 91.5")
+    assert page.inner_text("[data-key=M_mean] b") != before
+    tab_to(page, "#play")
+    page.keyboard.press("Enter")
+    until(page, "live.state.phi > 20")
+    page.keyboard.press("Enter")
+    tab_to(page, "#phi")
+    page.keyboard.press("Home")
+    page.keyboard.press("ArrowRight")
+    until(page, "live.state.phi === 1")
+    tab_to(page, "#tables summary")
+    page.keyboard.press("Enter")
+    page.wait_for_selector("#tables details[open] table")
+    page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
+    tab_to(page, "#save")
+    with page.expect_download():
+        page.keyboard.press("Enter")
+    assert not page.faults
+
+
+GATE = Path("reports/web/static/gate.js")
+
+
+def test_an_old_browser_reads_one_sentence_above_the_results(live: Opened) -> None:
+    for lost in ("delete Array.prototype.toSorted", "CSS.supports = () => false",
+                 "delete HTMLScriptElement.supports"):  # fmt: skip
+        page = live("gots-diesel", before=lost)
+        assert page.inner_text("#old").startswith("Браузер слишком старый"), lost
+        assert "113,5" in page.inner_text("#plain")
+        assert not page.faults and not page.locator("#scene").count()
+    # What says so is read by a browser of ten years ago: words of its language alone.
+    text = re.sub(r'"(?:[^"\\]|\\.)*"|//[^\n]*', "", GATE.read_text("utf-8"))
+    assert not re.search(r"=>|`|\?\.(?!\d)|\?\?|\.\.\.|\b(let|const|class|async|import)\b", text)
 
 
 def test_without_a_script_the_results_are_there(live: Opened) -> None:

@@ -138,6 +138,22 @@ def until(page: Any, true: str) -> None:
     raise AssertionError(true)
 
 
+def tab_to(page: Any, selector: str) -> None:
+    """Go on by the Tab key alone; every stop on the way is seen and has its outline."""
+    for _ in range(400):
+        page.keyboard.press("Tab")
+        stop = page.evaluate("""selector => {
+            const e = document.activeElement, held = e.closest(".button") || e;
+            const seen = held.getBoundingClientRect().width > 0 &&
+                [e, held].some(each => getComputedStyle(each).outlineStyle !== "none");
+            return [e.matches(selector), seen || e === document.body, e.outerHTML.slice(0, 120)];
+        }""", selector)  # fmt: skip
+        assert stop[1], stop[2]
+        if stop[0]:
+            return
+    raise AssertionError(selector)
+
+
 def photo(page: Any, name: str) -> None:
     """Pictures of a page for a person to look at, where ``KSHM_SHOTS`` names a folder."""
     folder = os.environ.get("KSHM_SHOTS")

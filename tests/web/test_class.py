@@ -14,6 +14,7 @@ from openpyxl import Workbook
 
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.issuing.register import load_register
+from reports.inputs.form_fields import groups
 from tests.grading import classroom
 from tests.grading.fill import filled_book
 from tests.grading.test_decisions import UNKNOWN
@@ -118,6 +119,28 @@ def test_the_printed_address_is_a_door_for_the_instructor_alone(
     stranger.context.close()
 
 
+@pytest.mark.parametrize("width", [390, 1366, 1920])
+def test_no_label_of_the_instructors_form_lies_over_another(teacher: Any, width: int) -> None:
+    teacher.set_viewport_size({"width": width, "height": 900})
+    boxes = teacher.evaluate("""[...document.querySelectorAll("#issue :is(label, input, button)")]
+        .map(e => {
+            const range = document.createRange();
+            range.selectNodeContents(e);
+            const {left, top, right, bottom} = e.matches("label")
+                ? range.getClientRects()[0] : e.getBoundingClientRect();
+            return [left, top, right, bottom];
+        })""")
+    assert len(boxes) == 11 and all(0 <= left < right <= width for left, _, right, _ in boxes)
+    over = [
+        (a, b)
+        for i, a in enumerate(boxes)
+        for b in boxes[i + 1 :]
+        if a[0] < b[2] - 1 and b[0] < a[2] - 1 and a[1] < b[3] - 1 and b[1] < a[3] - 1
+    ]
+    assert over == []  # fmt: skip
+    teacher.set_viewport_size({"width": 1280, "height": 900})
+
+
 def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: Path) -> None:
     files = {"base": classroom.base_text().encode(), "roster": roster_book(5)}
     failed = [
@@ -151,9 +174,15 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     issued = {name: every.read(name) for name in every.namelist()}
     assert own in issued.values() and len(set(issued.values())) == 5
     student.set_input_files(
-        "#work", {"name": "р.xlsx", "mimeType": "", "buffer": b"MZ not a workbook"}
+        "#work", {"name": "Моя работа.xlsx", "mimeType": "", "buffer": b"MZ not a workbook"}
     )
     student.wait_for_selector("#errors li")
+    assert "Моя работа.xlsx" in student.inner_text("#errors")  # as its owner calls it
+    task = student.inner_text("#task")
+    titles = {field["key"]: field["title"] for group in groups(register.books[2].raw)
+              for entry in group["entries"] for field in entry}  # fmt: skip
+    assert len(register.books[2].drawn) > 1
+    assert all(titles[key] in task for key in register.books[2].drawn)
     # What the terminal's check says, without a terminal; it is no condition.
     half = solved(3, own, omega=["460,77 рад/с"], lam=[None])
     student.set_input_files("#work", {"name": "р.xlsx", "mimeType": "", "buffer": half})

@@ -26,13 +26,13 @@ def first(browser: Any, served: Served) -> Iterator[Any]:
 
 
 def ready(page: Any) -> None:
-    until(page, "Boolean(window.kshm?.last) && !kshm.running")
+    until(page, "Boolean(window.live?.state.last) && live.isIdle()")
 
 
 def bore(page: Any, text: str) -> None:
     page.evaluate("document.querySelector('[data-key=geometry]').open = true")
     page.fill(BORE, text)
-    until(page, f"kshm.raw.geometry.bore_mm === {text.replace(',', '.')} && !kshm.running")
+    until(page, f"live.state.raw.geometry.bore_mm === {text.replace(',', '.')} && live.isIdle()")
 
 
 def another(page: Any, address: str) -> Any:
@@ -64,7 +64,7 @@ def test_an_engine_is_there_after_f5_and_only_what_was_changed_is_listed(first: 
     assert first.locator("select#own option").count() == 1
     first.reload()
     ready(first)
-    assert first.evaluate("kshm.raw.geometry.bore_mm") == 91.5
+    assert first.evaluate("live.state.raw.geometry.bore_mm") == 91.5
 
 
 def test_a_friends_link_opens_beside_the_own_engine(
@@ -72,21 +72,21 @@ def test_a_friends_link_opens_beside_the_own_engine(
 ) -> None:
     address = friends(browser, served)
     second = another(first, address)
-    assert second.evaluate("kshm.raw.geometry.bore_mm") == 85
+    assert second.evaluate("live.state.raw.geometry.bore_mm") == 85
     assert "#" not in second.url  # read once
     first.reload()
     ready(first)
-    assert first.evaluate("kshm.raw.geometry.bore_mm") == 91.5
+    assert first.evaluate("live.state.raw.geometry.bore_mm") == 91.5
     assert first.evaluate(STORED) == [85, 91.5]
     bore(second, "86")
     second.reload()
     ready(second)
-    assert second.evaluate("kshm.raw.geometry.bore_mm") == 86
+    assert second.evaluate("live.state.raw.geometry.bore_mm") == 86
     assert first.evaluate(STORED) == [86, 91.5]
     again = another(first, address)  # it has been changed since: the link is an engine of its own
     assert again.evaluate(STORED) == [85, 86, 91.5]
     third = another(first, served.page)  # comes back to what was made, not to what was looked at
-    assert third.evaluate("kshm.raw.geometry.bore_mm") == 86
+    assert third.evaluate("live.state.raw.geometry.bore_mm") == 86
     assert third.locator("select#own option").count() == 3
 
 
@@ -95,7 +95,7 @@ def test_a_link_in_the_address_of_the_same_tab_opens_beside(
 ) -> None:
     address = friends(browser, served, "84")
     first.evaluate("hash => { location.hash = hash; }", address.partition("#")[2])
-    until(first, "kshm.raw.geometry.bore_mm === 84 && !kshm.running")
+    until(first, "live.state.raw.geometry.bore_mm === 84 && live.isIdle()")
     assert first.evaluate(STORED) == [84, 91.5]
     assert "#" not in first.url
 
@@ -110,13 +110,13 @@ def test_f5_after_the_link_keeps_what_was_changed_since(first: Any) -> None:
     assert "#" not in first.url
     first.reload()
     ready(first)
-    assert first.evaluate("kshm.raw.geometry.bore_mm") == 92
+    assert first.evaluate("live.state.raw.geometry.bore_mm") == 92
     assert first.evaluate(STORED) == [92]
 
 
 def test_two_tabs_with_one_engine_keep_both(served: Served, first: Any) -> None:
     second = another(first, served.page)
-    assert second.evaluate("kshm.raw.geometry.bore_mm") == 91.5
+    assert second.evaluate("live.state.raw.geometry.bore_mm") == 91.5
     bore(second, "93")
     bore(first, "94")
     assert first.evaluate(STORED) == [93, 94]
@@ -125,14 +125,14 @@ def test_two_tabs_with_one_engine_keep_both(served: Served, first: Any) -> None:
 
 def test_a_sample_or_a_file_does_not_take_the_own_engines_place(first: Any) -> None:
     first.evaluate("fresh(ask('api/new', {sample: 'yamz-236'}))")
-    until(first, "kshm.raw.geometry.bore_mm === 130 && !kshm.running")
+    until(first, "live.state.raw.geometry.bore_mm === 130 && live.isIdle()")
     assert first.evaluate(STORED) == [130, 91.5] or first.evaluate(STORED) == [91.5, 130]
     first.click("#undo")
-    until(first, "kshm.raw.geometry.bore_mm === 91.5 && !kshm.running")
+    until(first, "live.state.raw.geometry.bore_mm === 91.5 && live.isIdle()")
     bore(first, "90")
     assert sorted(first.evaluate(STORED)) == [90, 130]
     first.select_option("select#own", index=1)
-    until(first, "kshm.raw.geometry.bore_mm === 130 && !kshm.running")
+    until(first, "live.state.raw.geometry.bore_mm === 130 && live.isIdle()")
     assert first.is_disabled("#undo")  # its steps are those of another engine
 
 
@@ -142,15 +142,15 @@ def test_an_engine_goes_only_when_asked(first: Any) -> None:
     assert first.evaluate(STORED) == [91.5]
     first.evaluate("window.confirm = () => true")
     first.click("#away")
-    until(first, "kshm.raw.geometry.bore_mm === 88 && !kshm.running")
+    until(first, "live.state.raw.geometry.bore_mm === 88 && live.isIdle()")
     assert first.evaluate(STORED) == []
 
 
 @pytest.mark.parametrize("hash_", ["broken", "%E0%A4%A"])
 def test_a_damaged_link_is_told_and_nothing_is_lost(first: Any, hash_: str) -> None:
     first.evaluate("hash => { location.hash = hash; }", hash_)
-    until(first, "kshm.news.includes('ссылка повреждена')")
-    assert first.evaluate("kshm.raw.geometry.bore_mm") == 91.5
+    until(first, "live.state.news.includes('ссылка повреждена')")
+    assert first.evaluate("live.state.raw.geometry.bore_mm") == 91.5
     assert first.evaluate(STORED) == [91.5]
 
 
@@ -161,5 +161,5 @@ def test_a_full_store_is_told(first: Any) -> None:
             try { localStorage[`full${i}`] = "x".repeat(size); } catch { size /= 2; }
     }""")
     first.click("#keep")  # a second engine beside it: twice as much
-    until(first, "Boolean(kshm.other) && !kshm.running")
+    until(first, "Boolean(live.state.other) && live.isIdle()")
     assert "не сохранил" in first.inner_text("#news")

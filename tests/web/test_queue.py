@@ -97,11 +97,11 @@ def test_a_killed_solver_and_a_killed_job_cost_one_answer(tmp_path: Path) -> Non
             if process.ppid() != os.getpid():  # its parent is the process of which it is a copy
                 process.kill()
         time.sleep(0.2)
-        assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
+        assert page.post("/api/settle", {"raw": raw})["remarks"]
 
         with pytest.raises(TimeoutError):
             state.answers.workers.ask(time.sleep, 60, seconds=0.5).result()
-        assert page.post("/api/solve", {"raw": raw, "sheet": "П4.1"})["charts"]
+        assert page.post("/api/settle", {"raw": raw})["remarks"]
 
         job = page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"]
         until(lambda: state.jobs.running)

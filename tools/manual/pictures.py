@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import shutil
 import subprocess
 import sys
@@ -9,12 +10,18 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from reports.shared.errors import SystemPartMissing
 from reports.shared.resources import samples_dir
 
+if TYPE_CHECKING:
+    from PIL import Image
+    from playwright.sync_api import Page
+
 SAMPLE, _LIVE_SAMPLE = "gots-diesel", "yamz-238"
 _SETTLE_MS = 1000  # until charts and fonts stand
+_CYCLE_DEG, _CLIP_STEP_DEG, _CLIP_MS, _CLIP_WIDTH = 720, 10, 60, 800  # of the moving picture
 _COLOURS = 64
 _BEGINNING = 30  # words of a page: its header, the title of the sheet and of the table
 _BROWSERS, _PORT = ("chromium-headless-shell", "chromium", "chromium-browser"), "8399"
@@ -62,7 +69,7 @@ def write_pictures(folder: Path) -> list[Path]:
         documents = {"pdf": temporary / f"{SAMPLE}.pdf", "xlsx": temporary / "book.pdf"}
         documents["xlsx"].write_bytes(_printed(temporary / f"{SAMPLE}.xlsx"))
         written = [_write(picture, documents, folder) for picture in PICTURES]
-    return [*written, _web_page(folder / "page.png"), _live_page(folder / "live.png")]
+    return [*written, _web_page(folder / "page.png"), *_live_page(folder)]
 
 
 def _web_page(target: Path) -> Path:
@@ -89,18 +96,27 @@ def _web_page(target: Path) -> Path:
         finally:
             server.terminate()
             server.wait()
-    Image.open(target).convert("RGB").quantize(_COLOURS).save(target, optimize=True)
+    _save(Image.open(target), target)
     return target
 
 
-def _live_page(target: Path) -> Path:
-    """Return the live page of a V8 from its file."""
+def _save(image: Image.Image, target: Path) -> None:
+    """Save a picture of a page; colours of little area are kept."""
+    from PIL import Image
+
+    colours = image.convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE)
+    colours.save(target, optimize=True)
+
+
+def _live_page(folder: Path) -> list[Path]:
+    """Return the live page of a V8 from its file: as it opens, its card, it in motion."""
     from PIL import Image
     from playwright.sync_api import sync_playwright
 
     from reports.exports.build import build, load_input
 
     shell = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    opened, card, clip = (folder / name for name in ("live.png", "card.png", "v8.webp"))
     with tempfile.TemporaryDirectory() as name, sync_playwright() as driver:
         source = samples_dir() / f"{_LIVE_SAMPLE}.toml"
         (file,) = build(source, load_input(source), Path(name), ("live",)).files
@@ -111,12 +127,29 @@ def _live_page(target: Path) -> Path:
         page.wait_for_selector("#charts canvas")
         page.evaluate("turn(377)")
         page.wait_for_timeout(_SETTLE_MS)
-        page.screenshot(path=target)
+        page.screenshot(path=opened)
+        with page.expect_download() as coming:
+            page.click("#card")
+        coming.value.save_as(card)
+        _write_clip(page, clip)
         browser.close()
-    image = Image.open(target).convert("RGB")
-    small = image.resize((image.width * 4 // 5, image.height * 4 // 5))
-    small.quantize(2 * _COLOURS, method=Image.Quantize.MAXCOVERAGE).save(target, optimize=True)
-    return target
+    image = Image.open(opened).convert("RGB")
+    _save(image.resize((image.width * 4 // 5, image.height * 4 // 5)), opened)
+    _save(Image.open(card), card)
+    return [opened, card, clip]
+
+
+def _write_clip(page: Page, target: Path) -> None:
+    """Write one cycle of the engine as a moving picture, frame by frame."""
+    from PIL import Image
+
+    stage, frames = page.locator("#scene"), []
+    for phi in range(0, _CYCLE_DEG, _CLIP_STEP_DEG):
+        page.evaluate(f"turn({phi})")
+        image = Image.open(io.BytesIO(stage.screenshot())).convert("RGB")
+        frames.append(image.resize((_CLIP_WIDTH, round(image.height * _CLIP_WIDTH / image.width))))
+    frames[0].save(target, save_all=True, append_images=frames[1:], duration=_CLIP_MS, loop=0,
+                   quality=70, method=6)  # fmt: skip
 
 
 def _printed(workbook: Path) -> bytes:

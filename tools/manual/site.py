@@ -14,6 +14,7 @@ from markdown_it.token import Token
 
 from reports.shared.files import write_text
 
+_PICTURES = (".png", ".svg", ".webp")
 _NOT_WORD = re.compile(r"[^\w\- ]")
 
 
@@ -79,7 +80,7 @@ def write_site(docs: Path, target: Path) -> list[Path]:
     contents = [(name, _title(page)) for page, name in pages.items() if page.stem != "index"]
     for page, name in pages.items():
         write_text(target / name, _html(page, pages, contents))
-    pictures = [path for kind in ("png", "svg") for path in (docs / "images").glob(f"*.{kind}")]
+    pictures = [each for each in (docs / "images").iterdir() if each.suffix in _PICTURES]
     for picture in sorted(pictures):
         (target / "images").mkdir(exist_ok=True)
         shutil.copyfile(picture, target / "images" / picture.name)

@@ -6,7 +6,7 @@ what must not be changed follows from its input data and from marks put there at
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,6 +25,7 @@ from reports.recalculation.evaluate import BLANK, ERROR, ERROR_WORDS, NUMBER, TE
 from reports.recalculation.read import read_grid, worksheets
 from reports.recalculation.sheets import MAIN, parse_xml
 from reports.shared.errors import BadBook, InputError, Problem, UnknownFormula
+from reports.shared.russian import plural
 from reports.tables.registry import build_model
 from reports.workbook.inputs import shown
 from reports.workbook.intake import Package, check_package
@@ -39,6 +40,7 @@ class BookFinding:
 
     where: str
     what: str
+    blank: int = 0  # cells of it that are empty, where nothing else is odd
 
 
 def is_work_book(path: Path) -> bool:
@@ -127,7 +129,7 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
     if not is_work_book(book):
         return {"remarks": ["в книге нет идентификатора: это не выданная рабочая книга"]}
     try:
-        lines = [f"{finding.where}: {finding.what}" for finding in findings(book)]
+        lines = _lines(findings(book))
     except InputError as error:
         lines = error.lines()
     more = [f"и ещё замечаний: {len(lines) - _TOLD}"] if len(lines) > _TOLD else []
@@ -135,6 +137,14 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
     if ticket and issued_ticket and ticket != issued_ticket:
         lines.insert(0, "эта книга выдана не вам: скачайте свою и сдайте её")
     return {"remarks": lines[:_TOLD] + more}
+
+
+def _lines(results: Sequence[BookFinding]) -> list[str]:
+    """Return a line for each finding; one for a book in which nothing but blanks is to be seen."""
+    if len(results) > _TOLD and all(each.blank for each in results):
+        cells = plural(sum(each.blank for each in results), "ячейка", "ячейки", "ячеек")
+        return [f"{'пуста' if cells.endswith('ячейка') else 'пусты'} {cells}: книга не заполнена"]
+    return [f"{each.where}: {each.what}" for each in results]
 
 
 def refuse_foreign(path: str, issued: str) -> dict[str, object]:
@@ -240,9 +250,9 @@ def _of_node(student: StudentBook, node: str, *, errors: bool) -> list[BookFindi
         rows = [r for i, r in enumerate(location.rows)
                 if answer.kinds[i] == kind and i not in answer.odd]  # fmt: skip
         if rows:
-            results.append(
-                BookFinding(problem, f"{words}: {_ranges(location.sheet, location.column, rows)}")
-            )
+            where = _ranges(location.sheet, location.column, rows)
+            blank = len(rows) if kind == BLANK else 0
+            results.append(BookFinding(problem, f"{words}: {where}", blank))
     for words in dict.fromkeys(answer.odd.values()):
         rows = [location.rows[i] for i, why in answer.odd.items() if why == words]
         results.append(

@@ -31,7 +31,7 @@ export async function ask(path, data) {
   try {
     const answer = await fetch(path, data && {
       method: "POST", body: data instanceof Blob ? data : JSON.stringify(data),
-      headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream"},
+      headers: {"X-Kshm": "1", "Content-Type": "application/octet-stream", ...data instanceof File && {"X-Name": encodeURIComponent(data.name)}},
     });
     return {...await answer.json(), ...answer.status === 503 && {busy: Number(answer.headers.get("retry-after")) || 2}};
   } catch {
@@ -43,6 +43,7 @@ export async function ask(path, data) {
 async function mend() { // asks until there is an answer, then goes on where the page was left
   if (state.isLost) return;
   state.isLost = true;
+  if (page) set({});
   while (state.isLost) {
     await wait(1000);
     const found = await fetch(new URL("style.css", import.meta.url), {method: "HEAD", cache: "no-store"}).catch(() => null);
@@ -66,6 +67,8 @@ export async function send(path, data) { // an answer, or nothing and its errors
   return errors ? null : answer;
 }
 
+// What a person has said wrongly is forgotten when he goes on.
+addEventListener("input", () => state.errors.some(each => each !== LOST) && set({errors: state.errors.filter(each => each === LOST)}));
 addEventListener("submit", event => event.preventDefault()); // each form has its own question
 export const given = event => Object.fromEntries(new FormData(event.target));
 

@@ -23,7 +23,7 @@ const curvesOf = (own, other, colours) => [own, other].filter(Boolean).flatMap((
   chart.curves.map((curve, i) => ({
     ...curve, data: curve.data ??= curve.x.map((x, k) => ({x, y: curve.y[k]})),
     label: second ? `${curve.name} (второй)` : curve.name, borderColor: colours[i % colours.length],
-    borderDash: second ? [2, 4] : DASHES[i % 6], showLine: second || i || !chart.strokes, line: second ? "dotted" : i ? "dashed" : "solid",
+    borderDash: second ? [2, 4] : DASHES[i % 6], showLine: second || i || !chart.strokes,
   })));
 
 const hidden = new Set(); // curves that a person has switched off, by chart and name
@@ -55,9 +55,14 @@ async function library() {
   isThere = true;
 }
 
-// «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves.
-function write(ink, text, x, y, colour) {
+// «p_z» on a canvas: the index lower and smaller; a halo keeps it off the curves, the plot's edge holds it.
+function write(ink, text, x, y, colour, {left, right} = {left: 0, right: Infinity}) {
   const [name, index = "", rest = ""] = text.split(/_(\(\d+\)|[^ _,;=(/]+)/);
+  const wide = [[name, 13], [index, 10], [rest, 13]].reduce((sum, [part, size]) => {
+    ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
+    return sum + ink.measureText(part).width;
+  }, 0);
+  x = Math.max(Math.min(x, right - wide - 2), left + 2);
   const under = getComputedStyle(ink.canvas.closest("figure")).backgroundColor;
   Object.assign(ink, {fillStyle: colour, strokeStyle: under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
   for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
@@ -76,14 +81,14 @@ function words(chart) {
   const isFree = (px, py) => taken.every(([tx, ty]) => Math.abs(tx - px) > 48 || Math.abs(ty - py) > 16);
   const sets = chart.data.datasets.map((set, i) => [set, chart.isDatasetVisible(i)]).filter(([, isVisible]) => isVisible);
   ink.save();
-  if (own.kind === "line" && sets.length > 1) for (const [set] of sets) {
+  if (sets.length > 1) for (const [set] of sets) {
     const points = set.data.filter(p => p.y !== null && p.x >= x.min && p.x <= x.max);
-    const far = p => Math.abs(p.y - (y.min + y.max) / 2);
+    const far = own.kind === "line" ? p => Math.abs(p.y - (y.min + y.max) / 2) : p => Math.hypot(p.x, p.y);
     const spots = points.toSorted((a, b) => far(b) - far(a)).map(p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)]);
     const [px, py] = spots.find(spot => isFree(...spot)) ?? [];
     if (px === undefined) continue;
     taken.push([px, py]);
-    write(ink, set.label, Math.min(px + 6, area.right - 44), Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor);
+    write(ink, set.label, px + 6, Math.min(Math.max(py + (py < (area.top + area.bottom) / 2 ? 8 : -8), area.top + 8), area.bottom - 8), set.borderColor, area);
   }
   ink.beginPath();
   ink.rect(area.left, area.top, area.width, area.height);
@@ -103,7 +108,7 @@ function stroke(ink, {path}, {scales: {x, y}}, number) { // a part of a path in 
   ink.stroke();
 }
 
-function vector(ink, {marks}, {scales: {x, y}}) {
+function vector(ink, {marks}, {chartArea: area, scales: {x, y}}) {
   const {color} = getComputedStyle(document.body), at = (px, py) => [x.getPixelForValue(px), y.getPixelForValue(py)];
   const [from, to] = [at(0, 0), at(marks.x, marks.y)], along = Math.atan2(to[1] - from[1], to[0] - from[0]);
   Object.assign(ink, {strokeStyle: color, fillStyle: color, lineWidth: 1.5});
@@ -121,8 +126,8 @@ function vector(ink, {marks}, {scales: {x, y}}) {
   ink.stroke();
   ink.setLineDash([]);
   const out = Math.abs(x.getPixelForValue(marks.mean) - from[0]) * Math.SQRT1_2;
-  write(ink, marks.name, to[0] + 10, to[1] + (to[1] < from[1] ? 10 : -10), color);
-  write(ink, marks.meanName, from[0] + out + 4, from[1] + out + 6, color);
+  write(ink, marks.name, to[0] + 10, to[1] + (to[1] < from[1] ? 10 : -10), color, area);
+  write(ink, marks.meanName, from[0] + out + 4, from[1] + out + 6, color, area);
 }
 
 async function drawLater(canvas, ...given) {
@@ -201,7 +206,7 @@ function drag(event, own) {
 // A title with the symbols of its curves as symbols.
 const titled = ({title, curves}) => symbol(curves.reduce((text, {name}) => text.replace(name.replace("_", ""), name), title));
 
-// A chart with its legend, which says the values at φ and switches curves.
+// A chart whose curves are called by their names; below it their values at φ, by which they are switched.
 export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, other, dark.matches, isPrinted, state.switched], () => {
   const colours = inks(), curves = curvesOf(own, other, colours), {color} = getComputedStyle(document.body);
   const shown = curve => !hidden.has(key(own, curve)), onPointer = event => drag(event, own);
@@ -222,8 +227,8 @@ export const figure = (own, other, isPrinted) => memo(`chart ${own.id}`, [own, o
         <canvas ref=${canvas => canvas && (isThere ? draw : drawLater)(canvas, own, curves, color)} role="img" aria-label=${own.title} />
         <i class="cursor" /><span>${curves.map(({borderColor}) => html`<i class="dot" style=${`--ink: ${borderColor}`} />`)}</span>
         <div class="tip" hidden /></div>
-      <ul class="legend">${curves.map(curve => html`
-        <li><button aria-pressed=${String(shown(curve))} style=${`--line: ${curve.line}; --ink: ${curve.borderColor}`}
+      <ul class="legend" hidden=${curves.length < 2 && !own.x_is_angle}>${curves.map(curve => html`
+        <li><button aria-pressed=${String(shown(curve))} style=${`--ink: ${curve.borderColor}`}
           onClick=${toggle(curve)}><span>${symbol(curve.label)}</span> <output aria-live="off" /></button></li>`)}</ul>
     </figure>`;
 });

@@ -1,57 +1,96 @@
-// The page of an engine: a mapping of the file's values is all its state, the rest follows from it.
-import {after, alerts, ask, choice, download, given, html, insist, list, memo, options, picker, printed, row, send, set, state, symbol, table, wait} from "./common.js";
-import {dark, figure, follow as cursor} from "./drawn.js";
+// The class's page: an engine that calculates here; the server has files, other structures, what `check` says.
+import {alerts, ask, choice, download, given, html, insist, list, memo, picker, printed, send, set, state, wait} from "./common.js";
 import {put, section} from "./fields.js";
-import {engines, keep, last, remove, seen, storedJobs, storeJobs, text} from "./own.js";
-import {clip, parts, picture, pose} from "./scene.js";
+import {differences, engines, keep, last, remove, seen, storedJobs, storeJobs, text} from "./own.js";
+import {clip} from "./scene.js";
+import {begin, charts, engineOf, five, makeCard, moveFirst, moves, numbers, paper, read, rest, retype, scene, tables, take, turn, type} from "./view.js";
+import {toml} from "./takeaway.js";
 
 const NUMBERS = ["power", "speed", "bore", "stroke", "rod", "lambda", "compression", "efficiency"];
-const KEY_NUMBERS = [/^N_e_calc$/, /^M_mean$/, /^M_max$/, /^Rpin\d*_max$/];
-const printing = matchMedia("print");
 
 // --- what is asked of the server ---
-// An input that comes from somewhere takes the page; its fields and charts are asked for.
+const scripts = new Map(); // functions by their texts: engines of one shape share them
+function loaded(script) {
+  if (!scripts.has(script)) scripts.set(script, import(URL.createObjectURL(new Blob([script], {type: "text/javascript"}))));
+  return scripts.get(script);
+}
+const built = async ({engine, scripts: texts}) =>
+  engine && engineOf(engine, (await Promise.all(texts.map(loaded))).map(each => each.functions));
+
+// An input that comes from somewhere takes the page; its fields and its engine are asked for.
 // What comes anew has no `own` place among the engines yet; `stands` tells that it is kept there.
 async function fresh(coming, isNew = true, own = isNew ? {} : state.own, stands = false) {
-  const came = await coming, {errors, ...shape} = came.raw ? await ask("api/start", came) : came;
-  if (!shape.groups) { // what is wrong is said below the form, on a phone below its window
-    set({errors: errors ?? []});
+  const came = await coming, shape = came.raw ? await ask("api/start", came) : came;
+  if (!shape.groups) { // what is wrong is said where it is seen
+    set({errors: shape.errors ?? []});
     return document.querySelector("#errors")?.scrollIntoView({block: "center"});
   }
   if (isNew && state.raw) Object.assign(state, {past: remembered(), isNew: false});
-  if (shape.sheets?.every(([id]) => id !== state.sheet)) [[shape.sheet]] = shape.sheets;
-  document.title = `${shape.raw.engine?.name || "Двигатель"} — КШМ`;
   if (own !== state.own) Object.assign(state, {own: seen(own), kept: null});
-  if (own.raw) Object.assign(state, {other: own.other, past: [], news: "", isNew: false}); // not what was beside it
-  shape.groups.sort((a, b) => a.key.startsWith("report") - b.key.startsWith("report")); // the mechanism first
-  if (stands) state.kept = text({...state, ...shape});
-  const titles = Object.fromEntries(shape.groups.flatMap(({key, title, entries}) =>
-    [[key, title], ...entries.flat().map(f => [f.key, f.title])]));
-  await solve({...shape, titles, typed: {}, touched: null, errors: []});
+  if (own.raw) Object.assign(state, {other: own.other, second: null, past: [], news: "", isNew: false}); // not what was beside it
+  if (stands) state.kept = text({...state, raw: shape.raw});
+  await adopt(shape, {typed: {}, touched: null, errors: []});
+  if (state.other && !state.second) set({second: await built(await ask("api/start", {raw: state.other}))});
+}
+
+// What the server makes of an input: an engine, or what is wrong; then the last good one stays.
+async function adopt({errors, raw, groups, absent, warnings = [], remarks = [], ...shape}, changes) {
+  const engine = await built(shape), {cylinder} = state.engine ?? {};
+  groups.sort((a, b) => a.key.startsWith("report") - b.key.startsWith("report")); // the mechanism first
+  const fields = groups.flatMap(({entries}) => entries.flat());
+  document.title = `${raw.engine?.name || "Двигатель"} — КШМ`;
+  Object.assign(state, {...changes, raw, groups: rest(groups), absent, wrong: [...errors, ...changes.wrong ?? []], isOther: false,
+    titles: Object.fromEntries([...groups.map(({key, title}) => [key, title]), ...fields.map(f => [f.key, f.title])]),
+    about: Object.fromEntries(fields.map(f => [f.key, [f.title, f.unit].filter(Boolean).join(", ")]))});
+  if (engine) {
+    Object.assign(state, {engine, isChanged: false, remarks});
+    state.groups = rest(groups);
+    engine.cylinder = cylinder < engine.scene.each.length ? cylinder : 0;
+    if (!engine.sheets.some(({title}) => title === state.sheet)) state.sheet = "";
+    state.last = {moves: moves(), warnings};
+    state.phi = Math.min(state.phi, state.last.moves.phi.at(-1)); // of a cycle that may be shorter
+  }
+  store();
+  set({});
 }
 
 function store() { // what has changed, in its place among the own engines
   const now = text(state);
-  if (now === state.kept) return;
+  if (!state.raw || now === state.kept) return;
   const {news, ...own} = keep(state.own, JSON.parse(now));
   Object.assign(state, {own, kept: now, news, linked: false, engines: engines()});
   if (location.hash) history.replaceState(null, "", location.pathname); // its numbers are no more those
 }
 
-async function solve(changes) {
-  if (state.running) return set({...changes, isStale: true}); // at most one question on its way
+function later(changes) { // once a person pauses
+  state.isAsked = true;
   clearTimeout(state.later);
-  set({...changes, running: true, isStale: false});
-  const {raw, other, sheet, cylinder} = state, answer = raw => raw && ask("api/solve", {raw, sheet, cylinder});
+  state.later = setTimeout(settle, 400);
+  if (changes) set(changes);
+}
+
+// What `check` says of all values together and what only a build finds; of another structure, all of it.
+async function settle() {
+  clearTimeout(state.later);
+  state.later = 0;
   store();
-  const [last, second] = await Promise.all([answer(raw), answer(other)]);
-  if (last.isLost) return set({running: false, errors: last.errors}); // asked again when there is a connection
-  const phi = last.errors ? state.phi : Math.min(state.phi, last.moves.phi.at(-1)); // of a cycle that may be shorter
-  set({running: false, ...last.errors ? {wrong: last.errors} : {wrong: [], last, second, phi}});
-  if (state.isStale) return solve();
-  if (last.busy) state.later = setTimeout(solve, 1000 * last.busy);
-  // The checks take longer: they wait until nothing has changed for a while.
-  else if (!last.errors) state.later = setTimeout(async () => set(await send("api/solve", {raw})), 400);
+  if (state.running) return; // at most one question on its way: asked again at its end
+  const {raw, isOther} = state, sent = JSON.stringify(raw);
+  set({running: true, isAsked: false});
+  const {isLost, busy, errors, built: values, ...now} = await ask(isOther ? "api/start" : "api/settle", {raw});
+  set({running: false});
+  if (isLost) return set({isAsked: true}); // the numbers stand here already; the rest when there is a connection
+  if (busy) return later();
+  if (JSON.stringify(state.raw) !== sent || state.isOther !== isOther) return settle();
+  const wrong = state.wrong.filter(each => each.isTyped); // what has not come so far
+  if (isOther) return adopt({errors, ...now}, {wrong});
+  if (errors) { // together they make no engine: the last good one
+    take(state.engine, JSON.parse(state.engine.stands));
+    return set({wrong: [...wrong, ...errors], last: {...state.last, moves: moves()}});
+  }
+  state.engine.main.know(values);
+  state.engine.stands = sent;
+  set({wrong, isChanged: false, remarks: now.remarks, last: {...state.last, warnings: now.warnings}});
 }
 
 async function order(kind, title) {
@@ -82,9 +121,35 @@ async function cancel(id) {
 
 // --- what a person does ---
 const remembered = () => [...state.past, JSON.stringify([state.raw, state.own])].slice(-200);
+const free = () => state.engine?.fields.filter(f => !f.fixed) ?? [];
+const shapeOf = raw => { // all but what is calculated here
+  const rest = structuredClone(raw);
+  for (const {path} of free()) put(rest, path, null);
+  return JSON.stringify(rest);
+};
+
 function back() {
   const [raw, own] = JSON.parse(state.past.pop());
-  fresh({raw}, false, own.id === state.own.id ? state.own : own);
+  if (shapeOf(raw) !== shapeOf(state.raw)) return fresh({raw}, false, own.id === state.own.id ? state.own : own);
+  const changes = Object.fromEntries(free().map(f => [f.key, read(raw, f.path)]));
+  retype(changes);
+  state.touched = null;
+  type(changes, later);
+}
+
+function compare() { // a second engine: this one as it stands
+  const {engine, raw} = state, second = engineOf(engine.data, engine.functions);
+  take(second, raw);
+  second.main.know(Object.fromEntries(engine.main.keys().filter(engine.main.isFixed).map(key => [key, engine.main.get(key)])));
+  Object.assign(state, {other: structuredClone(raw), second, errors: []});
+  store();
+  set({});
+}
+
+function drop() {
+  Object.assign(state, {other: null, second: null});
+  store();
+  set({});
 }
 
 // An own engine from the list, or what is there when there is none.
@@ -98,10 +163,17 @@ async function away() {
   await open(last());
 }
 
-const listed = () => state.engines.map(each => [each.id, [each.raw.engine?.name || "Двигатель",
-  new Date(each.date).toLocaleString("ru", {dateStyle: "short", timeStyle: "short"})].join(", ")]);
+const differing = (raw, other) => { // in words: one or two values
+  const all = differences(raw, other).filter(([key]) => state.titles[key]);
+  return [...all.slice(0, 2).map(([key, value]) => `${state.titles[key].toLowerCase()} ${printed(value, 9)}`), all.length > 2 && `и ещё ${all.length - 2}`].filter(Boolean).join(", ");
+};
+const listed = () => state.engines.map((each, i) => {
+  const alike = state.engines.findLast((other, k) => k !== i && other.raw.engine?.name === each.raw.engine?.name);
+  return [each.id, [each.raw.engine?.name || "Двигатель", alike && differing(each.raw, alike.raw),
+    new Date(each.date).toLocaleString("ru", {dateStyle: "short", timeStyle: "short"})].filter(Boolean).join(", ")];
+});
 
-async function read(hash) { // once: the address is free again, and the engine stands beside the own ones
+async function follow(hash) { // once: the address is free again, and the engine stands beside the own ones
   history.replaceState(null, "", location.pathname);
   let raw = null;
   try { raw = JSON.parse(LZString.decompressFromEncodedURIComponent(hash)); } catch { /* told below */ }
@@ -110,13 +182,18 @@ async function read(hash) { // once: the address is free again, and the engine s
   await (known ? open(known) : fresh({raw}, false, {link: true, raw}));
 }
 
-// A value at a place; other fields may come and go with it.
+// A value at a place: calculated here, or other fields come and go with it.
 async function change(key, path, value, reshapes) {
   if (state.touched !== key || reshapes) state.past = remembered(); // one step of undo for one field
   state.touched = key;
-  const raw = reshapes ? structuredClone(state.raw) : state.raw;
+  const f = state.engine?.byKey[key];
+  if (f && !f.fixed && value !== "" && (!reshapes || f.choices)) return type({[key]: value}, later);
+  if (!reshapes) {
+    put(state.raw, path, value);
+    return later({isOther: true, errors: []});
+  }
+  const raw = structuredClone(state.raw);
   put(raw, path, value);
-  if (!reshapes) return solve();
   state.open.add(key);
   await fresh({raw}, false);
   if (document.activeElement === document.body) document.querySelector(`[data-key="${key}"] summary`)?.focus();
@@ -134,48 +211,7 @@ async function reshape(wanted) {
   if (came.raw) state.toy = {base, made: JSON.stringify(state.raw)};
 }
 
-const BASE = 180; // degrees a second at a pace of one
-function turn(phi) {
-  state.phi = Number(phi);
-  follow();
-}
-
-let frame = 0;
-const inWindow = new Set(); // charts in the window: while the engine runs the others wait
-const watcher = new IntersectionObserver(all => all.forEach(each => inWindow[each.isIntersecting ? "add" : "delete"](each.target)));
-
-function follow() {
-  const {last, phi, isPlaying} = state, root = document.getElementById("scene");
-  if (!root) return;
-  const isTold = !isPlaying || frame++ % 4 === 0; // nobody reads sixty numbers a second
-  pose(root, last.moves, phi, isTold);
-  if (isTold) {
-    document.getElementById("angle").textContent = `${Math.round(phi)}°`;
-    document.getElementById("phi").value = phi;
-  }
-  const figures = document.querySelectorAll("#charts > figure");
-  last.charts.forEach((own, i) => {
-    watcher.observe(figures[i]);
-    if (!isPlaying || inWindow.has(figures[i])) cursor(figures[i], own, phi, isTold);
-  });
-}
-
-function play() {
-  let before = performance.now();
-  const step = now => {
-    if (!state.isPlaying) return;
-    const {moves} = state.last, more = Math.min(Math.max(now - before, 0), 250) / 1000 * BASE * state.pace;
-    before = now;
-    turn((state.phi + more) % moves.phi.at(-1));
-    requestAnimationFrame(step);
-  };
-  set({isPlaying: !state.isPlaying});
-  if (state.isPlaying) requestAnimationFrame(step);
-}
-
 const fileName = suffix => `${engineName().replace(/[\\/:*?"<>|\s]+/g, " ").trim().slice(0, 80)}.${suffix}`;
-const drawing = () => document.getElementById("mechanism");
-
 async function share(coming, suffix) { // to friends where there is a way, else as a file
   const blob = await coming, file = new File([blob], fileName(suffix), {type: blob.type});
   if (!navigator.canShare?.({files: [file]})) return download(file, file.name);
@@ -184,15 +220,12 @@ async function share(coming, suffix) { // to friends where there is a way, else 
 
 async function film() {
   set({isPlaying: false, isFilmed: true});
-  const made = await clip(drawing(), turn, state.last.moves.phi.at(-1));
+  const made = await clip(document.getElementById("mechanism"), turn, state.last.moves.phi.at(-1));
   set({isFilmed: false});
   await share(made, made.type.includes("mp4") ? "mp4" : "webm");
 }
 
-async function save() {
-  const made = await send("api/toml", {raw: state.raw});
-  if (made) download(new Blob([made.text]), fileName("toml"));
-}
+const save = () => download(new Blob([toml(state.raw, key => state.about[key], "Исходные данные двигателя для kshm.")]), fileName("toml"));
 
 async function link() {
   location.hash = LZString.compressToEncodedURIComponent(JSON.stringify(state.raw));
@@ -213,9 +246,6 @@ function begun(id) { // a further regime begins as the main one
   if (id !== "regimes") return [id, [id], {}];
   return [`regimes[${number}]`, [id, number - 1], {...regime, gas, name: `Режим ${number + 1}`}];
 }
-
-const forms = (count, one, few, many) =>
-  ({one, few, many, other: many})[new Intl.PluralRules("ru").select(count)];
 
 const engineName = () => state.raw?.engine?.name || "Двигатель";
 const icon = (layout, cylinders) => { // banks as they stand, a dot for each cylinder of a bank
@@ -260,9 +290,9 @@ const data = ({fields} = state.choices) => html`
       <button id="undo" disabled=${!state.past.length} onClick=${back}>Отменить</button>
       <button id="save" onClick=${save}>Скачать .toml</button>
       <button id="link" onClick=${link}>${state.linked ? "Ссылка в адресе" : "Ссылка"}</button>
-      <button id="keep" onClick=${() => solve({other: structuredClone(state.raw)})}>Сравнить с этим</button>
-      <button id="drop" hidden=${!state.other} onClick=${() => solve({other: null})}>Убрать второй</button></p>
-    ${alerts([...state.errors, ...state.wrong])}
+      <button id="keep" disabled=${!state.engine} onClick=${compare}>Сравнить с этим</button>
+      <button id="drop" hidden=${!state.other} onClick=${drop}>Убрать второй</button></p>
+    ${state.other && html`<p id="other"><small>Второй, точками: ${state.other.engine?.name ?? "двигатель"}${differing(state.other, state.raw) && `: ${differing(state.other, state.raw)}`}</small></p>`}
     <p><label>Найти поле <input id="find" type="search" autocomplete="off" value=${state.find}
       onInput=${e => set({find: e.target.value})} /></label></p>
     <div id="fields">${state.groups.map(group => section(group, change, reshape))}</div>
@@ -270,27 +300,8 @@ const data = ({fields} = state.choices) => html`
       html`<button onClick=${() => change(...begun(id), true)}>${title}</button>`)}</p>
   </section>`;
 
-const slowed = ({speed}) => { // one second of the engine on the page
-  const times = Math.round(speed * 6 / BASE / state.pace);
-  return times > 1 ? `медленнее в ${printed(times, 2)} ${forms(times, "раз", "раза", "раз")}` : "как в жизни";
-};
-
-const scene = ({moves}) => {
-  const {front, strip, star, values} = parts(moves, dark.matches, cylinder => solve({cylinder}));
-  return html`<section id="scene" aria-label="Механизм">
-    <div id="stage"><figure>${front}</figure><div id="strip" role="group" aria-label="Силы цилиндра">${strip}</div>
-      <div id="drive">
-        <button id="play" class="first" aria-pressed=${String(state.isPlaying)} onClick=${play}>${state.isPlaying ? "Стоп" : "Пуск"}</button>
-        <label for="phi">φ <output id="angle" /></label>
-        <input id="phi" type="range" min="0" max=${moves.phi.at(-1)} step="1" onInput=${e => turn(e.target.value)} />
-        <label class="pace"><span>${slowed(moves)}</span><input id="pace" type="range" min="-1" max="0.7" step="0.1"
-          aria-label="Скорость показа" aria-valuetext=${`${printed(state.pace, 2)}×`} value=${Math.log10(state.pace)}
-          onInput=${e => set({pace: 10 ** Number(e.target.value)})} /><output>${printed(state.pace, 2)}×</output></label></div></div>
-    <figure id="cranks">${star}<figcaption>Звезда кривошипов</figcaption></figure>
-    <div id="forces">${values}<p class="bar"><button id="picture" onClick=${() => share(picture(drawing()), "png")}>Картинка</button>
-      <button id="clip" disabled=${state.isFilmed} onClick=${film}>${state.isFilmed ? "Снимается…" : "Ролик"}</button></p></div>
-  </section>`;
-};
+const shared = () => html`<p class="bar"><button id="picture" onClick=${() => share(makeCard(), "png")}>Карточка</button>
+  <button id="clip" disabled=${state.isFilmed} onClick=${film}>${state.isFilmed ? "Снимается…" : "Ролик"}</button></p>`;
 
 const job = ({id, title, name, state: now, place, wait, seconds, files = [], lines, errors}) => html`<li key=${id}><b>${title}</b>${name && `, ${name}`}${": "}
   ${now === "waiting" && `в очереди, перед вами ${place}${wait ? `, около ${wait} с` : ""} `}${now === "running" && `делается, ${seconds} с `}
@@ -300,65 +311,42 @@ const job = ({id, title, name, state: now, place, wait, seconds, files = [], lin
     ${` (${printed(size / 1e6, 2)} МБ) `}`)}
   ${list(lines || errors || [], now === "done" ? "warn" : "bad")}</li>`;
 
-const verdict = ({ok, odd, reason}) => ok ? ["выполнена", "ok"] : odd ? ["необычно", "warn"] : reason ? [`принято: ${reason}`, "warn"] : ["не выполнена", "bad"];
-
-const sheets = () => { // by chapters, in words
-  const chapters = Object.groupBy(state.sheets, ([, , chapter]) => chapter);
-  return html`<label>Диаграммы <select id="sheet" onChange=${e => solve({sheet: e.target.value})}>${Object.entries(chapters).map(([chapter, all]) =>
-    html`<optgroup key=${chapter} label=${chapter}>${options(all, state.sheet)}</optgroup>`)}</select></label>`;
-};
-
-const results = ({last, second}) => html`
-  <section id="results" aria-label="Результаты" tabindex="-1">
-    <h2>${engineName()}</h2>
-    <dl id="numbers">${KEY_NUMBERS.map(key => last.results.flatMap(({rows}) => rows).find(each => key.test(each.key))).filter(Boolean).map(each => html`
-      <div key=${each.key} title=${each.title}><dt>${symbol(each.symbol)}</dt><dd><b>${each.text}</b> ${each.unit}</dd></div>`)}</dl>
-    <p id="stale" class="warn" hidden=${!state.wrong.length}>Показан последний верный двигатель: исправьте отмеченное в данных.</p>
-    <p>${sheets()}</p>
-    <div id="charts" class="cards">${last.charts.map(own =>
-      figure(own, second?.charts?.find(c => c.id === own.id), printing.matches))}</div>
-    <div id="files"><h3>Файлы</h3><p class="bar">${Object.entries(state.choices.files).map(([kind, title]) =>
-      html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
-      <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></div>
-    ${memo("tables", [last, second, state.checks, state.remarks], () => html`
-    <div id="checks">${state.checks.length > 0 && table("Проверки расчёта", state.checks.map(c =>
-      row([[c.title], [c.value, "n"], verdict(c)])))}</div>
-    ${list([...last.warnings, ...state.remarks], "warn")}
-    <div id="summary">${last.results.map(({id, title, rows}) => html`
-      <details key=${id} open=${/^(summary_torque|geometry)/.test(id)}><summary>${title}</summary>
-        ${table(title, rows.map(r => row([[r.title], [symbol(r.symbol), "s"], [r.text, "n"],
-          [second?.results?.find(t => t.id === id)?.rows.find(o => o.key === r.key)?.text, "n"],
-          [r.unit, "s"]], {"data-key": r.key})))}</details>`)}</div>`)}
-  </section>`;
+const files = () => html`<section id="files" aria-label="Файлы"><h2>Файлы</h2><p class="bar">${Object.entries(state.choices.files).map(([kind, title]) =>
+  html`<button data-kind=${kind} onClick=${() => order(kind, title)}>${title}</button>`)}</p>
+  <ul id="jobs" aria-live="polite">${state.jobs.map(job)}</ul></section>`;
 
 const page = () => html`
-  <a class="skip" href="#results">К результатам</a>
-  <header><h1>Кривошипно-шатунный механизм</h1>
+  <a class="skip" href="#five">К данным двигателя</a> <a class="skip" href="#results">К результатам</a>
+  <header><h1>${engineName()}</h1>
     <nav aria-label="Страницы"><a href="teacher">Преподавателю</a></nav></header>
-  <main>${state.last && scene(state.last)}${data()}${state.last && results(state)}</main>
+  <main>${alerts([...state.errors, ...state.wrong])}
+    <aside id="inputs">${state.engine && five(change)}${data()}</aside>
+    ${state.engine && html`<div id="view">${scene(shared())}${numbers()}${charts()}${files()}${tables()}</div>`}</main>
+  ${state.engine && paper()}
+  <p id="lost" class="warn" role="status">${state.isLost && "Нет связи с сервером: числа считает сама страница; файлы и новое строение — когда связь будет."}</p>
+  <p class="hidden" role="status">${state.told}</p>
   <nav id="places" aria-label="Части страницы">
     <a href="#data">Данные</a> <a href="#results">Диаграммы</a> <a href="#files">Файлы</a></nav>`;
 
-after.push(() => follow());
-set({
-  past: [], groups: [], sheets: [], absent: {}, sheet: "П4.1", cylinder: 0, phi: 0, pace: 1, isPlaying: false, typed: {}, wrong: [],
-  checks: [], remarks: [], jobs: storedJobs(), find: "", isNew: false, own: {}, kept: null, news: "", engines: engines(), choices: await insist("api/choices"),
-  open: new Set(innerWidth > 900 ? ["engine", "geometry", "regime"] : []), turn, follow, redraw: () => set({switched: (state.switched ?? 0) + 1}),
-  again: () => { state.raw ? solve() : begin(); state.jobs.forEach(watch); },
-}, page);
-for (const media of [dark, printing]) media.addEventListener("change", () => set({})); // colours are drawn in
-Object.assign(window, {kshm: state, ask, fresh, turn}); // for a person's console and for the tests
+await begin({
+  past: [], groups: [], absent: {}, jobs: storedJobs(), isNew: false, own: {}, kept: null, news: "", engines: engines(),
+  choices: await insist("api/choices"), open: new Set(innerWidth > 900 ? ["geometry"] : []),
+  again: () => { state.raw ? state.isAsked && settle() : arrive(); state.jobs.forEach(watch); },
+}, page, later);
+Object.assign(globalThis, {ask, fresh});
+live.isIdle = () => !state.running && !state.later; // for a person's console and for the tests
 addEventListener("hashchange", () => { // a link put into the address of this very page
   const hash = location.hash.slice(1);
-  if (hash && hash !== state.linked && !document.getElementById(hash)) read(hash);
+  if (hash && hash !== state.linked && !document.getElementById(hash)) follow(hash);
 });
+addEventListener("pagehide", store);
 addEventListener("storage", () => set({engines: engines()})); // of another tab
 state.jobs.forEach(watch);
-async function begin() {
+async function arrive() {
   const hash = location.hash.slice(1);
-  if (hash) await read(hash);
+  if (hash) await follow(hash);
   if (!state.raw) await open(last());
-  if (!state.raw) await open(); // what was kept is no engine of today
+  if (!state.engine) await open(); // what was kept is no engine of today
 }
-await begin();
-if (!matchMedia("(prefers-reduced-motion: reduce)").matches && !state.isPlaying) play();
+await arrive();
+moveFirst();

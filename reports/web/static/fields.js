@@ -1,7 +1,7 @@
 // The fields of an input in groups, each with its unit, range, slider and what is wrong with it.
 import {html, memo, options, printed, state, symbol, words} from "./common.js";
 
-const shown = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
+export const text = value => typeof value === "number" ? String(value).replace(".", ",") : value ?? "";
 const RESHAPED = {"engine.cylinders": "cylinders", "engine.layout": "layout"}; // make another shaft, as `new` does
 
 export function put(raw, path, value) { // nothing takes the place away
@@ -16,9 +16,9 @@ const said = key => [[state.wrong, "error bad"], [state.last?.warnings ?? [], "w
   all.filter(p => p.where === key).map(p => html`<div class=${name}>${words(p)}</div>`));
 
 // What is typed: a number in the Russian or the English way, finished or not, or words.
-function meant({number}, text) {
-  const plain = text.trim().replace(",", ".").replace("−", "-");
-  return number && /^-?(\d+\.?\d*|\.\d+)$/.test(plain) ? Number(plain) : text.trim();
+function meant({number}, typed) {
+  const plain = typed.trim().replace(",", ".").replace("−", "-");
+  return number && /^-?(\d+\.?\d*|\.\d+)$/.test(plain) ? Number(plain) : typed.trim();
 }
 
 // A group is made again only where something of its own has changed.
@@ -53,7 +53,7 @@ function drawn({title, key, path, entries, more, drawing, whole, isPlain}, chang
 }
 
 function field(f, change, reshape) {
-  const text = state.typed[f.key] ?? shown(f.value), id = `f-${f.key}`, reshaped = RESHAPED[f.key];
+  const typed = state.typed[f.key] ?? text(f.value), id = `f-${f.key}`, reshaped = RESHAPED[f.key];
   const type = value => change(f.key, f.path, meant(f, state.typed[f.key] = value), Boolean(f.choices));
   const taken = reshaped ? {onChange: e => reshape({[reshaped]: e.target.value})} : {onInput: e => type(e.target.value)};
   const told = {id, ...taken, title: f.key, "aria-describedby": `h-${f.key} e-${f.key}`, "aria-invalid": String(isWrong(f.key)), disabled: f.fixed};
@@ -62,18 +62,18 @@ function field(f, change, reshape) {
   return html`
     <div key=${f.key} class=${`field ${f.number || f.choices ? "" : "wide"} ${f.fixed ? "fixed" : ""}`} data-key=${f.key}>
       <label for=${id}><span>${f.title}${f.symbol && ", "}${symbol(f.symbol)}</span></label>
-      ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], text)}</select>`
-        : html`<input ...${told} value=${text} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
-      <span>${f.unit}</span>${!reshaped && !f.fixed && slider(f, text, type)}
+      ${f.choices ? html`<select ...${told}>${options([...empty, ...Object.entries(f.choices)], typed)}</select>`
+        : html`<input ...${told} value=${typed} inputmode=${f.number && "decimal"} autocomplete="off" maxlength="300" />`}
+      <span>${f.unit}</span>${!reshaped && !f.fixed && slider(f, typed, type)}
       <small id=${`h-${f.key}`}>${[f.fixed ? "нужен build" : range, f.optional && "можно не задавать"].filter(Boolean).join(" · ")}</small>
       <div id=${`e-${f.key}`}>${said(f.key)}</div>
     </div>`;
 }
 
-function slider(f, text, type) { // two figures of its ends are round enough for its step
+function slider(f, typed, type) { // two figures of its ends are round enough for its step
   if (!f.number || typeof f.value !== "number" || !f.value || f.key.includes("[")) return null;
   const span = Math.abs(f.value) * .4;
   return html`<input type="range" aria-label=${`${f.title}: подвинуть`} step=${10 ** Math.floor(Math.log10(span / 50))}
     min=${Math.max(f.min, f.value - span).toPrecision(2)} max=${Math.min(f.max, f.value + span)}
-    value=${text.replace(",", ".")} onInput=${e => type(shown(Number(e.target.value)))} />`;
+    value=${typed.replace(",", ".")} onInput=${e => type(text(Number(e.target.value)))} />`;
 }

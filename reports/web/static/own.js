@@ -59,3 +59,11 @@ export function storedJobs() {
 export function storeJobs(jobs) {
   try { localStorage[JOBS] = JSON.stringify(jobs.slice(0, MOST).map(({id, title, name}) => ({id, title, name}))); } catch { /* a private window */ }
 }
+
+// Engines of one name are told apart by what differs: values of the first one that are others in the second.
+const leaves = (value, path = "") => value && typeof value === "object"
+  ? Object.entries(value).flatMap(([key, each]) => leaves(each, Array.isArray(value) ? `${path}[${Number(key) + 1}]` : path ? `${path}.${key}` : key)) : [[path, value]];
+export function differences(raw, other) {
+  const there = new Map(leaves(other));
+  return leaves(raw).filter(([key, value]) => value !== null && value !== undefined && there.get(key) !== value);
+}

@@ -1,17 +1,24 @@
 // A student's page: the own book taken and handed in, and its page once it is open.
-import {alerts, ask, given, html, insist, list, moment, picker, printed, send, set, state} from "./common.js";
+import {alerts, ask, given, html, insist, list, moment, picker, printed, row, send, set, state, symbol, table} from "./common.js";
 
 const door = `../../api/student/${location.pathname.split("/").filter(Boolean).at(-1)}`;
 const taken = async told => told && set({remarks: [], try: "", ...told, ...await ask(door)});
 const look = async event => await send(`${door}/ask`, given(event)) && set({asked: true});
 const hand = async file => taken(await send(`${door}/work`, file));
 
-function own({tries, student, title, handed, when, late, deadline, closed, earlier, status, points, file, open}) {
+const day = text => new Date(text).toLocaleString("ru", {dateStyle: "long", timeStyle: "short"});
+const assignment = ({engine, rows}, deadline) => html`<section id="task"><h2>Задание</h2>
+  <p>${engine}. Заполните формулами пустые ячейки рабочей книги и сдайте её${deadline ? html` <b id="deadline">до ${day(deadline)}</b>` : ""}.</p>
+  ${rows.length > 0 && table("Данные вашего варианта", rows.map(({title, symbol: name, value, unit}) =>
+    row([[title], [symbol(name), "s"], [printed(value, 9), "n"], [unit, "s"]])))}</section>`;
+
+function own({task, tries, student, title, handed, when, late, deadline, closed, earlier, status, points, file, open}) {
   const words = [handed ? `работа сдана ${moment(when)}`.trim() : "работа ещё не сдана", late && "после срока",
-    deadline && `срок ${new Date(deadline).toLocaleString("ru", {dateStyle: "long", timeStyle: "short"})}`,
+    deadline && `срок ${day(deadline)}`,
     tries[1] > 0 && `попыток ${tries[0]} из ${tries[1]}`, status, points !== null && `баллы: ${printed(points)}`];
   return html`
     <h1>${student} — ${title}</h1>
+    ${assignment(task, deadline)}
     <p id="state" aria-live="polite">${words.filter(Boolean).join("; ")}</p>
     ${state.try && html`<p id="try" role="status">${state.try}</p>`}
     ${earlier.length > 0 && html`<p id="earlier">Считается последняя; раньше сданы и хранятся: ${earlier.map(each => moment(each.when)).join("; ")}</p>`}

@@ -112,13 +112,13 @@ const issued = ({open, late, deadline, students, rows, groups, decided, files, a
   <p class="bar"><label>Срок <input id="deadline" type="datetime-local" value=${deadline ?? ""} onChange=${e => rules({deadline: e.target.value})} /></label>
     <label><input id="open" type="checkbox" checked=${open} onChange=${e => rules({open: e.target.checked})} /> студенты видят свои страницы</label>
     <label><input id="late" type="checkbox" checked=${late} onChange=${e => rules({late: e.target.checked})} /> и после этого принимать книги</label></p>
-  <p id="results" class="bar">${files.map(name => link(name, name,
+  <p id="results" class="bar">${files.map(([name, title]) => link(name, title,
     name.endsWith(".html") ? {target: "_blank"} : {download: name}))}</p>
   ${groups.length > 0 && many(groups)}
   ${decided.length > 0 && settled(decided)}
   ${rows.length > 0 && gradebook(rows)}
   <details id="links" open><summary>${students.filter(came).length} из ${students.length} сдали</summary>
-    <p class="bar"><a class="button" id="list" href=${door("links.csv")} download="links.csv">Все ссылки .csv</a>
+    <p class="bar"><a class="button" id="list" href=${door("links.csv")} download="Ссылки студентов.csv">Все ссылки .csv</a>
       <small>Ссылки открываются по адресу ${address}</small></p>
     ${table("Ссылки студентов", students.map(student))}</details>
   <p><button id="forget" disabled=${isBusy()} onClick=${forget}>Удалить группу</button></p>`;

@@ -43,6 +43,7 @@ export function calculator({functions, keys, values, runs, steps, fixed}) {
     has: key => number.has(key),
     isInput: key => inputs.has(number.get(key)),
     isFixed: key => still.has(number.get(key)),
+    know: values => { for (const [key, value] of Object.entries(values)) if (number.has(key)) now[number.get(key)] = Array.isArray(value) ? column(value) : value; },
     get: key => number.has(key) ? value(number.get(key)) : undefined, // a column is the model's own
     set(changes) {
       for (const [key, value] of Object.entries(changes)) {

@@ -144,8 +144,9 @@ def remarks(path: str, issued: str) -> dict[str, list[str]]:
 def _lines(results: Sequence[BookFinding]) -> list[str]:
     """Return a line for each finding; one for a book in which nothing but blanks is to be seen."""
     if len(results) > _TOLD and all(each.blank for each in results):
-        cells = plural(sum(each.blank for each in results), "ячейка", "ячейки", "ячеек")
-        return [f"{'пуста' if cells.endswith('ячейка') else 'пусты'} {cells}: книга не заполнена"]
+        count = sum(each.blank for each in results)
+        verb = "пуста" if count % 10 == 1 and count % 100 != 11 else "пусты"
+        return [f"{verb} {plural(count, 'ячейка', 'ячейки', 'ячеек')}: книга не заполнена"]
     return [f"{each.where}: {each.what}" for each in results]
 
 

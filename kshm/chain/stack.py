@@ -149,7 +149,7 @@ class _SharedParts(Generic[Part]):
 
 
 def _one_of_each_kind(engines: Sequence[Engine]) -> Iterable[Engine]:
-    """Engines that differ in what their structure depends on; comparing all would be slow."""
+    """Return one engine of each structure: to compare all is slow."""
     return {
         (e.cylinders, e.strokes, e.step_deg, e.rays, id(e.crankshaft), id(e.arrangement),
          type(e.gas)): e

@@ -94,7 +94,7 @@ class Evaluator:
         return cells.errors.get(row, cells.constants.get(row))
 
     def put(self, cells: Iterable[Any]) -> None:
-        """Other constants in some cells; everything is calculated anew when next asked for."""
+        """Replace constants of some cells; all is calculated anew at the next question."""
         book = self._book
         for part in cells:
             first, last = part.rows[0], part.rows[-1]
@@ -249,7 +249,7 @@ class Evaluator:
 
     @cached_property
     def _raw(self) -> dict[Run, list[Any]]:
-        """What formualizer says of the cells of every run that it was given."""
+        """Return the results of formualizer for the cells of each run."""
         runs = [run for run in self.grid.runs() if run not in self._unknown]
         if not runs:
             return {}

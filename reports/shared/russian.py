@@ -192,7 +192,7 @@ def cylindered(count: int) -> str:
 
 
 def surname(name: str) -> str:
-    """Return the surname of a person's name, as title blocks have it; all where none is told.
+    """Return the surname of a person's name; the whole name where it is not clear.
 
     Initials are left out, of three words a patronymic tells the order.
     """

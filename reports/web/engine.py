@@ -127,7 +127,7 @@ def as_toml(raw: Mapping[str, Any]) -> Data:
 
 
 def fresh(form: Mapping[str, Any]) -> Data:
-    """A sample, an own engine or an alternative to ``raw`` by ``kshm new``; KshmError if none."""
+    """Return a new input: a sample, an own engine or an alternative to ``raw``."""
     fields = {key: str(form[key]).replace(",", ".") for key in FORM if form.get(key)}
     if "sample" not in form:
         fields["cylinders"] = repr(form.get("cylinders"))

@@ -193,7 +193,7 @@ class Causes:
         return True
 
     def _elsewhere(self, item: Item) -> list[Scene]:
-        """Tell what the formulas of an item give for the trials, where it can be calculated.
+        """Return the values of an item's formulas with the inputs of the trials.
 
         The input data that are alike for the class are varied where no number of the formulas
         may stand for them.
@@ -419,7 +419,7 @@ class Causes:
 
 
 def _times(factor: float, scene: Scene) -> Array:
-    """Return the right values so many times."""
+    """Return the right values times a factor."""
     return scene.right * factor
 
 

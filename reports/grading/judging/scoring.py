@@ -86,7 +86,7 @@ def rescored(result: Result) -> None:
 
 
 def _take_lateness(result: Result, rubric: Rubric, handed: HandedIn) -> None:
-    """Only the clock of a system of learning costs points: a copy's time asks a person."""
+    """Take points for lateness by the learning system's clock; a file's own time asks a person."""
     factor = late_factor(rubric, handed.time, handed.extension)
     result["late"] = factor
     if factor == 1:

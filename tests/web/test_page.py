@@ -305,9 +305,8 @@ def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any
         page.evaluate("kshm.get('N_e_calc')"), 2
     )
     assert page.evaluate("live.state.last.moves.forces.Ps_MPa.values") != before
-    assert page.evaluate(f"{CHART}.data.datasets[0].data[90].y") == pytest.approx(
-        page.evaluate("live.state.engine.fine.get('P4_1.Pg_MPa')[90]")
-    )
+    drawn = f"{CHART}.data.datasets[0].data[90].y"
+    until(page, f"{drawn} === live.state.engine.fine.get('P4_1.Pg_MPa')[90]")
     until(page, "document.getElementById('lost').textContent.includes('Нет связи')")
     assert 0 < page.locator("#lost").bounding_box()["y"] < page.viewport_size["height"]
     page.context.set_offline(False)

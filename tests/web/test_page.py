@@ -279,6 +279,16 @@ def test_a_wrong_value_is_told_in_words_and_keeps_the_last_picture(page: Any) ->
     photo(page, "wrong")
 
 
+def test_what_was_said_of_a_wrong_order_goes_when_a_person_goes_on(page: Any) -> None:
+    page.evaluate("fresh(ask('api/new', {cylinders: 5, layout: 'opposed'}))")
+    page.wait_for_selector("#errors li")
+    box = page.locator("#errors li").first.bounding_box()
+    assert 0 <= box["y"] < page.viewport_size["height"]
+    page.fill("#find", "ход")
+    assert not page.locator("#errors li").count()
+    page.fill("#find", "")
+
+
 def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any) -> None:
     """The network goes after loading; the numbers, charts and mechanism do not know of it."""
     page.context.set_offline(True)

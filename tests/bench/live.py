@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -59,6 +60,7 @@ def _at(browser: Any, file: Path, engine: str, slow: int) -> Iterator[Figure]:
     page.goto(file.as_uri())
     page.wait_for_selector("#charts canvas")
     where = f"{engine}, замедление {slow}"
+    yield Figure(f"{where}: загрузка машины за минуту", os.getloadavg()[0], "")
     yield Figure(f"{where}: открытие", page.evaluate("performance.now()") / 1000, "с")
     page.wait_for_timeout(500)
     yield Figure(f"{where}: правка, что видно", median(page.evaluate(SEEN, 20)), "мс")

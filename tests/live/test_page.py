@@ -199,6 +199,8 @@ def test_without_a_script_the_results_are_there(live: Opened) -> None:
     page = live("gots-diesel", java_script_enabled=False)
     text = page.inner_text("#plain")
     assert "113,5" in text
+    about = page.get_attribute("[property='og:description']", "content")
+    assert "113,5 Н·м" in about and "кВт" in about  # what its link says
     assert "Числа сборки" in text or "числа сборки" in text
 
 

@@ -304,6 +304,7 @@ def test_a_class_of_five(browser: Any, served: Served, teacher: Any, tmp_path: P
     actual = points(teacher)
     assert actual["Петров"] == "77" and actual["Кузнецов"] == "99,99"
     assert not teacher.locator("tr.odd").count()
+    assert all("А" <= text[0] <= "Я" for text in teacher.locator("#results a").all_inner_texts())
     for file in ("gradebook.xlsx", "moodle.csv", "moodle-feedback.zip"):
         assert taken(teacher, f"#results a[download='{file}']")
     text = taken(teacher, "#results a[download='moodle-worksheet.csv']").decode("utf-8-sig")

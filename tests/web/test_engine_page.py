@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import struct
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -191,3 +192,13 @@ def test_files_of_the_machine_are_out_of_reach(page: Page) -> None:
     gas = {**raw["gas"], "source": "file", "file": "/etc/passwd"}
     errors = page.post("/api/settle", {"raw": {**raw, "gas": gas}})["errors"]
     assert errors[0]["where"] == "gas.source"
+
+
+def test_a_link_to_the_page_has_a_preview(page: Page) -> None:
+    text = page.client.get("/").text
+    assert 'property="og:title" content="Кривошипно-шатунный механизм' in text
+    (address,) = re.findall(r'property="og:image" content="([^"]+)"', text)
+    assert address.startswith("http://127.0.0.1:8321/")  # whole: who previews knows no other
+    answer = page.client.get(address)
+    assert answer.headers["content-type"] == "image/png"
+    assert struct.unpack(">II", answer.content[16:24]) == (1200, 630)

@@ -121,6 +121,9 @@ def test_two_tabs_with_one_engine_keep_both(served: Served, first: Any) -> None:
     bore(first, "94")
     assert first.evaluate(STORED) == [93, 94]
     assert "записан рядом" in first.inner_text("#news")
+    options = first.locator("select#own option").all_inner_texts()  # of one name
+    assert sorted("диаметр цилиндра 93" in text for text in options) == [False, True]
+    assert sorted("диаметр цилиндра 94" in text for text in options) == [False, True]
 
 
 def test_a_sample_or_a_file_does_not_take_the_own_engines_place(first: Any) -> None:

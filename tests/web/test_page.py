@@ -279,6 +279,16 @@ def test_a_wrong_value_is_told_in_words_and_keeps_the_last_picture(page: Any) ->
     photo(page, "wrong")
 
 
+def test_what_was_said_of_a_wrong_order_goes_when_a_person_goes_on(page: Any) -> None:
+    page.evaluate("fresh(ask('api/new', {cylinders: 5, layout: 'opposed'}))")
+    page.wait_for_selector("#errors li")
+    box = page.locator("#errors li").first.bounding_box()
+    assert 0 <= box["y"] < page.viewport_size["height"]
+    page.fill("#find", "ход")
+    assert not page.locator("#errors li").count()
+    page.fill("#find", "")
+
+
 def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any) -> None:
     """The network goes after loading; the numbers, charts and mechanism do not know of it."""
     page.context.set_offline(True)
@@ -305,9 +315,8 @@ def test_without_a_server_typing_moves_all_numbers_as_solve_finds_them(page: Any
         page.evaluate("kshm.get('N_e_calc')"), 2
     )
     assert page.evaluate("live.state.last.moves.forces.Ps_MPa.values") != before
-    assert page.evaluate(f"{CHART}.data.datasets[0].data[90].y") == pytest.approx(
-        page.evaluate("live.state.engine.fine.get('P4_1.Pg_MPa')[90]")
-    )
+    drawn = f"{CHART}.data.datasets[0].data[90].y"
+    until(page, f"{drawn} === live.state.engine.fine.get('P4_1.Pg_MPa')[90]")
     until(page, "document.getElementById('lost').textContent.includes('Нет связи')")
     assert 0 < page.locator("#lost").bounding_box()["y"] < page.viewport_size["height"]
     page.context.set_offline(False)

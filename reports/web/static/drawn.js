@@ -63,8 +63,7 @@ function write(ink, text, x, y, colour, {left, right} = {left: 0, right: Infinit
     return sum + ink.measureText(part).width;
   }, 0);
   x = Math.max(Math.min(x, right - wide - 2), left + 2);
-  const under = getComputedStyle(ink.canvas.closest("figure")).backgroundColor;
-  Object.assign(ink, {fillStyle: colour, strokeStyle: under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
+  Object.assign(ink, {fillStyle: colour, strokeStyle: ink.canvas.under, lineWidth: 3, lineJoin: "round", textBaseline: "middle", textAlign: "left"});
   for (const [part, size, drop] of [[name, 13, 0], [index, 10, 4], [rest, 13, 0]]) {
     ink.font = `600 ${size}px 'Inter Variable', sans-serif`;
     ink.strokeText(part, x, y + drop);
@@ -82,7 +81,8 @@ function words(chart) {
   const sets = chart.data.datasets.map((set, i) => [set, chart.isDatasetVisible(i)]).filter(([, isVisible]) => isVisible);
   ink.save();
   if (sets.length > 1) for (const [set] of sets) {
-    const points = set.data.filter(p => p.y !== null && p.x >= x.min && p.x <= x.max);
+    const every = Math.ceil(set.data.length / 90); // a word needs no finer place
+    const points = set.data.filter((p, i) => i % every === 0 && p.y !== null && p.x >= x.min && p.x <= x.max);
     const far = own.kind === "line" ? p => Math.abs(p.y - (y.min + y.max) / 2) : p => Math.hypot(p.x, p.y);
     const spots = points.toSorted((a, b) => far(b) - far(a)).map(p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)]);
     const [px, py] = spots.find(spot => isFree(...spot)) ?? [];
@@ -109,7 +109,7 @@ function stroke(ink, {path}, {scales: {x, y}}, number) { // a part of a path in 
 }
 
 function vector(ink, {marks}, {chartArea: area, scales: {x, y}}) {
-  const {color} = getComputedStyle(document.body), at = (px, py) => [x.getPixelForValue(px), y.getPixelForValue(py)];
+  const {color} = ink.canvas, at = (px, py) => [x.getPixelForValue(px), y.getPixelForValue(py)];
   const [from, to] = [at(0, 0), at(marks.x, marks.y)], along = Math.atan2(to[1] - from[1], to[0] - from[0]);
   Object.assign(ink, {strokeStyle: color, fillStyle: color, lineWidth: 1.5});
   ink.beginPath();
@@ -138,10 +138,14 @@ async function drawLater(canvas, ...given) {
 
 function draw(canvas, own, datasets, color) {
   if (canvas.datasets === datasets) return;
-  canvas.own = own;
+  Object.assign(canvas, {own, color, under: canvas.color === color ? canvas.under : getComputedStyle(canvas.closest("figure")).backgroundColor});
   const chart = Chart.getChart(canvas), isLine = own.kind === "line"; // else both axes have one scale
   canvas.datasets = datasets;
-  const ends = key => [Math.min, Math.max].map(end => end(...datasets.flatMap(c => c[key]).filter(v => v !== null)));
+  const ends = key => {
+    let [low, high] = [Infinity, -Infinity];
+    for (const set of datasets) for (const v of set[key]) if (v !== null) [low, high] = [v < low ? v : low, v > high ? v : high];
+    return [low, high];
+  };
   const half = .53 * Math.max(...["x", "y"].map(ends).map(([low, high]) => high - low), 1e-9);
   const axis = (key, bounds, stepSize, [low, high] = ends(key)) => ({
     type: "linear", bounds, display: isLine || own.kind === "polar", grid: {color: "#8883"}, border: {color: "#8886"},
@@ -152,7 +156,7 @@ function draw(canvas, own, datasets, color) {
   });
   const onZoomComplete = () => { canvas.closest("figure").classList.add("zoomed"); state.follow(); };
   const options = {
-    animation: false, locale: "ru", maintainAspectRatio: false, onResize: () => requestAnimationFrame(() => state.follow()),
+    animation: false, parsing: false, locale: "ru", maintainAspectRatio: false, onResize: () => requestAnimationFrame(() => state.follow()),
     events: ["mousemove", "mouseout"],
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},

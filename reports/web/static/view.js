@@ -7,6 +7,7 @@ import {calculator} from "./calculator.js";
 import {cell} from "./numbers.js";
 import {card} from "./takeaway.js";
 
+const CHARTS_MS = 80; // between drawings of charts while a slider moves: mechanism and numbers follow each frame
 const BASE = 180; // degrees a second at a pace of one
 const STROKES = {4: ["впуск", "сжатие", "рабочий ход", "выпуск"], 2: ["рабочий ход", "сжатие"]};
 const FIRST = "", MOST_CHECKS = 12; // of a page of print
@@ -63,18 +64,22 @@ export function calculate(changes) {
 }
 
 // What is typed waits for the next frame; what is read aloud and charts out of sight wait for a pause.
-let asked = 0;
+let asked = 0, drawnAt = 0;
 export function type(changes, done) {
   Object.assign(state.waiting, changes);
-  asked ||= requestAnimationFrame(() => {
+  asked ||= requestAnimationFrame(now => {
     asked = 0;
+    state.isHurried = now - drawnAt < CHARTS_MS;
+    if (!state.isHurried) drawnAt = now;
+    clearTimeout(state.rest);
+    state.rest = state.isHurried && setTimeout(set, CHARTS_MS, {isHurried: false});
     const all = state.waiting, keys = Object.keys(all);
     state.waiting = {};
     set({wrong: [...state.wrong.filter(each => !keys.includes(each.where)), ...calculate(all)], errors: []});
     done?.();
     clearTimeout(state.pause);
     state.pause = setTimeout(() => {
-      state.isAll = true;
+      Object.assign(state, {isAll: true, isHurried: false});
       set({told: `Пересчитано: ${state.engine.numbers.map(each => `${each.title} ${number(each)} ${each.unit}`).join(", ")}`});
       state.isAll = false;
     }, 400);
@@ -102,7 +107,7 @@ export const moves = () => {
 // --- charts ---
 function chartOf(engine, spec) { // anew only where something has changed
   const before = engine.charts.get(spec.id), {main, fine} = engine;
-  if (before && !(before.isStale && (state.isAll || before.isSeen !== false))) return before;
+  if (before && !(before.isStale && !state.isHurried && (state.isAll || before.isSeen !== false))) return before;
   const keys = [...spec.lines.flatMap(({x, y}) => [x, y]), ...spec.contact.map(([key]) => key)];
   const model = keys.every(fine.has) ? fine : main, numbers = key => Array.from(model.get(key), value => Number.isFinite(value) ? value : null);
   const curves = spec.lines.map(({name, x, y}) => ({name, x: numbers(x), y: numbers(y)}));

@@ -21,7 +21,7 @@ from kshm.arrays import Array
 from kshm.chain.solve import chunk_size, solve_batch
 from kshm.chain.stack import structure
 from kshm.cycle.cycle import CycleRun
-from kshm.engine.checks import refuse
+from kshm.engine.checks import as_scalar, refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import VARIED, engine_maker
 from kshm.engine.source import MakeEngine
@@ -227,7 +227,7 @@ def _checked(vary: Mapping[str, Collection[float]]) -> dict[str, tuple[float, ..
     lists = {}
     for name, values in vary.items():
         one = isinstance(values, Real | str) or not isinstance(values, Collection)
-        each = () if one else tuple(values)
+        each = () if one else tuple(map(as_scalar, values))
         if not each:
             problem = "the list of values is empty" if not one else "must be a list of numbers"
             raise InputError(Problem(one_line(str(name), 80), problem, "e.g. [84, 88, 92]"))
@@ -235,11 +235,11 @@ def _checked(vary: Mapping[str, Collection[float]]) -> dict[str, tuple[float, ..
             if not isinstance(value, Real) or isinstance(value, bool):
                 problem = f"must be a number, not {one_line(repr(value), 40)}"
                 raise InputError(Problem(one_line(str(name), 80), problem, value=value))
-        lists[name] = tuple(map(_plain, each))
+        lists[name] = tuple(map(_whole_or_float, each))
     return lists
 
 
-def _plain(value: float) -> float:
+def _whole_or_float(value: float) -> float:
     """Return Python's own number; a whole one stays whole, as files want it."""
     return int(value) if isinstance(value, int | np.integer) else float(value)
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.engine.checks import as_scalar, refuse
+from kshm.engine.checks import as_scalar, check_kind, refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import find
 from kshm.errors import InputError, KshmError, Problem
@@ -129,6 +129,9 @@ def tolerance(
     0.152
     """
     qmc = _sampler()
+    check_kind("engine", engine, Engine)
+    check_kind("tolerances", tolerances, Mapping)
+    check_kind("samples", samples, int)
     refuse(
         (not tolerances, "name a tolerance"),
         (not MIN_SAMPLES <= samples <= MAX_SAMPLES,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import doctest
 import io
 import pydoc
 import re
@@ -20,6 +19,7 @@ import kshm
 import reports
 from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
 from reports.inputs.to_si.engine import engine_and_cycle
+from tests.api.conftest import run_text
 from tests.api.public_names import lines
 from tests.conftest import sample
 from tests.manual.pages import DOCS, ROOT, blocks
@@ -87,28 +87,11 @@ def test_what_is_imported_when() -> None:
     assert (ROOT / "reports" / "py.typed").exists()
 
 
-@pytest.fixture(scope="module")
-def example_names() -> dict:
-    """Names of the package and those that the example of ``in_line`` makes for the others."""
-    names = {name: getattr(kshm, name) for name in kshm.__all__}
-    run_example("in_line", names)
-    return names
-
-
 def run_example(name: str, names: dict, package: ModuleType = kshm) -> None:
-    text = attrgetter(name)(package).__doc__
-    test = doctest.DocTestParser().get_doctest(text, names, name, None, None)
-    test.globs = names
-    assert test.examples, f"{name} has no example"
-    said: list[str] = []
-    result = doctest.DocTestRunner().run(test, out=said.append, clear_globs=False)
-    assert result.failed == 0, "".join(said)
+    run_text(name, attrgetter(name)(package).__doc__, names)
 
 
-METHODS = ("Engine.with_", "Solution.column", "Solution.scalar")
-
-
-@pytest.mark.parametrize("name", [*kshm.__all__, *METHODS])
+@pytest.mark.parametrize("name", kshm.__all__)
 def test_every_public_name_has_an_example_that_runs(name: str, example_names: dict) -> None:
     run_example(name, dict(example_names))
 

@@ -106,8 +106,8 @@ def test_a_value_of_no_kind_is_an_error_that_says_so(
     name: str, function: Callable[..., Any], example_names: dict[str, Any]
 ) -> None:
     values = {
-        "engine": reports.load("gots-diesel"), "engines": [example_names["engine"]], "quantity": "M_mean", "value": 1.0,
-        "name": "bore_mm",
+        "engine": reports.load("gots-diesel"), "engines": [example_names["engine"]],
+        "quantity": "M_mean", "value": 1.0, "name": "bore_mm",
         "between": (80.0, 90.0), "tolerances": {"bore_mm": 0.1}, "vary": {"bore_mm": (80, 90)},
         "path": None, "folder": ".", "source": "gots-diesel",
     }  # fmt: skip

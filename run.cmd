@@ -1,7 +1,16 @@
 @echo off
 rem run test [ARGS]: lint, types, rooms and tests; run bench, docs, fuzz: as in run; run ARGS: kshm ARGS
 setlocal
+set "ROOT=%~dp0"
+rem The window keeps its own code page for what comes after.
+for /f "tokens=2 delims=:." %%c in ('chcp') do set "PAGE=%%c"
 chcp 65001 >nul
+call :main %*
+set "CODE=%errorlevel%"
+chcp %PAGE% >nul
+exit /b %CODE%
+
+:main
 set "PYTHONUTF8=1"
 set "PYTHONPATH="
 set "PYTHONHOME="
@@ -11,15 +20,15 @@ if not defined WEASYPRINT_DLL_DIRECTORIES if exist "C:\msys64\mingw64\bin" set "
 rem Developers' commands take more packages.
 set "PARTS=[serve]"
 for %%c in (test bench docs fuzz breaks) do if /i "%~1"=="%%c" set "PARTS=[serve,sweep,dask]"
-for %%a in (%*) do if /i "%%~xa"==".parquet" if "%PARTS%"=="[serve]" set "PARTS=[serve,sweep]"
-set "ROOT=%~dp0"
+call :files %*
 if "%~1"=="" goto usage
 set "VENV=%ROOT%.venv"
 set "PY="
-where py >nul 2>nul && set "PY=py -3"
-if not defined PY set "PY=python"
-%PY% -c "import sys; sys.exit(sys.version_info < (3, 11))" 2>nul
-if errorlevel 1 (
+rem py takes the newest that is registered; python may be one that is not.
+call :try py -3
+if not defined PY call :try python
+if not defined PY call :try python3
+if not defined PY (
   echo Нужен Python 3.11 или новее: winget install Python.Python.3.13 1>&2
   exit /b 3
 )
@@ -31,7 +40,7 @@ if exist "%VENV%\kshm-parts-%PARTS%" goto ready
 goto packages
 
 :install
-echo Устанавливаю пакеты Python в .venv 1>&2
+echo Устанавливаю пакеты Python в .venv, это займёт минуту 1>&2
 if exist "%VENV%" rmdir /s /q "%VENV%"
 %PY% -m venv "%VENV%"
 if errorlevel 1 exit /b 3
@@ -44,7 +53,7 @@ if "%PARTS%"=="[serve,sweep,dask]" (
   %PIP% --editable "%ROOT%.%PARTS%" 1>&2
 )
 if errorlevel 1 (
-  echo Не удалось установить пакеты Python: проверьте сеть и повторите. 1>&2
+  echo Нет сети или места на диске: не удалось установить пакеты Python; проверьте их и повторите команду. 1>&2
   exit /b 3
 )
 copy /y "%ROOT%pyproject.toml" "%VENV%\kshm-pyproject" >nul
@@ -76,6 +85,18 @@ pushd "%ROOT%"
 set "FAILED=%errorlevel%"
 popd
 exit /b %FAILED%
+
+:try
+%* -c "import sys; sys.exit(sys.version_info < (3, 11))" >nul 2>nul
+if not errorlevel 1 set "PY=%*"
+exit /b 0
+
+rem A loop over the arguments by themselves: a bracket in a name would close the list of "for".
+:files
+if "%~1"=="" exit /b 0
+if /i "%~x1"==".parquet" if "%PARTS%"=="[serve]" set "PARTS=[serve,sweep]"
+shift
+goto files
 
 :usage
 echo Использование:

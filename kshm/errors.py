@@ -48,11 +48,19 @@ class Problem:
     value: Any = field(default=None, compare=False)
 
     def words(self) -> dict[str, str]:
-        """Return what a page shows."""
+        """Return what a page shows.
+
+        >>> Problem("bore_mm", "must be positive").words()
+        {'where': 'bore_mm', 'what': 'must be positive', 'hint': ''}
+        """
         return {"where": self.where, "what": self.what, "hint": self.hint}
 
     def line(self) -> str:
-        """Return the one-line message."""
+        """Return the one-line message.
+
+        >>> Problem("bore_mm", "must be positive", "e.g. 88").line()
+        'bore_mm: must be positive; e.g. 88'
+        """
         text = ": ".join(part for part in (self.where, self.what) if part)
         return one_line(f"{text}; {self.hint}" if self.hint else text, limit=_LONGEST_LINE)
 
@@ -88,7 +96,11 @@ class KshmError(Exception):
         return _revived, (type(self), self.args), self.__dict__
 
     def lines(self) -> list[str]:
-        """Return one line per problem."""
+        """Return one line per problem.
+
+        >>> KshmError([Problem("a", "wrong"), Problem("b", "missing")]).lines()
+        ['a: wrong', 'b: missing']
+        """
         return [problem.line() for problem in self.problems]
 
 

@@ -220,7 +220,7 @@ def dump(engine: Engine | Mapping[str, Any], path: Path | str | None = None) -> 
     if path is not None:
         from reports.shared.files import write_text
 
-        write_text(Path(path), text)
+        write_text(_path("path", path), text)
     return text
 
 
@@ -250,19 +250,27 @@ def build(
     ['gots-diesel.xlsx']
     """
     path, loaded = loaded_of(source)
-    built = _built(path, loaded, Path(folder), tuple(only), name)
+    built = _built(path, loaded, _path("folder", folder), only, name)
     if built.missing is not None:
         raise built.missing
     return built.files
 
 
-def _built(path: Path, loaded: Loaded, folder: Path, only: tuple[Kind, ...], name: str) -> Built:
+def _path(name: str, path: object) -> Path:
+    if not isinstance(path, str | Path):
+        raise InputError(Problem(name, f"нужен путь, а задано: {type(path).__name__}"))
+    return Path(path)
+
+
+def _built(path: Path, loaded: Loaded, folder: Path, only: Sequence[Kind], name: str) -> Built:
     from reports.exports.build import ENDINGS
     from reports.exports.build import build as build_documents
 
-    wrong = [kind for kind in only if kind not in ENDINGS]
+    if not isinstance(name, str):
+        raise InputError(Problem("name", f"нужен текст, а задано: {type(name).__name__}"))
+    wrong = [kind for kind in only if kind not in ENDINGS] if isinstance(only, Sequence) else [only]
     if isinstance(only, str) or wrong:
         problem = f"нет вида документа «{one_line(str(wrong[0]), 40)}»"
         raise InputError(Problem("only", problem, f"есть: {', '.join(ENDINGS)}"))
     target = path.with_name(f"{name}.toml") if name else path
-    return build_documents(target, loaded, folder, kinds_of(loaded, only))
+    return build_documents(target, loaded, folder, kinds_of(loaded, tuple(only)))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from kshm.arrays import Array
+from kshm.engine.checks import takes_kinds
 from kshm.results.solution import Solution
 from reports.document.figures.curves import Level, Mark, Panel, PlotCurve, curves_figure
 from reports.document.figures.polar import polar_path, wear_diagram
@@ -27,8 +28,16 @@ class SvgPicture:
     def save(self, path: Path | str) -> Path:
         """Write the figure as an SVG file, whole or not at all; return its path.
 
+        Args:
+            path: of the file.
+
         Raises:
             OutputError: the file cannot be written.
+
+        >>> import tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     SvgPicture("<svg/>").save(f"{folder}/a.svg").name
+        'a.svg'
         """
         write_text(Path(path), self.svg)
         return Path(path)
@@ -41,8 +50,15 @@ class SvgPicture:
         return f"<figure, SVG of {len(self.svg)} characters; .save('figure.svg') writes it>"
 
 
+@takes_kinds
 def plot(solution: Solution) -> SolutionPlots:
     """Return the figures of a solution, also there as ``solution.plot``.
+
+    Args:
+        solution: what ``kshm.solve`` returns.
+
+    Raises:
+        InputError: what is no solution.
 
     >>> import kshm
     >>> import reports
@@ -64,7 +80,13 @@ class SolutionPlots:
         return ["diagram", "polar", "torque", "wear"]
 
     def torque(self) -> SvgPicture:
-        """Torque of the engine [N·m] over the cycle with its mean."""
+        """Draw the torque of the engine [N·m] over the cycle with its mean, Gots 2.5.
+
+        >>> import kshm
+        >>> import reports
+        >>> kshm.solve(reports.load("gots-diesel")).plot.torque().svg[:4]
+        '<svg'
+        """
         columns = self._columns("P4_2")
         mean = Level(r"$M_{\text{ср}}$", self._solution.scalars["M_mean"])
         curve = PlotCurve(r"$M$", columns["Msum_Nm"])
@@ -72,10 +94,18 @@ class SolutionPlots:
         return SvgPicture(curves_figure(columns["phi_deg"], (panel,), _PHI))
 
     def polar(self, journal: int = 0) -> SvgPicture:
-        """Polar diagram of the load on the crankpin [MPa]; of a main journal by its number, from 1.
+        """Draw the polar diagram of the load on a journal [MPa], Gots 2.6.
+
+        Args:
+            journal: number of a main journal from 1; 0 for the crankpin.
 
         Raises:
             InputError: there is no such journal.
+
+        >>> import kshm
+        >>> import reports
+        >>> kshm.solve(reports.load("gots-diesel")).plot.polar(2).svg[:4]
+        '<svg'
         """
         columns = self._columns(f"P4_3_{journal}" if journal else "crankpin")
         keys = ("Rx_MPa", "Ry_MPa") if journal else ("T_MPa", "Krod_MPa")
@@ -87,10 +117,18 @@ class SolutionPlots:
         return SvgPicture(drawn)
 
     def wear(self, journal: int = 0) -> SvgPicture:
-        """Wear of the crankpin by rays; of a main journal by its number, from 1.
+        """Draw the wear of a journal by rays [MPa], Gots 2.6 and table 14.
+
+        Args:
+            journal: number of a main journal from 1; 0 for the crankpin.
 
         Raises:
             InputError: there is no such journal.
+
+        >>> import kshm
+        >>> import reports
+        >>> kshm.solve(reports.load("gots-diesel")).plot.wear().svg[:4]
+        '<svg'
         """
         name = f"table_14_main_{journal}_sums" if journal else "table_14_sums"
         sums = self._solution.wear_sums
@@ -100,7 +138,13 @@ class SolutionPlots:
         return SvgPicture(wear_diagram(columns["ray_sum"], columns["ray_deg"] + _AGAINST, hole))
 
     def diagram(self) -> SvgPicture:
-        """Return indicator diagram: pressure [MPa] over the volume of a cylinder [dm³]."""
+        """Draw the indicator diagram: pressure [MPa] over a cylinder's volume [dm³], Gots 2.1.
+
+        >>> import kshm
+        >>> import reports
+        >>> kshm.solve(reports.load("gots-diesel")).plot.diagram().svg[:4]
+        '<svg'
+        """
         columns = self._columns("gas")
         volume, pressure = columns["volume_dm3"], columns["p_MPa"]
         top = int(np.argmax(pressure))

@@ -11,6 +11,7 @@ import numpy as np
 from kshm.arrays import Array, Columns
 from kshm.chain.stack import Batch, stack
 from kshm.engine.arrangement import pins
+from kshm.engine.checks import check_kind
 from kshm.engine.engine import Engine
 from kshm.mechanics import forces, gas, journals, kinematics, wear
 from kshm.mechanics.articulated import Hung, hang
@@ -153,6 +154,9 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
         engines: as many as there are, read as they are needed.
         size: engines in a chunk; without it as many as fit the processor's cache.
 
+    Returns:
+        Arrays of Gots (1)-(60) in SI, shape (engines, cylinders, angles) and the like.
+
     Raises:
         InputError: the engines of a chunk differ in structure.
 
@@ -166,8 +170,11 @@ def solve_chunks(engines: Iterable[Engine], size: int | None = None) -> Iterator
     # The C library gives freed arrays back to the system and takes them again page by page,
     # which costs more than the arithmetic; once a great block was freed, it keeps them.
     np.empty(KEPT_BYTES, np.uint8)
+    check_kind("engines", engines, Iterable)
+    check_kind("size", size, int | None)
     remaining = iter(engines)
     while first := list(islice(remaining, 1)):
+        check_kind("engines", first[0], Engine)
         count = size or chunk_size(first[0])
         yield solve_batch([*first, *islice(remaining, count - 1)])
 

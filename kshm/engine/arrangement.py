@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
+from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse, takes_kinds
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,8 +125,15 @@ def fan(
     return tuple(cylinders)
 
 
+@takes_kinds
 def opposed(count: int) -> Arrangement:
-    """Two opposite banks, every rod on its own throw, left and right in turn from the nose.
+    """Return two opposite banks, each rod on its own throw, left and right in turn, Gots 2.7.2.
+
+    Args:
+        count: cylinders, an even number.
+
+    Raises:
+        InputError: an odd number.
 
     >>> [cylinder.throw for cylinder in opposed(4)]  # left bank from the nose, then right
     [0, 2, 1, 3]

@@ -54,6 +54,9 @@ def check_numbers(part: object, want: str, *names: str) -> None:
             continue  # as nearly all are: many engines are made for a study
         where = f"{owner.__name__}.{name}"
         check_kind(where, value, kind_of)
+        if as_scalar(value) is not value:
+            value = as_scalar(value)
+            object.__setattr__(part, name, value)
         for number in value if isinstance(value, tuple) else (value,):
             if isinstance(number, Real) and not _is(float(number), kind):
                 problem = f"must be {kind}, not {float(number):g}"
@@ -68,8 +71,16 @@ def _kinds(owner: Any) -> tuple[tuple[str, Any], ...]:  # noqa: ANN401
     return tuple((field.name, hints[field.name]) for field in fields(owner))
 
 
+def as_scalar(value: Any) -> Any:  # noqa: ANN401
+    """Return the number that an array without dimensions holds; anything else as it is."""
+    return value.item() if getattr(value, "ndim", None) == 0 else value
+
+
 def takes_kinds(function: Callable[Arguments, Made]) -> Callable[Arguments, Made]:
-    """Refuse arguments of another kind than the function's annotations say, by their names."""
+    """Refuse arguments of another kind than the function's annotations say, by their names.
+
+    Arrays without dimensions are the numbers that they hold.
+    """
     names = tuple(signature(function).parameters)
 
     @wraps(function)
@@ -78,7 +89,9 @@ def takes_kinds(function: Callable[Arguments, Made]) -> Callable[Arguments, Made
         for name, value in (*zip(names, args, strict=False), *keywords.items()):
             if name in kinds:  # of unknown names Python tells itself
                 check_kind(name, value, kinds[name])
-        return function(*args, **keywords)
+        numbers: Any = map(as_scalar, args)
+        named: Any = {name: as_scalar(value) for name, value in keywords.items()}
+        return function(*numbers, **named)
 
     return checked
 
@@ -99,6 +112,7 @@ def _fits(value: object, kind: Any) -> bool:  # noqa: ANN401
     # Nearly all values are plain numbers: many engines are made for a study.
     if kind is type(value):
         return True
+    value = as_scalar(value)
     origin = get_origin(kind)
     if origin in (Union, UnionType):
         return any(_fits(value, each) for each in get_args(kind))

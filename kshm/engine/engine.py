@@ -26,7 +26,7 @@ from kshm.engine.arrangement import (
     side_reach,
 )
 from kshm.engine.bearings import Bearings
-from kshm.engine.checks import POSITIVE, check_numbers, refuse
+from kshm.engine.checks import POSITIVE, as_scalar, check_numbers, refuse
 from kshm.engine.counterweight import Counterweight
 from kshm.engine.crankshaft import Crankshaft
 from kshm.engine.flywheel import Flywheel
@@ -337,7 +337,7 @@ class Engine:
         """
         named = {**(changes or {}), **more}
         refuse((not named, "name something to change"))
-        made: Engine = engine_maker(self, list(named))(list(named.values()))
+        made: Engine = engine_maker(self, list(named))([as_scalar(each) for each in named.values()])
         return made
 
     @property

@@ -46,10 +46,27 @@ def polytropic(
     scavenge_open_deg: float = 0.0,
     ambient_mpa: float = 0.1,
 ) -> PolytropicGas:
-    """Return indicator diagram by polytropes; absolute pressures [MPa], angles in the cycle [°].
+    """Return indicator diagram by polytropes, rounded as Gots 2.1 and figure 22; p is absolute.
 
     Angles count from TDC before the intake, in a two-stroke engine from TDC of combustion,
     see ``kshm.mechanics.gas.polytropic_pressure``.
+
+    Args:
+        intake_mpa: p_a at the intake [MPa].
+        residual_mpa: p_r of the exhaust [MPa].
+        max_mpa: p_z, the greatest [MPa].
+        compression_exponent: n_1 [-].
+        expansion_exponent: n_2 [-].
+        preexpansion_ratio: ρ of a diesel, 1 of a petrol engine [-].
+        combustion_start_deg: c', where the pressure leaves the polytrope [°].
+        injection_advance_deg: from the spark or injection to TDC [°].
+        exhaust_open_deg: b', where the exhaust opens [°].
+        exhaust_close_deg: where it closes [°].
+        scavenge_open_deg: where the ports of a two-stroke engine open [°].
+        ambient_mpa: outside of the cylinder [MPa].
+
+    Raises:
+        InputError: a number that no diagram has.
 
     >>> polytropic(
     ...     intake_mpa=0.09, residual_mpa=0.11, max_mpa=6, compression_exponent=1.36,
@@ -82,7 +99,13 @@ def points(
     smooth: bool = False,
     ambient_mpa: float = 0.1,
 ) -> TabulatedGas:
-    """Return indicator diagram by points from 0 to the cycle's end; absolute pressures [MPa].
+    """Return indicator diagram by points, Gots 2.1.
+
+    Args:
+        angles_deg: from 0 to the cycle's end, which rise, shape (points,) [°].
+        pressures_mpa: absolute pressures there, as many [MPa].
+        smooth: by a curve in place of straight lines.
+        ambient_mpa: pressure outside of the cylinder [MPa].
 
     Raises:
         InputError: the lists differ in length, do not rise, or their ends differ.
@@ -109,14 +132,14 @@ def throw(
     web_angle_deg: float = 0.0,
     counterweight_angle_deg: float = 0.0,
 ) -> Throw:
-    """One throw with two like webs; masses reduced to the crank radius [kg].
+    """Return one throw with two like webs; masses reduced to the crank radius [kg].
 
     Args:
         arms_mm: l1 … l6 of Gots figure 35 [mm]; the rods of one pin share l3 + l4 evenly.
-        web_kg: mass of one web.
-        pin_kg: mass of the crankpin.
-        counterweight_kg: mass of the counterweight on one web.
-        web_thickness_mm: thickness of a web, 0 where the arms reach its middle.
+        web_kg: mass of one web [kg].
+        pin_kg: mass of the crankpin [kg].
+        counterweight_kg: mass of the counterweight on one web [kg].
+        web_thickness_mm: thickness of a web [mm], 0 where the arms reach its middle.
         web_angle_deg: angle of the web from the crank against rotation [°].
         counterweight_angle_deg: angle of the counterweight from the direction opposite
             the crank along rotation [°].
@@ -138,7 +161,15 @@ def throw(
 
 @takes_kinds
 def end_mass(mass_kg: float, angle_deg: float, arm_mm: float) -> EndMass:
-    """External counterweight beyond an end journal; mass reduced to the crank radius.
+    """Return an external counterweight beyond an end journal, Gots 2.7.
+
+    Args:
+        mass_kg: its mass reduced to the crank radius [kg].
+        angle_deg: its angle from the first crank [°].
+        arm_mm: how far beyond the middle of the end journal it stands [mm].
+
+    Raises:
+        InputError: a negative mass, a number that is none.
 
     >>> end_mass(0.4, angle_deg=180, arm_mm=50).arm
     0.05
@@ -156,15 +187,19 @@ def place(
     pin_deg: float = 0.0,
     master: int | None = None,
 ) -> Cylinder:
-    """Place of one cylinder, for layouts that ``banks`` and ``opposed`` do not make.
+    """Return the place of one cylinder, for layouts that ``banks`` and ``opposed`` do not make.
 
     Args:
         throw: its throw, from 0 at the nose.
         axis_deg: its axis from that of cylinder 1, clockwise seen from the nose [°].
-        rod_place: where on the pin its rod stands, 0 nearest to the nose, 1 farthest.
+        rod_place: where on the pin its rod stands, 0 nearest to the nose, 1 farthest [-],
+            Gots figure 36.
         pin: which part of a split pin, from 0.
         pin_deg: how far this part stands ahead of the throw [°].
         master: number from 0 of the cylinder on whose rod this one's hangs.
+
+    Raises:
+        InputError: a number that no place has.
 
     >>> places = [place(0), place(0, axis_deg=90, rod_place=1)]  # a V of two on one throw
     >>> round(places[1].axis, 4)
@@ -181,15 +216,18 @@ def banks(
     pins_deg: Collection[float] | None = None,
     articulated: bool = False,
 ) -> Arrangement:
-    """Places of V, W and radial engines: every throw carries a rod of every bank.
+    """Return places of V, W and radial engines: a rod of every bank on each throw, Gots 2.7.2.
 
     The first bank has cylinders 1 … n from the nose, the second n + 1 … 2n, and so on.
 
     Args:
         throws: number of throws, 1 for a radial engine of one row.
-        axes_deg: axes of the banks, clockwise seen from the nose [°].
+        axes_deg: axes of the banks, clockwise seen from the nose, shape (banks,) [°].
         pins_deg: how far each bank's part of a split pin stands ahead of its throw [°].
         articulated: the rods of all banks but the first hang on those of the first.
+
+    Raises:
+        InputError: no throw, no axis, not as many pins as banks.
 
     >>> [cylinder.throw for cylinder in banks(throws=3, axes_deg=[-45, 45])]
     [0, 1, 2, 0, 1, 2]
@@ -209,7 +247,7 @@ def articulated_rod(
     reciprocating_kg: float,
     big_end_kg: float,
 ) -> ArticulatedRod:
-    """Rod that hangs on a master rod, Gots figure 2 в.
+    """Return a rod that hangs on a master rod, Gots figure 2 в.
 
     Args:
         rod_length_mm: its length [mm].
@@ -217,6 +255,9 @@ def articulated_rod(
         angle_deg: angle of that radius from the master rod along the rotation [°].
         reciprocating_kg: m_j of its cylinder [kg].
         big_end_kg: its mass reduced to its pin on the master rod [kg].
+
+    Raises:
+        InputError: a number that no rod has.
 
     >>> articulated_rod(
     ...     rod_length_mm=120, radius_mm=50, angle_deg=60, reciprocating_kg=0.8, big_end_kg=0.3
@@ -264,6 +305,10 @@ def in_line(*, firing_offsets_deg: Collection[float], **numbers: Unpack[EngineNu
     """Return an in-line engine with a central mechanism, of what ``assemble`` takes.
 
     Every cylinder has a throw of its own, cylinder 1 at the nose, γ_i = −θ_i, Gots 2.7.1.
+
+    Args:
+        firing_offsets_deg: θ_i, shape (cylinders,) [°].
+        **numbers: as of ``assemble``.
 
     Raises:
         InputError: lists of the wrong length, a number that no engine has.
@@ -330,7 +375,7 @@ def assemble(
         gas: ``polytropic(...)`` or ``points(...)``.
         reciprocating_kg: reciprocating mass m_j of a cylinder [kg].
         rod_big_end_kg: rod mass m_2 that turns with the crankpin [kg].
-        firing_offsets_deg: θ_i [°], one per cylinder.
+        firing_offsets_deg: θ_i, shape (cylinders,) [°].
         throws: ``throw(...)``, one for all or one each.
         pin_diameter_mm: diameters of the crankpins [mm], one for all or one per throw.
         pin_length_mm: their working lengths under all rods side by side [mm], likewise; of a
@@ -368,20 +413,12 @@ def assemble(
         (mechanical_efficiency == 0, "the mechanical efficiency must be above 0"),
     )
     places = in_row(cylinders) if places is None else tuple(places)
-    refuse(
-        (
-            len(places) != cylinders,
-            f"{len(places)} places need as many firing offsets, not {cylinders}",
-        )
-    )
+    problem = f"{len(places)} places need as many firing offsets, not {cylinders}"
+    refuse((len(places) != cylinders, problem))
     count = 1 + max(each.throw for each in places)
     each_throw = (throws,) * count if isinstance(throws, Throw) else tuple(throws)
-    refuse(
-        (
-            len(each_throw) != count,
-            f"{cylinders} cylinders need throws for {count}, not {len(each_throw)}",
-        )
-    )
+    problem = f"{cylinders} cylinders need throws for {count}, not {len(each_throw)}"
+    refuse((len(each_throw) != count, problem))
     _check_offsets([float(offset) for offset in firing_offsets_deg], 180.0 * strokes)
     offsets = tuple(math.radians(offset) for offset in firing_offsets_deg)
     angles = _throw_angles(places, offsets, count)

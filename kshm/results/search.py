@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.engine.checks import refuse
+from kshm.engine.checks import check_kind, refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import engine_maker
 from kshm.errors import InputError, KshmError, Problem
@@ -56,7 +56,8 @@ def solve_for(
         quantity: key of a scalar, its English name, or a column with its part
             (``P4_1.N_MPa.max``).
         value: of the quantity in its unit.
-        between: least and greatest value of the input; of several solutions the least.
+        between: least and greatest value of the input in its unit; of several solutions the
+            least.
 
     Returns:
         The input, by Brent's method (scipy's ``brentq``), to 10⁻¹⁰ of its range.
@@ -75,6 +76,7 @@ def solve_for(
     """
     optimize = _scipy()
     low, high = _limits(name, between)
+    check_kind("value", value, float)
     refuse((not math.isfinite(value), f"value: must be a finite number, not {value}"))
     search = _QuantitySearch(engine, (name,), quantity)
     inputs = np.linspace(low, high, _SCAN)
@@ -102,7 +104,7 @@ def optimise(
 
     Args:
         engine: the base.
-        vary: least and greatest value of each input by name, as in ``kshm.sweep``.
+        vary: least and greatest value of each input in its unit, by name as in ``kshm.sweep``.
         quantity: as in ``solve_for``.
         most: the greatest in place of the least.
 
@@ -121,6 +123,7 @@ def optimise(
     1000
     """
     optimize = _scipy()
+    check_kind("vary", vary, Mapping)
     refuse(
         (not 1 <= len(vary) <= MAX_NAMES, f"vary: from 1 to {MAX_NAMES} inputs, not {len(vary)}")
     )
@@ -146,6 +149,7 @@ def optimise(
 
 
 def _limits(name: str, between: Collection[float]) -> tuple[float, float]:
+    check_kind("limits", between, Collection[float])
     numbers = [float(each) for each in between]
     if len(numbers) != 2 or not all(map(math.isfinite, numbers)) or numbers[0] >= numbers[1]:
         problem = f"limits must be two numbers that rise, not {between!r}"
@@ -157,6 +161,7 @@ class _QuantitySearch:
     """One quantity of engines that differ in a few numbers."""
 
     def __init__(self, engine: Engine, names: tuple[str, ...], quantity: str) -> None:
+        check_kind("quantity", quantity, str)
         key, dot, _ = quantity.rpartition(".")
         is_part = bool(dot) and "." in key
         self.study = Study.of(engine, names, [key if is_part else quantity])

@@ -13,7 +13,7 @@ from kshm.chain.solve import ChainArrays, solve_batch
 from kshm.chain.stack import structure
 from kshm.cycle.cycle import CycleRun
 from kshm.engine.arrangement import hung
-from kshm.engine.checks import takes_kinds
+from kshm.engine.checks import refuse, takes_kinds
 from kshm.engine.engine import Engine
 from kshm.engine.revised import unknown
 from kshm.engine.source import Further
@@ -72,6 +72,12 @@ def solve(engine: Engine, cycle: CycleRun | None = None) -> Solution:
         engine: the engine.
         cycle: the calculation that its gas comes from, to stand among the results; an engine
             of a file brings its own.
+
+    Returns:
+        Tables of shape (angles,) a column and scalars, in the units of the textbook.
+
+    Raises:
+        InputError: what is no engine, an oil film that does not carry its load.
 
     With ``engine`` as in the example of ``kshm.in_line``:
 
@@ -239,7 +245,14 @@ class Solution:
         return plots_of(self)
 
     def column(self, table: str, key: str) -> Array:
-        """One column in the unit of its quantity; one of the chain asks for nothing more.
+        """Return one column; one of the chain asks for nothing more.
+
+        Args:
+            table: id of the table, as in the book: ``P4_1`` for П4.1 of Gots.
+            key: of the column.
+
+        Returns:
+            In the unit of its quantity, shape (angles,).
 
         Raises:
             UnknownNameError: there is no such column; the hint tells similar ones.
@@ -259,7 +272,10 @@ class Solution:
         return self.columns[table][key]
 
     def scalar(self, key: str) -> float:
-        """One scalar in the unit of its quantity; one of the chain asks for nothing more.
+        """Return one scalar in the unit of its quantity; one of the chain asks for nothing more.
+
+        Args:
+            key: of the scalar, one of those of ``kshm.quantity``.
 
         Raises:
             UnknownNameError: there is no such scalar; the hint tells similar ones.
@@ -277,7 +293,24 @@ class Solution:
         return self.scalars[key]
 
     def joints(self, cylinder: int) -> tuple[tuple[Array, Array], ...]:
-        """Joints of a cylinder's mechanism over one turn of its crank, see `motion.joints`."""
+        """Return the joints of a cylinder's mechanism over one turn of its crank, Gots chapter 1.
+
+        Args:
+            cylinder: its number from 0.
+
+        Returns:
+            Pairs of coordinates x, y [m], each of shape (angles,), from the crankpin on.
+
+        Raises:
+            InputError: there is no such cylinder.
+
+        With ``engine`` as in the example of ``kshm.in_line``:
+
+        >>> [len(joint) for joint in solve(engine).joints(0)]  # crankpin, piston pin
+        [2, 2]
+        """
+        count = self.engine.cylinders
+        refuse((not 0 <= cylinder < count, f"cylinder: from 0 to {count - 1}, not {cylinder}"))
         return motion.joints(
             self._case, is_hung=self.engine.arrangement[cylinder].master is not None
         )

@@ -21,7 +21,7 @@ from kshm.arrays import Array
 from kshm.chain.solve import chunk_size, solve_batch
 from kshm.chain.stack import structure
 from kshm.cycle.cycle import CycleRun
-from kshm.engine.checks import refuse
+from kshm.engine.checks import as_scalar, check_kind, refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import VARIED, engine_maker
 from kshm.engine.source import MakeEngine
@@ -72,7 +72,8 @@ def sweep(
         engine: the base.
         vary: values by name: a key of the file that the engine was read from, in the file's units
             (``geometry.bore_mm``, ``crankshaft.webs.*.counterweight_kg``), a name of
-            ``kshm.assemble`` (``bore_mm``), or a path within the engine in SI (``geometry.bore``).
+            ``kshm.assemble`` (``bore_mm``), or a path within the engine in SI (``geometry.bore``);
+            each list of shape (values,), in the unit of its name.
         quantities: keys of scalars (``M_mean``), English names (``loads.crankpin_max``), columns
             of tables (``P4_1.N_MPa``), which give ``.max``, ``.max_deg``, ``.min``, ``.min_deg``
             and ``.mean``.
@@ -136,8 +137,12 @@ class Study:
         Raises:
             InputError: a name or a quantity that there is not.
         """
+        check_kind("engine", engine, Engine)
+        refuse(
+            (isinstance(quantities, str), "quantities: must be a list of keys, not a text"),
+            (not isinstance(quantities, Collection), "quantities: must be a list of keys"),
+        )
         engine_maker(engine, names)
-        refuse((isinstance(quantities, str), "quantities: must be a list of keys, not a text"))
         chosen = choose(solve_batch([engine]), quantities, cycle_of(engine))
         return cls(engine, names, chosen)
 
@@ -227,7 +232,7 @@ def _checked(vary: Mapping[str, Collection[float]]) -> dict[str, tuple[float, ..
     lists = {}
     for name, values in vary.items():
         one = isinstance(values, Real | str) or not isinstance(values, Collection)
-        each = () if one else tuple(values)
+        each = () if one else tuple(map(as_scalar, values))
         if not each:
             problem = "the list of values is empty" if not one else "must be a list of numbers"
             raise InputError(Problem(one_line(str(name), 80), problem, "e.g. [84, 88, 92]"))
@@ -235,11 +240,11 @@ def _checked(vary: Mapping[str, Collection[float]]) -> dict[str, tuple[float, ..
             if not isinstance(value, Real) or isinstance(value, bool):
                 problem = f"must be a number, not {one_line(repr(value), 40)}"
                 raise InputError(Problem(one_line(str(name), 80), problem, value=value))
-        lists[name] = tuple(map(_plain, each))
+        lists[name] = tuple(map(_whole_or_float, each))
     return lists
 
 
-def _plain(value: float) -> float:
+def _whole_or_float(value: float) -> float:
     """Return Python's own number; a whole one stays whole, as files want it."""
     return int(value) if isinstance(value, int | np.integer) else float(value)
 
@@ -268,6 +273,7 @@ def in_order(
     Raises:
         InputError: there is no process to work.
     """
+    check_kind("jobs", jobs, int)
     refuse((jobs < 1, f"jobs: must be 1 or more, not {jobs}"))
     told = _Told(len(rows), progress)
     for part in _solved(study, _chunks(rows, study.size), jobs):

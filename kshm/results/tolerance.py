@@ -8,12 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.engine.checks import refuse
+from kshm.engine.checks import as_scalar, check_kind, refuse
 from kshm.engine.engine import Engine
 from kshm.engine.revised import find
 from kshm.errors import InputError, KshmError, Problem
@@ -128,6 +129,9 @@ def tolerance(
     0.152
     """
     qmc = _sampler()
+    check_kind("engine", engine, Engine)
+    check_kind("tolerances", tolerances, Mapping)
+    check_kind("samples", samples, int)
     refuse(
         (not tolerances, "name a tolerance"),
         (not MIN_SAMPLES <= samples <= MAX_SAMPLES,
@@ -172,7 +176,7 @@ def _spans(engine: Engine, tolerances: Mapping[str, float]) -> dict[str, tuple[f
         source = None
     spans: dict[str, tuple[float, float]] = {}
     for name, half in tolerances.items():
-        number = float(half) if isinstance(half, int | float | np.number) else math.nan
+        number = float(half) if isinstance(as_scalar(half), Real) else math.nan
         if not (math.isfinite(number) and number > 0):
             problem = f"the tolerance must be a positive number, not {half!r}"
             raise InputError(Problem(str(name), problem, "e.g. 0.02", (0.0, None), half))

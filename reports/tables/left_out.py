@@ -51,8 +51,8 @@ def left_out_note(model: InputFile) -> str:
     # «Уравновешивание» stands for «Уравновешивание, итоги» and «…, суммы» too.
     named = [f"«{s}»" for s in sheets if (base := s.partition(", ")[0]) == s or base not in sheets]
     return (
-        f"Не рассчитано из-за {without_orders(model)} (ряды по порядкам описывают центральный "
-        f"механизм с одинаковыми шатунами), в книге нет листов {', '.join(named)}"
+        f"Не рассчитано из-за {without_orders(model)} (ряды — для центрального механизма): "
+        f"листы {', '.join(named)}"
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import doctest
 import io
 import pydoc
 import re
@@ -20,6 +19,7 @@ import kshm
 import reports
 from kshm import end_mass, in_line, points, polytropic, quantity, solve, throw
 from reports.inputs.to_si.engine import engine_and_cycle
+from tests.api.conftest import run_text
 from tests.api.public_names import lines
 from tests.conftest import sample
 from tests.manual.pages import DOCS, ROOT, blocks
@@ -87,28 +87,11 @@ def test_what_is_imported_when() -> None:
     assert (ROOT / "reports" / "py.typed").exists()
 
 
-@pytest.fixture(scope="module")
-def example_names() -> dict:
-    """Names of the package and those that the example of ``in_line`` makes for the others."""
-    names = {name: getattr(kshm, name) for name in kshm.__all__}
-    run_example("in_line", names)
-    return names
-
-
 def run_example(name: str, names: dict, package: ModuleType = kshm) -> None:
-    text = attrgetter(name)(package).__doc__
-    test = doctest.DocTestParser().get_doctest(text, names, name, None, None)
-    test.globs = names
-    assert test.examples, f"{name} has no example"
-    said: list[str] = []
-    result = doctest.DocTestRunner().run(test, out=said.append, clear_globs=False)
-    assert result.failed == 0, "".join(said)
+    run_text(name, attrgetter(name)(package).__doc__, names)
 
 
-METHODS = ("Engine.with_", "Solution.column", "Solution.scalar")
-
-
-@pytest.mark.parametrize("name", [*kshm.__all__, *METHODS])
+@pytest.mark.parametrize("name", kshm.__all__)
 def test_every_public_name_has_an_example_that_runs(name: str, example_names: dict) -> None:
     run_example(name, dict(example_names))
 
@@ -123,13 +106,18 @@ def test_every_name_of_the_report_engine_has_one(
 
 @pytest.mark.parametrize("package", [kshm, reports])
 def test_tab_and_help_list_the_public_names_alone(package: ModuleType) -> None:
+    """Beside them `help` lists the modules of a package: no package can hide those."""
     code = f"import {package.__name__} as p; print(*dir(p)); print(*dir(p))"
     said = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )
     assert said.stdout.splitlines() == [" ".join(sorted(package.__all__))] * 2
     text = pydoc.plain(pydoc.render_doc(package))
-    assert all(re.search(rf"^    (class )?{name}\b", text, re.MULTILINE) for name in dir(package))
+    sections = dict(re.findall(r"^([A-Z ]+)\n((?:(?: .*)?\n)+)", text, re.MULTILINE))
+    told = {"NAME", "DESCRIPTION", "PACKAGE CONTENTS", "CLASSES", "FUNCTIONS", "VERSION", "FILE"}
+    assert sections.keys() <= told
+    listed = "".join(sections.get(name, "") for name in ("CLASSES", "FUNCTIONS"))
+    assert set(re.findall(r"^    (?:class )?(\w+)\(", listed, re.MULTILINE)) == set(dir(package))
 
 
 def test_a_wrong_example_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

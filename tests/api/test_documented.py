@@ -6,6 +6,7 @@ import copy
 import io
 import json
 import pickle
+import re
 import runpy
 import subprocess
 import sys
@@ -27,14 +28,22 @@ from tests.manual.pages import DOCS, blocks
 SCRIPT = Path(__file__).parent / "documented.py"
 
 
-def test_a_notebooks_way_through_the_names(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
+def test_a_notebooks_way_through_the_names(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     names = runpy.run_path(str(SCRIPT))
     assert names["same"] == names["also"] == names["engine"]
     assert names["peak"] == names["again"][0] and names["again"][1:] == [names["solution"]] * 2
     assert names["study"].shape == (6, 9) and not names["study"]["error"].any()
     assert names["torque"].shape == (2,) and names["wide"].geometry.bore == 0.09
     assert names["svg"].startswith("<svg") and "Rш.ш" in names["said"]
+    assert [path.suffix for path in names["files"]] == [".xlsx", ".html"]
+    assert abs(names["root"].result - 0.02) < 1e-9
+    assert 0.2 < names["lighter"]["crankshaft.webs.*.counterweight_kg"] < 3
+    text = SCRIPT.read_text(encoding="utf-8")
+    for package in (kshm, reports):
+        for name in package.__all__:
+            assert re.search(rf"\b{package.__name__}\.{name}\b", text), name
 
 
 @pytest.mark.parametrize("source", ["script", "page"])

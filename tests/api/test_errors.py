@@ -82,6 +82,48 @@ def test_numbers_of_other_libraries_are_numbers() -> None:
         assert reports.load(data(section, key, value)) == engine
 
 
+def test_an_array_without_dimensions_is_the_number_that_it_holds() -> None:
+    zero = np.array  # of one number
+    engine, base = reports.load("gots-diesel"), small()
+    named = {"bore_mm": zero(80), "compression_ratio": zero(9.0), "step_deg": zero(30),
+             "firing_offsets_deg": [zero(0.0)], "pin_diameter_mm": zero(45), "wear_rays": zero(12),
+             "main_lengths_mm": [zero(28), zero(28.0)]}  # fmt: skip
+    assert small(**named) == base and hash(small(**named)) == hash(base)
+    made = kshm.throw(arms_mm=[zero(30)] * 6, web_kg=zero(0.3), pin_kg=zero(0.2))
+    assert made == kshm.throw(arms_mm=[30] * 6, web_kg=0.3, pin_kg=0.2)
+    assert kshm.end_mass(zero(0.1), zero(0), zero(50)) == kshm.end_mass(0.1, 0, 50)
+    assert kshm.points([zero(0), zero(360), 720], [zero(0.1), 4, 0.1]) == kshm.points(
+        [0, 360, 720], [0.1, 4.0, 0.1]
+    )
+    assert reports.load(data("geometry", "bore_mm", zero(88.0))) == engine
+    assert reports.load(data("engine", "cylinders", zero(3))) == engine
+    for start in (engine, base):
+        assert start.with_(bore_mm=zero(90)) == start.with_(bore_mm=90)
+        assert start.with_({"geometry.bore": zero(0.09)}) == start.with_({"geometry.bore": 0.09})
+        one, other = (
+            kshm.sweep(start, {"bore_mm": values}, quantities=["V_h"])
+            for values in ([zero(84), zero(85.0)], [84, 85.0])
+        )
+        assert one.equals(other)
+    by_number, by_array = (
+        kshm.tolerance(engine, {"bore_mm": half}, quantities=["V_h"], samples=20).table
+        for half in (0.02, zero(0.02))
+    )
+    assert by_number.equals(by_array)
+    roots = [
+        kshm.solve_for(engine, "speed_rpm", "c_m", value, between=(low, 6000)).values
+        for value, low in ((10.0, 1000.0), (zero(10), zero(1000)))
+    ]
+    assert roots[0] == roots[1]
+    with_arrays = kshm.Engine.with_(base, {"crankshaft.nose.mass": zero(0.2)})
+    assert kshm.solve(with_arrays) == kshm.solve(base.with_({"crankshaft.nose.mass": 0.2}))
+    geometry = type(base.geometry)(zero(0.08), zero(0.04), zero(0.14), zero(9.0))
+    assert geometry == base.geometry and hash(geometry) == hash(base.geometry)
+    for wrong in (zero("88"), zero(None), zero([88.0])):
+        with pytest.raises(kshm.InputError, match="bore_mm: must be a number, not array"):
+            small(bore_mm=wrong)
+
+
 def test_what_the_solver_refuses_says_where_and_within_which_limits() -> None:
     with pytest.raises(kshm.InputError) as caught:
         small(bore_mm=np.float32("nan"))

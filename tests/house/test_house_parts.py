@@ -1,5 +1,7 @@
 """Errors, resources, progress and the doctor."""
 
+import ast
+import builtins
 import ctypes
 import io
 import subprocess
@@ -157,3 +159,28 @@ def test_what_no_user_needs_is_no_failure(monkeypatch):
     done = CliRunner().invoke(main, ["doctor"])
     assert done.exit_code == 0, done.output
     assert done.output.count("установить: ") == 1 and " нет  LibreOffice" in done.output
+
+
+def test_errors_stand_in_two_trees():
+    """The solver's and the report engine's; another file raises theirs."""
+    homes = {"kshm/errors.py", "reports/shared/errors.py"}
+    names = {name for name in vars(builtins) if name.endswith(("Error", "Exception"))}
+    names |= {name for home in homes for name in _classes(ROOT / home)}
+    elsewhere = [
+        f"{path.relative_to(ROOT)}: {name}"
+        for folder in ("kshm", "reports")
+        for path in (ROOT / folder).rglob("*.py")
+        if path.relative_to(ROOT).as_posix() not in homes
+        for name, bases in _classes(path).items()
+        if bases & names
+    ]
+    assert elsewhere == []
+
+
+def _classes(path: Path) -> dict[str, set[str]]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {
+        node.name: {base.id for base in node.bases if isinstance(base, ast.Name)}
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ClassDef)
+    }

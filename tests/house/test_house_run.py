@@ -1,6 +1,7 @@
 """The `run` script with a ready environment and a pretended system."""
 
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -415,6 +416,22 @@ def test_no_address_in_the_constraints():
 def test_windows_script_has_windows_line_ends():
     data = (ROOT / "run.cmd").read_bytes()
     assert data.count(b"\r\n") == data.count(b"\n") > 40
+
+
+def test_windows_script_is_read_by_its_interpreter():
+    lines = (ROOT / "run.cmd").read_text(encoding="utf-8").lower().splitlines()
+    labels = {line[1:].strip() for line in lines if re.match(r":\w", line)}
+    text = "\n".join(line for line in lines if not line.startswith("rem "))
+    assert set(re.findall(r"(?:goto|call) :?(\w+)", text)) <= labels
+    # A bracket in a name closes a list of "for" that holds the arguments.
+    assert not re.search(r"\(%\*\)", text)
+    # The one way out of the whole goes by the window's own code page.
+    main = text.index("\n:main\n")
+    assert text[:main].rstrip().endswith("chcp %page% >nul\nexit /b %code%")
+    assert text.index("'chcp'") < text.index("chcp 65001") and text.count("chcp 65001") == 1
+    # Where py is old, python is tried.
+    assert re.findall(r"call :try (.*)", text) == ["py -3", "python", "python3"]
+    assert not re.search(r"^\s*exit\b(?! /b)", text, re.MULTILINE)
 
 
 @pytest.mark.parametrize(

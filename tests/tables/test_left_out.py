@@ -71,7 +71,7 @@ def test_an_offset_names_every_sheet_that_it_costs(capsys: pytest.CaptureFixture
     sheets = {table.sheet for table in central.tables.values() if table.id in lost}
     assert sheets.isdisjoint(block.sheet for block in model.blocks)
     assert all(f"«{sheet}»" in note for sheet in sheets) and not re.search("[a-z]", note)
-    assert note in model.remarks and len(note) < 400
+    assert note in model.remarks and len(note) < 250
     solution = solve(*engine_and_cycle(loaded.model))
     assert json.loads(json_text(loaded.model, solution, notes_of(loaded)))["notes"] == [note]
     assert "notes" not in json.loads(json_text(loaded.model, solution))

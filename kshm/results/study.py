@@ -13,7 +13,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from numbers import Real
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -192,12 +192,12 @@ class Study:
 
         rows = [row for part in parts for row in part.rows]
         empty = np.empty(0)
-        values = {
-            name: np.concatenate([empty, *(part.values[name] for part in parts)])
-            for name in self.chosen.names
-        }
-        errors = [error for part in parts for error in part.errors]
-        frame = pd.DataFrame(rows, columns=[*self.names]).assign(**values, **{ERROR: errors})
+        inputs = dict(zip(self.names, zip(*rows, strict=True), strict=True)) if rows else {}
+        columns: dict[str, Any] = {name: inputs.get(name, ()) for name in self.names}
+        for name in self.chosen.names:
+            columns[name] = np.concatenate([empty, *(part.values[name] for part in parts)])
+        columns[ERROR] = [error for part in parts for error in part.errors]
+        frame = pd.DataFrame(columns)
         descriptions = {name: described(name, self.chosen) for name in self.chosen.names}
         frame.attrs["units"] = {name: self._unit(name) for name in self.names}
         frame.attrs["units"] |= {name: unit for name, (_, unit) in descriptions.items()}

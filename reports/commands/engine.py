@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 @click.option("--fuel", "--kind", "kind", type=click.Choice(["diesel", "petrol"]),
               help="Дизель или с искровым зажиганием.")  # fmt: skip
 @click.option("--strength", is_flag=True, help="Добавить прочность деталей с обычными размерами.")
-@click.option("--cycle", is_flag=True, help="Давления из расчёта рабочего цикла: раздел [cycle].")
+@click.option("--cycle", is_flag=True, help="Давления из рабочего цикла, подобранного по мощности.")
 @number_option("--power", "power_kw", "кВт", "Эффективная мощность, кВт.")
 @number_option("--speed", "speed_rpm", "МИН⁻¹", "Частота вращения, мин⁻¹.")
 @number_option("--bore", "bore_mm", "ММ", "Диаметр цилиндра, мм.")

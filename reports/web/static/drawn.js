@@ -156,7 +156,8 @@ function draw(canvas, own, datasets, color) {
   });
   const onZoomComplete = () => { canvas.closest("figure").classList.add("zoomed"); state.follow(); };
   const options = {
-    animation: false, parsing: false, locale: "ru", maintainAspectRatio: false, onResize: () => requestAnimationFrame(() => state.follow()),
+    // Data that are not parsed are taken for sorted by x, which the volume is not.
+    animation: false, parsing: isLine && !own.x_is_angle, locale: "ru", maintainAspectRatio: false, onResize: () => requestAnimationFrame(() => state.follow()),
     events: ["mousemove", "mouseout"],
     interaction: {mode: "nearest", axis: own.x_is_angle ? "x" : "xy", intersect: false},
     elements: {point: {radius: 0, hitRadius: 8}, line: {borderWidth: 2}},

@@ -128,7 +128,7 @@ def _children(job: str) -> list[int]:
 
 
 def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
-    with serving(tmp_path) as served, httpx2.Client(headers=MARK, trust_env=False) as web:
+    with serving(tmp_path) as served, httpx2.Client(headers=MARK, trust_env=False, timeout=60) as web:
         raw = web.post(f"{served.page}api/new", json={"sample": "gots-diesel"}).json()["raw"]
         order = {"raw": raw, "kind": "xlsx"}
         job = web.post(f"{served.page}api/files", json=order).json()["id"]
@@ -140,7 +140,7 @@ def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
         until(lambda: not _children(job), seconds=3)  # what it made ends with it
     folder = tmp_path / "jobs" / job
     assert (folder / "order.json").exists() and not (folder / "done.json").exists()
-    with serving(tmp_path) as served, httpx2.Client(trust_env=False) as web:
+    with serving(tmp_path) as served, httpx2.Client(trust_env=False, timeout=60) as web:
         until(lambda: web.get(served.page + about).json()["state"] == "done")
         assert web.get(served.page + about).json()["files"][0]["file"] == "engine.xlsx"
 

@@ -128,7 +128,10 @@ def _children(job: str) -> list[int]:
 
 
 def test_a_killed_server_makes_its_job_again(tmp_path: Path) -> None:
-    with serving(tmp_path) as served, httpx2.Client(headers=MARK, trust_env=False, timeout=60) as web:
+    with (
+        serving(tmp_path) as served,
+        httpx2.Client(headers=MARK, trust_env=False, timeout=60) as web,
+    ):
         raw = web.post(f"{served.page}api/new", json={"sample": "gots-diesel"}).json()["raw"]
         order = {"raw": raw, "kind": "xlsx"}
         job = web.post(f"{served.page}api/files", json=order).json()["id"]

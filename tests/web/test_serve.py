@@ -32,7 +32,10 @@ def test_a_second_server_on_one_folder_is_refused(served: Served) -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes of Linux")
 def test_nothing_outlives_a_killed_server_and_what_is_half_made_goes(tmp_path: Path) -> None:
-    with serving(tmp_path) as server, httpx2.Client(headers=MARK, trust_env=False, timeout=60) as web:
+    with (
+        serving(tmp_path) as server,
+        httpx2.Client(headers=MARK, trust_env=False, timeout=60) as web,
+    ):
         raw = web.post(f"{server.page}api/new", json={"sample": "gots-diesel"}).json()["raw"]
         web.post(f"{server.page}api/files", json={"raw": raw, "kind": "pdf"})
         time.sleep(2.5)

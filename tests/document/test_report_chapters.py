@@ -177,7 +177,10 @@ def test_safety_by_bending_follows_from_the_printed_stresses():
 
 def test_symbols_of_the_film_are_told():
     text = words_of("d-240-bearings", "course")
-    assert "F — нагрузка подшипника" in text and "ωцап и ωвкл — угловые скорости шейки и вкладыша" in text
+    assert (
+        "F — нагрузка подшипника" in text
+        and "ωцап и ωвкл — угловые скорости шейки и вкладыша" in text
+    )
 
 
 # --- what is given, what follows ---

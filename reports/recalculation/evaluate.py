@@ -198,24 +198,24 @@ class Evaluator:
     def _reads_doubtful(self, run: Run) -> bool:
         """Whether a run calculates with a text that only some spreadsheets take for a number."""
         return any(
-            area.sheet == sheet
-            and area.first_column <= column <= area.last_column
+            area.first_column <= column <= area.last_column
             and area.first_row <= row <= area.last_row
             and (reference.spread or is_doubtful(text))
             for reference, area in (self.grid.located(run) if self._doubtful else ())
             if not reference.whole
-            for sheet, column, row, text in self._doubtful
+            for column, row, text in self._doubtful.get(area.sheet, ())
         )
 
     @cached_property
-    def _doubtful(self) -> list[tuple[str, int, int, str]]:
-        return [
-            (sheet, number, row, value)
-            for sheet, columns in self.grid.sheets.items()
-            for number, column in columns.items()
-            for row, value in column.constants.items()
-            if isinstance(value, str) and is_doubtful(value, in_product=True)
-        ]
+    def _doubtful(self) -> dict[str, list[tuple[int, int, str]]]:
+        """Column, row and text of such cells by sheets."""
+        cells: dict[str, list[tuple[int, int, str]]] = {}
+        for sheet, columns in self.grid.sheets.items():
+            for number, column in columns.items():
+                for row, value in column.constants.items():
+                    if isinstance(value, str) and is_doubtful(value, in_product=True):
+                        cells.setdefault(sheet, []).append((number, row, value))
+        return cells
 
     # --- formualizer ----------------------------------------------------------------------
 
@@ -292,6 +292,10 @@ def _numbers(values: list[Any]) -> tuple[Array, str]:
     Raises:
         UnknownFormula: it could not tell one of them.
     """
+    if all(type(value) is float for value in values):
+        numbers = np.array(values)
+        if np.isfinite(numbers).all():
+            return numbers, NUMBER * len(values)
     numbers = np.full(len(values), np.nan)
     kinds = []
     for index, value in enumerate(values):

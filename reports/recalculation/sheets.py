@@ -26,7 +26,6 @@ from reports.recalculation.grid import (
 from reports.shared.errors import BadBook, UnknownFormula
 
 _SAVED = re.compile(rb"<v>([^<]+)</v>")
-_VALUES = re.compile(rb"(?<=<v>)[^<]+(?=</v>)")
 _LOOKS = re.compile(
     rb' (?:s|ht|spans|customFormat|customHeight|x14ac:dyDescent)="[\w.: ]*"(?=[ />])'
 )
@@ -77,13 +76,12 @@ class Forms:
 
     def fill(self, grid: CellGrid, title: str, data: bytes, strings: list[str]) -> bool:
         """Put a sheet of a known form into a grid; False where it must be parsed."""
-        key = _key(title, data)
+        key, texts = _split(title, data)
         form = self._known.get(key)
         if form is None or grid.cells + form[1] > MAX_CELLS:
             return False
         self._known[key] = self._known.pop(key)  # used last, dropped last
         parts, cells = form
-        texts = _SAVED.findall(data)
         try:
             columns = {number: _filled(part, texts, strings) for number, part in parts.items()}
         except (ValueError, IndexError):  # the parser says what is wrong
@@ -94,7 +92,7 @@ class Forms:
 
     def learn(self, grid: CellGrid, title: str, data: bytes, cells: int, parse: Parser) -> None:
         """Keep the form of a sheet that was just parsed, when it has come for the second time."""
-        key = _key(title, data)
+        key, _ = _split(title, data)
         while len(self._known) >= _MAX_FORMS:
             self._known.pop(next(iter(self._known)))
         if key not in self._known:
@@ -123,9 +121,11 @@ class Forms:
         self._known[key] = (parts, cells)
 
 
-def _key(title: str, data: bytes) -> tuple[str, bytes]:
-    """Title and digest of a sheet without its values and its looks."""
-    return title, blake2b(_LOOKS.sub(b"", _VALUES.sub(b"#", data))).digest()
+def _split(title: str, data: bytes) -> tuple[tuple[str, bytes], list[bytes]]:
+    """Title and digest of a sheet without its values and its looks; the values."""
+    parts = _SAVED.split(data)
+    frame = b"<v>#</v>".join(parts[::2])
+    return (title, blake2b(_LOOKS.sub(b"", frame)).digest()), parts[1::2]
 
 
 def _part(column: CellColumn, slots: list[tuple[int, Slot]]) -> _FormColumn:

@@ -286,6 +286,7 @@ def _is_compared(tokens: Sequence[tuple[str, str]], at: int, end: int) -> bool:
     return any(token in _COMPARISONS for token in beside)
 
 
+@lru_cache(maxsize=20_000)  # the issued numbers of a class come again in each book
 def full(number: float) -> float:
     """Return a number, or what it is the first digits of: π and its usual multiples."""
     return next((x for x in _FULL if 1e-14 < abs(number / x - 1) < _NEAR), number)

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from reports.grading.judging import verdicts
 from reports.grading.judging.marking import Marker
+from reports.grading.judging.verdicts import proven
 from reports.grading.reading.student import StudentBook
 from reports.grading.reading.submissions import Submission
 from reports.model.evaluation import evaluate_model
@@ -49,6 +51,23 @@ def test_a_right_book_is_not_calculated_again(marker, monkeypatch):
 
     monkeypatch.setattr(evaluate, "plain_book", never)
     assert mark(marker, right())["points"] == 100
+
+
+@pytest.mark.parametrize("changes", [{}, HALF])
+def test_what_is_proven_is_what_the_rules_say(marker, monkeypatch, changes):
+    data = as_excel(filled_book(classroom.handout(), classroom.assignment(), changes))
+    shortened: list[str] = []
+
+    def counted(evidence):
+        judgement = proven(evidence)
+        shortened.extend([evidence.item.id] if judgement else [])
+        return judgement
+
+    monkeypatch.setattr(verdicts, "proven", counted)
+    at_once = mark(marker, data)
+    assert len(shortened) >= (10 if changes else 40)
+    monkeypatch.setattr(verdicts, "proven", lambda evidence: None)
+    assert mark(marker, data) == at_once
 
 
 RING = {"E": "G{r}-F{r}", "F": "G{r}-E{r}", "G": "E{r}+F{r}"}

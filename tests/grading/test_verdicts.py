@@ -142,6 +142,37 @@ def test_a_usual_mistake_is_named(item, change, cause):
     assert set(others.values()) <= {"carried"}
 
 
+WRITTEN = {
+    "geometry.j_tdc": ("=r_crank*(omega*(1+lam))^2", "(1 + λ) в квадрате, а надо в первой степени"),
+    "geometry.F_piston": ("=PI()*geometry_bore_mm/1000/4",
+                          "не возведено в квадрат: диаметр цилиндра"),
+    "P3_1.s1_mm": ("=r_crank*(1-COS(RADIANS(A{r}/2)))*1000",
+                   "угол φ/2 вместо φ под знаком sin, cos"),
+    "P3_1.s2_mm": ("=r_crank*lam/4*(1-COS(RADIANS(A{r})))*1000",
+                   "угол φ вместо 2φ под знаком sin, cos"),
+    "P3_1.s_mm": ("=B{r}-C{r}", "знак слагаемого sп2"),
+    "P3_1.j_m_s2": ("=H{r}*I{r}", "умножение вместо сложения или наоборот"),
+    "P3_2.beta_rad": ("=ATAN(lam*SIN(RADIANS(A{r})))", "ATAN вместо ASIN"),
+    "P4_1.Pj_MPa": ("=-m_r*K{r}/F_piston/10^6", "масса mr вместо mj"),
+    "P4_1.T_MPa": ("=D{r}*SIN(RADIANS(A{r})-J{r})/COS(J{r})", "знак слагаемого β"),
+}  # fmt: skip
+
+
+def test_what_students_write_is_named_as_a_teacher_would():
+    """All in one book: each is looked at by the student's own values."""
+    own = formulas()
+    changes = {
+        node.removeprefix("geometry."): [
+            text.replace("{r}", str(row))
+            for row, _ in enumerate(own[node.removeprefix("geometry.")], 6)
+        ]
+        for node, (text, _) in WRITTEN.items()
+    }
+    result = graded(changes)
+    causes = {node: line(result, node)["cause"] for node in WRITTEN}
+    assert causes == {node: words for node, (_, words) in WRITTEN.items()}
+
+
 def test_typed_numbers_are_told_from_formulas():
     values = classroom.marker().assignment(classroom.book())[0]
     right = evaluate_model(values.model).columns["P3_1"]["v1_m_s"]

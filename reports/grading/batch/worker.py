@@ -14,6 +14,7 @@ from reports.grading.issuing.register import load_register
 from reports.grading.judging.marking import Marker
 from reports.grading.pages.pages import student_page
 from reports.grading.reading.submissions import Submission
+from reports.shared.gc_pause import uncollected
 
 assert formualizer
 assert lxml.etree
@@ -25,7 +26,8 @@ def marking(register_folder: Path) -> Callable[[Submission], tuple[dict[str, Any
     marker = Marker(load_register(register_folder))
 
     def mark(submission: Submission) -> tuple[dict[str, Any], str]:
-        result = marker.mark(submission, submission.read())
-        return result, student_page(result, marker.register.rubric)
+        with uncollected():  # what a work leaves behind is found young, by one look
+            result = marker.mark(submission, submission.read())
+            return result, student_page(result, marker.register.rubric)
 
     return mark

@@ -209,7 +209,8 @@ class Assignment:
 
     def length(self, node: str) -> int:
         """Return number of values of a node."""
-        return len(self.model.tables[node.split(".", maxsplit=1)[0]].rows) if "." in node else 1
+        table, dot, _ = node.partition(".")
+        return len(self.model.tables[table].rows) if dot else 1
 
     @cached_property
     def fill_nodes(self) -> frozenset[str]:

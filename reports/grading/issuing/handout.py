@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import isfinite, sqrt
 
 import numpy as np
 from lxml import etree
@@ -166,13 +166,11 @@ def _charts(assignment: Assignment) -> tuple[ChartSpec, ...]:
 def fill_cells(block: Block, layout: Layout) -> dict[str, list[Cell]]:
     """Node → its cells in the book, for a block."""
     if isinstance(block, TableSpec):
+        at_rows = layout.rows_of(block)
+        nodes = [f"{block.id}.{c.key}" for c in block.columns if c.expr is not None]
+        columns = {node: layout.column_of(node) for node in nodes}
         return {
-            f"{block.id}.{column.key}": [
-                Cell(block.sheet, row, layout.column_of(f"{block.id}.{column.key}"))
-                for row in layout.rows_of(block)
-            ]
-            for column in block.columns
-            if column.expr is not None
+            node: [Cell(block.sheet, row, at) for row in at_rows] for node, at in columns.items()
         }
     rows = [row.cells for row in block.rows] if isinstance(block, Grid) else [block.scalars]
     return {cell.key: [layout.cells[cell.key]] for row in rows for cell in row if cell is not None}
@@ -450,7 +448,7 @@ def _of_sheet(title: str, data: bytes) -> Iterator[tuple[str, list[float]]]:
         numbers = []
         for part in cell:
             tag = str(part.tag).rpartition("}")[2]
-            text = "".join(part.itertext())
+            text = "".join(part.itertext()) if len(part) else part.text or ""
             if tag == "f":  # numbers typed into a formula
                 numbers += [v for v in _numbers(text) if not float(v).is_integer()]
             elif cell.get("t") != "s":
@@ -483,6 +481,6 @@ def _numbers(text: str) -> list[float]:
     numbers = []
     for match in _NUMBER.findall(text):
         value = float(match.replace(",", ".").replace("\u2212", "-"))
-        if np.isfinite(value):
+        if isfinite(value):
             numbers.append(value)
     return numbers

@@ -25,7 +25,7 @@ from reports.grading.judging.judgement import (
     values_of,
 )
 from reports.grading.judging.literal_tables import literals, typed_numbers
-from reports.grading.judging.mistakes import OPPOSITE, ROOTLESS, SIGNS, mistakes, symbol_of
+from reports.grading.judging.mistakes import OPPOSITE, ROOTLESS, mistakes, signs, symbol_of
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.reading.student import StudentBook, known_values
@@ -36,7 +36,6 @@ from reports.shared.errors import FormulaError
 from reports.shared.russian import fixed, short, uncapital
 
 _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
-_OF_SIGN = {OPPOSITE, *(words for _, words in SIGNS)}
 _EXACT = "exact"  # in the key of a column by the exact formula
 _VARIED = 4  # different values of a column that tells anything
 Change = Callable[[ast.expr], Any]
@@ -95,7 +94,9 @@ class Causes:
         """Return the same cause in the words of what the student has written."""
         runs = [run for node in item.nodes for run in self.student.runs(node)]
         formulas = [run.formula for run in runs if run.formula is not None]
-        if cause in _OF_SIGN and any(map(squares_a_minus, formulas)):
+        model = self.student.assignment.model
+        of_sign = {OPPOSITE, *signs(self._tree(item.nodes[0]), item.block, model)}
+        if cause in of_sign and any(map(squares_a_minus, formulas)):
             return f"{cause}: −x^2 в таблице — это (−x)², а надо −(x^2)"
         if cause == ROOTLESS and any(map(squares_a_cosine, formulas)):
             return "косинус в квадрате, а надо в первой степени"

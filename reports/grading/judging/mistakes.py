@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, is_known_function, names, parse
 from reports.formula.plain import plain
 from reports.grading.judging.rewriting import (
+    ArcTangent,
     Divided,
     DoubleAngle,
     Flipped,
+    HalfAngle,
     LowerPower,
     OtherExponent,
     OtherPi,
@@ -33,12 +36,14 @@ from reports.grading.judging.rewriting import (
     is_power,
     numbers,
     otherwise,
+    second_operands,
     summands,
+    without_brackets,
     without_radians,
 )
 from reports.model.blocks import Model, TableSpec
 from reports.model.evaluation import node_of
-from reports.shared.russian import short
+from reports.shared.russian import short, uncapital
 
 # Quantities that are taken for each other.
 MIXED = (
@@ -47,8 +52,11 @@ MIXED = (
     ("r_crank", "L_rod", "длина шатуна L вместо радиуса кривошипа r"),
     ("L_rod", "r_crank", "радиус кривошипа r вместо длины шатуна L"),
     ("omega", "regime_speed_rpm", "частота вращения n в мин⁻¹ вместо угловой скорости ω"),
+    ("regime_speed_rpm", "omega", "угловая скорость ω вместо частоты вращения n"),
     ("m_j", "m_2", "масса m2 вместо mj"),
     ("m_2", "m_j", "масса mj вместо m2"),
+    ("m_j", "m_r", "масса mr вместо mj"),
+    ("m_r", "m_j", "масса mj вместо mr"),
     ("m_1", "m_2", "масса m2 вместо m1"),
     ("m_2", "m_1", "масса m1 вместо m2"),
     ("m_1", "masses_rod_kg", "вся масса шатуна вместо m1"),
@@ -63,7 +71,6 @@ MIXED = (
 
 
 OPPOSITE = "обратный знак"
-SIGNS = tuple((number, f"знак слагаемого {number + 2}") for number in range(3))
 
 
 # --- the mistakes --------------------------------------------------------------------------------
@@ -73,7 +80,7 @@ _ARCS = ("asin", "acos", "tan")
 # Conversions, not quantities.
 _UNSQUARED = ("rad(", "deg(", "to_", "of_", "sqrt(")
 _DIVISORS = (2, 4)
-_PRODUCTS = 4  # of a formula, in which it may divide instead
+_SIGNS, _PRODUCTS = 3, 4  # of a formula, in which it may divide instead
 ROOTLESS = "значение под корнем: корень не извлечён"
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
 _POWERS = {2.0: "квадрат", 3.0: "куб"}
@@ -97,9 +104,11 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for taken, words in (("sin", "sin вместо tg"), ("cos", "cos вместо tg")):
         yield words, OtherRatio(None, {"tan": taken}).visit
     yield "угол φ вместо 2φ под знаком sin, cos", SingleAngle().visit
+    yield "угол φ/2 вместо φ под знаком sin, cos", HalfAngle().visit
     yield "угол 4φ вместо 2φ под знаком sin, cos", DoubleAngle().visit
     for right, taken in (("asin", "acos"), ("acos", "asin")):
         yield f"{taken.upper()} вместо {right.upper()}", OtherRatio(None, {right: taken}).visit
+    yield "ATAN вместо ASIN", ArcTangent().visit
     yield "сложены модули вместо корня из суммы квадратов", SumOfSizes().visit
     for name in _ARCS:
         yield f"взят аргумент вместо {name.upper()}", WithoutFunction(name).visit
@@ -122,12 +131,20 @@ def mistakes(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
             yield words + more, Renamed(wrong_for, taken).visit
     for by in _DIVISORS if "lam" in used else ():  # λ/2 of the speed and λ/4 of the path
         yield f"λ/{by} вместо λ", Divided("lam", by).visit
-    for number, words in SIGNS:
+    for number, words in enumerate(signs(tree, block, model)):
         yield words, Flipped(number, ast.Add, ast.Sub).visit
     table = model.tables.get(block)
     yield from _columns(table, used) if table is not None else ()
     for number in range(_PRODUCTS):
         yield "деление вместо умножения или наоборот", Flipped(number, ast.Mult, ast.Div).visit
+    for number in range(_SIGNS):
+        yield "умножение вместо сложения или наоборот", Flipped(number, ast.Add, ast.Mult).visit
+
+
+def signs(tree: ast.expr, block: str, model: Model) -> list[str]:
+    """Words on the sign of each summand of a formula but the first of a sum."""
+    terms = second_operands(tree)[:_SIGNS]
+    return [f"знак слагаемого {_plain(term, block, model)}" for term in terms]
 
 
 def _is_text(name: str, block: str, model: Model) -> bool:
@@ -152,6 +169,8 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     for text in brackets(tree):
         words = _plain(parse(text), block, model)
         yield f"пропущен множитель ({words})", WithoutFactor(text).visit
+        yield f"({words}) в квадрате, а надо в первой степени", Squared(text).visit
+        yield f"нет скобок вокруг {words}", partial(without_brackets, text)
     for number, dropped in enumerate(summands(tree)):
         words = f"пропущено слагаемое {_plain(dropped, block, model)}"
         yield words, WithoutSummand(number).changed
@@ -161,7 +180,7 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         yield f"пропущен множитель {symbol}", WithoutFactor(text).visit
         for exponent in sorted({exponent_of(n) for n in ast.walk(tree) if _is_raised(n, text)}):
             power = _POWERS.get(exponent, f"степень {short(exponent)}")
-            yield f"{symbol} не возведено в {power}", WithoutPower(text).visit
+            yield f"не возведено в {power}: {symbol}", WithoutPower(text).visit
             if exponent > 2:
                 lower = _POWERS.get(exponent - 1, f"степень {short(exponent - 1)}")
                 yield f"{symbol} возведено в {lower}, а надо в {power}", LowerPower(text).visit
@@ -181,7 +200,7 @@ def symbol_of(name: str, block: str, model: Model) -> str:
     node = model.nodes.get(model.grid_runs.get(key, (key,))[0])
     if node is not None:
         return node.quantity.symbol
-    return model.fields[name].title if name in model.fields else name
+    return uncapital(model.fields[name].title) if name in model.fields else name
 
 
 def _plain(tree: ast.expr, block: str, model: Model) -> str:

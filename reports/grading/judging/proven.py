@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reports.grading.judging.trial_evaluation import Trial
+from reports.grading.judging.trial_evaluation import Trial, fixed
 from reports.grading.reading.placement import Location
 from reports.grading.reading.student import StudentBook, covered
 from reports.recalculation.grid import Area, Run
@@ -72,7 +72,7 @@ class Signatures:
     def _held(self) -> dict[tuple[str, int], list[tuple[int, int, Location]]]:
         """First and last row of what stands in a column of a sheet and is alike in every book."""
         student, assignment = self.student, self.student.assignment
-        issued = assignment.model.fields.keys() | rows_as_issued(student)
+        issued = assignment.model.fields.keys() | student.rows_as_issued
         issued |= assignment.fill_nodes | assignment.live_nodes | assignment.given_nodes
         held: dict[tuple[str, int], list[tuple[int, int, Location]]] = {}
         for node, location in student.placement.places.items():
@@ -82,30 +82,18 @@ class Signatures:
         return held
 
 
-def rows_as_issued(student: StudentBook) -> set[str]:
-    """Columns of angles and the like that hold what the tables begin with."""
-    tables = set()
-    for node, location in student.placement.places.items():
-        table = student.assignment.model.tables.get(node.partition(".")[0])
-        to_fill = node in student.assignment.fill_nodes
-        if table is None or to_fill or node not in student.layout.columns:
-            continue
-        constants = student.grid.column(location.sheet, location.column).constants
-        if [constants.get(row) for row in location.rows if row is not None] == list(table.rows):
-            tables.add(node)
-    return tables
-
-
 def settled(student: StudentBook, exact: Mapping[str, bool]) -> frozenset[str]:
     """Nodes that hold what they should; ``exact`` tells whose formulas have followed exactly."""
     assignment = student.assignment
-    issued = assignment.model.fields.keys() | assignment.given_nodes | rows_as_issued(student)
+    issued = assignment.model.fields.keys() | assignment.given_nodes | student.rows_as_issued
     candidates = {node for node, follows in exact.items() if follows and _is_right(student, node)}
     candidates |= {node for node in assignment.live_nodes - student.rewritten if student.runs(node)}
     candidates = {node for node in candidates if not isinstance(student.expected.value(node), str)}
     done: set[str] = set()
-    while ready := {node for node in candidates - done if student.refers(node) <= issued | done}:
+    known = set(issued)
+    while ready := {node for node in candidates - done if student.refers(node) <= known}:
         done |= ready  # from the input data on: a ring of right numbers rests on nothing
+        known |= ready
     return frozenset(done)
 
 
@@ -137,3 +125,13 @@ class Proofs:
 
     trials: tuple[Trial, ...]
     known: dict[tuple[object, ...], bool] = field(default_factory=dict)  # to the last digit or not
+    _varying: dict[str, bool] = field(default_factory=dict)
+
+    def varies(self, node: str) -> bool:
+        """Whether some right value of a node differs between the engines of the trials."""
+        if node not in self._varying:
+            first, *others = self.trials or (None,)
+            self._varying[node] = bool(
+                first and others and not fixed(node, first.expected, others).all()
+            )
+        return self._varying[node]

@@ -27,7 +27,7 @@ def is_power(tree: ast.AST) -> TypeGuard[ast.BinOp]:
     return isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Pow)
 
 
-def _is_sum(tree: ast.AST) -> bool:
+def _is_sum(tree: ast.AST) -> TypeGuard[ast.BinOp]:
     return isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
 
 
@@ -58,6 +58,17 @@ def numbers(tree: ast.expr) -> list[float]:
                 if isinstance(side, ast.Constant) and isinstance(side.value, (int, float)):
                     literals.append(float(side.value))
     return sorted(set(literals) - {1.0})
+
+
+def without_brackets(text: str, tree: ast.expr) -> ast.AST:
+    """Return a formula written without the brackets round a sum: its neighbours take one side."""
+    return ast.parse(ast.unparse(tree).replace(f"({text})", text, 1), mode="eval").body
+
+
+def second_operands(tree: ast.AST) -> list[ast.expr]:
+    """Return what sums and differences add or take away, in the order of ``Flipped``."""
+    operands = [each for side in ast.iter_child_nodes(tree) for each in second_operands(side)]
+    return [*operands, tree.right] if _is_sum(tree) else operands
 
 
 class WithoutSummand(ast.NodeTransformer):
@@ -114,14 +125,16 @@ class WithoutPower(ast.NodeTransformer):
 
 
 class Squared(ast.NodeTransformer):
-    """Squares a name or a function that has no power."""
+    """Squares a name, a function or a sum that has no power."""
 
     def __init__(self, text: str) -> None:
         self.text = text
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        """Keep what has a power as it is."""
-        return node if is_power(node) else self.generic_visit(node)
+        """Keep what has a power as it is, square a sum."""
+        if is_power(node):
+            return node
+        return self._squared(node) if _is_sum(node) else self.generic_visit(node)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         """Pass by the name of a table: it is no quantity."""
@@ -136,9 +149,10 @@ class Squared(ast.NodeTransformer):
         node.args = [self.visit(argument) for argument in node.args]
         return self._squared(node)
 
-    def _squared(self, node: ast.expr) -> ast.expr:
-        is_it = ast.unparse(node) == self.text
-        return ast.BinOp(node, ast.Pow(), ast.Constant(2)) if is_it else node
+    def _squared(self, node: ast.expr) -> ast.AST:
+        if ast.unparse(node) == self.text:
+            return ast.BinOp(node, ast.Pow(), ast.Constant(2))
+        return self.generic_visit(node) if _is_sum(node) else node
 
 
 class WithoutRoot(ast.NodeTransformer):
@@ -188,8 +202,20 @@ class SingleAngle(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         """Return the ratio of the angle itself."""
+        self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in ("sin", "cos"):
             node.args = [WithoutNumber(2.0).visit(argument) for argument in node.args]
+        return node
+
+
+class HalfAngle(ast.NodeTransformer):
+    """Takes the half of an angle in the sines and cosines."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Return the ratio of the half angle."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in ("sin", "cos"):
+            node.args = [ast.BinOp(one, ast.Div(), ast.Constant(2.0)) for one in node.args]
         return node
 
 
@@ -241,6 +267,18 @@ def exponent_of(node: ast.AST) -> float:
         value = node.right.value
         return float(value) if isinstance(value, (int, float)) else 1.0
     return 1.0
+
+
+class ArcTangent(ast.NodeTransformer):
+    """Takes the angle of a tangent for that of a sine."""
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Return the arc tangent, which the language has of two numbers."""
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "asin":
+            node.func = ast.Name("atan2", ast.Load())
+            node.args.append(ast.Constant(1.0))
+        return node
 
 
 class Swapped(ast.NodeTransformer):

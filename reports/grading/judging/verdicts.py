@@ -100,7 +100,9 @@ def _of_cells(item: Item, student: StudentBook, response: FormulaResponse) -> Ju
     if item.quantity.digits.kind == "text":
         return _judge_text(item, student, student.answers[item.nodes[0]])
     evidence = ItemEvidence(item, student, response)
-    judgement = next(filter(None, (rule.judge(evidence) for rule in ITEM_RULES)))
+    judgement = proven(evidence) or next(
+        filter(None, (rule.judge(evidence) for rule in ITEM_RULES))
+    )
     return (
         replace(judgement, reason=TEXT_NUMBER)
         if evidence.odd and not judgement.reason
@@ -191,10 +193,11 @@ class ItemEvidence:
 
         What has followed other input data refers to them, if only by a copy.
         """
+        if _is_linked(self.item, self.student):
+            return False
         words = decide(CELL_RULES, self.cells(unlinked=False), len(self.letters))
         pairs = zip(words, self.still, strict=True)
-        follows = not self.plain and any(w == RIGHT and not fixed for w, fixed in pairs)
-        return not follows and not _is_linked(self.item, self.student)
+        return self.plain or not any(w == RIGHT and not fixed for w, fixed in pairs)
 
     @cached_property
     def words(self) -> list[str]:
@@ -205,10 +208,12 @@ class ItemEvidence:
         """Return the evidence of each cell."""
         # A nought typed in among formulas is one; a column typed in is numbers throughout.
         among = len(self.formulas) >= _ENOUGH * len(self.letters)
+        among = among and say.NOTHING in self.letters
         letters = np.array(list(self.letters))
         follows = (letters == say.RIGHT) | (letters == say.ROUNDED) | (letters == say.IDLE)
         return CellEvidence(np.array(list(self.kinds)), letters, letters == say.NOTHING, follows,
-                            self.good, self.still & among, unlinked, self.plain)  # fmt: skip
+                            self.good, self.still if among else letters == "",
+                            unlinked, self.plain)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,6 +260,15 @@ class ItemRule:
 
     name: str
     judge: Callable[[ItemEvidence], Judgement | None]
+
+
+def proven(e: ItemEvidence) -> Judgement | None:
+    """Right without a look at each cell: what the rules say of settled formulas that respond."""
+    nodes = e.item.nodes
+    varies = e.student.is_settled(nodes) and all(map(e.response.proofs.varies, nodes))
+    if not varies or e.plain or set(e.letters) != {say.RIGHT}:
+        return None
+    return replace(e.judgement, paid=1.0)
 
 
 def _not_calculated(e: ItemEvidence) -> Judgement | None:
@@ -311,6 +325,8 @@ def _idle(e: ItemEvidence) -> Judgement | None:
 
 
 def _pasted(e: ItemEvidence) -> Judgement | None:
+    if say.PASTED not in e.letters:
+        return None
     cells = zip(e.letters, e.good, e.still, strict=True)
     if not any(good and not still for letter, good, still in cells if letter == say.PASTED):
         return None

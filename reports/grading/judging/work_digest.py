@@ -353,12 +353,14 @@ def _cells(student: StudentBook, judgement: Judgement) -> list[dict[str, Any]]:
 
 def _where(student: StudentBook, judgement: Judgement) -> list[str]:
     """Return the cells that a verdict is about, those below each other as ranges."""
+    if not judgement.rows:
+        return []
     item = judgement.item
     rows = set(judgement.rows)
     located: list[tuple[tuple[str, int], int]] = []  # sheet and column, row
     for number, (location, index) in enumerate(_cells_of(student, item)):
-        row = location.rows[index] if location is not None else None
-        if number in rows and location is not None and row is not None:
+        row = location.rows[index] if number in rows and location is not None else None
+        if location is not None and row is not None:
             located.append(((location.sheet, location.column), row))
     return [
         f"{sheet}!{range_text(first, last, column)}"
@@ -379,11 +381,9 @@ def _at(student: StudentBook, item: Item) -> list[str]:
 
 def _cells_of(student: StudentBook, item: Item) -> list[tuple[Location | None, int]]:
     """Return the place of each value of an item and the value's index there."""
-    return [
-        (student.placement.places.get(node), i)
-        for node in item.nodes
-        for i in range(student.assignment.length(node))
-    ]
+    places, length = student.placement.places, student.assignment.length
+    located = ((places.get(node), length(node)) for node in item.nodes)
+    return [(location, i) for location, count in located for i in range(count)]
 
 
 def _number(value: float) -> float | None:
@@ -391,4 +391,4 @@ def _number(value: float) -> float | None:
 
 
 def _plain(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float | None]:
-    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values]
+    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in values.tolist()]

@@ -17,6 +17,7 @@ from reports.grading.issuing.rubric import Rubric
 from reports.grading.judging.judgement import CARRIED, RIGHT, TYPED, UNKNOWN, WORDS
 from reports.grading.pages.pages import number, points
 from reports.grading.reading.submissions import Submission
+from reports.shared.gc_pause import uncollected
 from reports.shared.russian import capital
 
 _COLOURS = {RIGHT: "D5EBDD", CARRIED: "FBE9C4", TYPED: "FBE9C4", UNKNOWN: "DDDEF5"}
@@ -91,4 +92,9 @@ def _remark(cell: Any, text: str) -> None:  # noqa: ANN401 - a cell of openpyxl
 
 def copying(rubric: Rubric) -> Callable[[Submission, dict[str, Any]], bytes]:
     """Maker of copies, for a process of its own: people's books are opened in such ones alone."""
-    return lambda submission, result: marked_copy(submission.read(), result, rubric)
+
+    def copied(submission: Submission, result: dict[str, Any]) -> bytes:
+        with uncollected():
+            return marked_copy(submission.read(), result, rubric)
+
+    return copied

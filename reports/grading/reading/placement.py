@@ -10,6 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from openpyxl.utils import get_column_letter
+
 from reports.grading.issuing.handout import anchor_name, cell_name
 from reports.model.blocks import Model, TableSpec
 from reports.recalculation.evaluate import NUMBER, Evaluator
@@ -21,7 +23,6 @@ from reports.workbook.layout import (
     SYMBOL_COLUMN,
     TITLE_COLUMN,
     VALUE_COLUMN,
-    Cell,
     Layout,
 )
 
@@ -46,7 +47,7 @@ def range_text(first: int, last: int, column: int) -> str:
 
 def address(row: int, column: int) -> str:
     """Cell address for messages."""
-    return Cell("", row, column).coordinate
+    return f"{get_column_letter(column)}{row}"
 
 
 @dataclass(frozen=True, slots=True)

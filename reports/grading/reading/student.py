@@ -100,6 +100,10 @@ class StudentBook:
             areas = [Area(p.sheet, s.first, s.last, p.column, p.column) for p, s in spans if s]
             self.known = needed(pinned(self.grid, chain.from_iterable(right)), areas)
 
+    def is_settled(self, nodes: Collection[str]) -> bool:
+        """Whether the formulas of nodes are all proven: their values are the right ones."""
+        return self._settled.issuperset(nodes)
+
     # --- answers ----------------------------------------------------------------------
 
     @cached_property
@@ -125,7 +129,7 @@ class StudentBook:
         except UnknownFormula as problem:
             return Answer(location, nothing, ERROR * count, none, str(problem) or "?")
         typed = self.grid.column(location.sheet, location.column).constants
-        if not typed:
+        if typed.keys().isdisjoint(location.rows):
             return Answer(location, numbers, kinds, none)
         marks = np.array([row in typed for row in location.rows])
         return self._as_meant(Answer(location, numbers, kinds, marks), typed)
@@ -207,13 +211,24 @@ class StudentBook:
                 stack += remaining
         return frozenset(names), frozenset(seen)
 
+    @cached_property
+    def _seen_in(self) -> dict[Area, tuple[set[str], list[Run]]]:
+        return {}
+
     def _nodes_in(self, area: Area) -> tuple[set[str], list[Run]]:
+        """Nodes with cells in a rectangle, and the formulas outside of all nodes."""
+        seen = self._seen_in.get(area)
+        if seen is None:
+            seen = self._seen_in[area] = self._looked_up(area)
+        return seen
+
+    def _looked_up(self, area: Area) -> tuple[set[str], list[Run]]:
         nodes: set[str] = set()
         helpers: list[Run] = []
         taken: dict[int, list[tuple[int, int, Location]]] = {}
         columns = self._columns_at.get(area.sheet, {})
         inside = range(area.first_column, area.last_column + 1)
-        for number in (n for n in columns if n in inside):
+        for number in inside if len(inside) < len(columns) else [n for n in columns if n in inside]:
             for node, first, last, location in columns.get(number, ()):
                 if first <= area.last_row and last >= area.first_row:
                     nodes.add(node)
@@ -274,6 +289,20 @@ class StudentBook:
         return [Cells(location.sheet, location.column, rows, numbers)]
 
     @cached_property
+    def rows_as_issued(self) -> frozenset[str]:
+        """Columns of angles and the like that hold what the tables begin with."""
+        tables = set()
+        for node, location in self.placement.places.items():
+            table = self.assignment.model.tables.get(node.partition(".")[0])
+            to_fill = node in self.assignment.fill_nodes
+            if table is None or to_fill or node not in self.layout.columns:
+                continue
+            constants = self.grid.column(location.sheet, location.column).constants
+            if [constants.get(row) for row in location.rows if row is not None] == list(table.rows):
+                tables.add(node)
+        return frozenset(tables)
+
+    @cached_property
     def own_constants(self) -> list[tuple[str, int, int, float]]:
         """Numbers typed into cells that are none of the work-book's, as texts too."""
         taken: dict[tuple[str, int], set[int | None]] = {}
@@ -288,6 +317,13 @@ class StudentBook:
             if (value := carried(constant)) is not None
         ]
 
+    @cached_property
+    def _own_by_column(self) -> dict[tuple[str, int], list[tuple[int, float]]]:
+        columns: dict[tuple[str, int], list[tuple[int, float]]] = {}
+        for sheet, number, row, value in self.own_constants:
+            columns.setdefault((sheet, number), []).append((row, value))
+        return columns
+
     def own_numbers(self, node: str) -> list[float]:
         """Numbers typed in outside the tables that a node's formulas refer to."""
         read: dict[tuple[str, int], set[tuple[int, int]]] = {}
@@ -301,8 +337,10 @@ class StudentBook:
                         read[area.sheet, number] = {(min(ends), max(ends))}
         return [
             value
-            for sheet, number, row, value in self.own_constants
-            if any(first <= row <= last for first, last in read.get((sheet, number), ()))
+            for column, cells in self._own_by_column.items()
+            if (stretches := read.get(column))
+            for row, value in cells
+            if any(first <= row <= last for first, last in stretches)
         ]
 
     def helpers(self, node: str) -> list[Run]:

@@ -76,9 +76,8 @@ def dates(package: Package, grid: CellGrid, locations: Iterable[Location]) -> fr
     cells = {
         Cell(location.sheet, row, location.column)
         for location in locations
-        for row in location.rows
-        if row is not None
-        and _may_be(grid.column(location.sheet, location.column).constants.get(row))
+        for row, value in grid.column(location.sheet, location.column).constants.items()
+        if _may_be(value) and row in location.rows
     }
     of_dates = _looks_of_dates(package) if cells else ()
     sheets = {cell.sheet for cell in cells} if of_dates else ()

@@ -144,6 +144,16 @@ MISTAKES: tuple[tuple[str, str, str], ...] = (
     ("P4_1.Pj_MPa", "=-m_2*K{r}/F_piston/1000000", "m2 вместо mj"),
     ("P4_1.Ps_MPa", "=B{r}-C{r}", "знак слагаемого"),
     ("P4_1.M_Nm", "=G{r}*1000000*F_piston", "пропущен множитель r"),
+    ("j_tdc", "=r_crank*(omega*(1+lam))^2", "(1 + λ) в квадрате"),
+    ("beta_max_deg", "=DEGREES(ATAN(lam))", "ATAN вместо ASIN"),
+    ("F_piston", "=PI()*(geometry_bore_mm/1000)/4", "не возведено в квадрат: диаметр цилиндра"),
+    ("P3_1.s1_mm", "=r_crank*(1-COS(A{r}*PI()/360))*1000", "угол φ/2 вместо φ"),
+    ("P3_1.s2_mm", f"=r_crank*lam/4*(1-COS({P}))*1000", "угол φ вместо 2φ"),
+    ("P3_1.s_mm", "=B{r}-C{r}", "знак слагаемого sп2"),
+    ("P3_1.j_m_s2", "=H{r}*I{r}", "умножение вместо сложения"),
+    ("P3_2.beta_rad", f"=ATAN(lam*SIN({P}))", "ATAN вместо ASIN"),
+    ("P4_1.Pj_MPa", "=-m_r*K{r}/F_piston/1000000", "масса mr вместо mj"),
+    ("P4_1.T_MPa", f"=D{{r}}*SIN({P}-J{{r}})/COS(J{{r}})", "знак слагаемого β"),
 )  # fmt: skip
 
 # Ten cheats in four columns: ``{v}`` is the right number of the row.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from math import log10
 
-from reports.formula.parse import SCALE_FUNCTIONS, parse
+from reports.formula.parse import SCALE_FUNCTIONS, SCALES, parse
 from reports.shared.russian import short
 
 _SUM, _PRODUCT, _POWER, _ATOM = 2, 3, 4, 9
@@ -22,22 +23,29 @@ _WORDS = {
     "col_last": "последнее", "element": "из строки", "place": "номер", "following": "следующее",
     "running_sum": "Σ до строки", "first_largest": "номер наибольшего", "rank": "место",
 }  # fmt: skip
+_TENS = {3.0: "1000", 6.0: "10⁶"}
+# What the scale functions multiply or divide by.
+_FACTORS = {
+    f"{way}_{unit}": ("/" if (times > 1) == (way == "to") else "·") + _TENS[abs(log10(times))]
+    for unit, times in SCALES.items()
+    for way in ("to", "of")
+} | {"deg": "·180/π"}
 _SUPERSCRIPT = {"2": "²", "3": "³", "4": "⁴", "5": "⁵"}
 
 
-def plain(text: str, symbol: Callable[[str], str]) -> str:
+def plain(text: str, symbol: Callable[[str], str], *, scaled: bool = False) -> str:
     """Return an expression as people write it in a line; ``symbol`` gives the symbol of a name.
 
-    Factors between units are left out, as the book does.
+    Factors between units are left out, as the book does, but where they are asked for.
     """
-    return _text(parse(text), symbol)[0]
+    return _text(parse(text), symbol, scaled=scaled)[0]
 
 
-def _text(node: ast.expr, symbol: Callable[[str], str]) -> tuple[str, int]:
+def _text(node: ast.expr, symbol: Callable[[str], str], *, scaled: bool) -> tuple[str, int]:
     """Text and the precedence of its outermost operator."""
 
     def inside(part: ast.expr, least: int) -> str:
-        said, level = _text(part, symbol)
+        said, level = _text(part, symbol, scaled=scaled)
         return said if level >= least else f"({said})"
 
     match node:
@@ -71,10 +79,14 @@ def _text(node: ast.expr, symbol: Callable[[str], str]) -> tuple[str, int]:
             word = " и " if isinstance(joint, ast.And) else " или "
             return word.join(inside(value, 1) for value in values), 0
         case ast.IfExp(test=test, body=body, orelse=orelse):
-            said, otherwise = inside(body, 1), _text(orelse, symbol)[0]
-            return f"{said} при {_text(test, symbol)[0]}, иначе {otherwise}", 0
+            said, case, otherwise = inside(body, 1), inside(test, 0), inside(orelse, 0)
+            return f"{said} при {case}, иначе {otherwise}", 0
+        case ast.Call(func=ast.Name(id="rad"), args=[ast.Constant() as angle]) if scaled:
+            return f"{inside(angle, _ATOM)}°", _ATOM
+        case ast.Call(func=ast.Name(id=name), args=[arg]) if scaled and name in _FACTORS:
+            return f"{inside(arg, _PRODUCT)}{_FACTORS[name]}", _PRODUCT
         case ast.Call(func=ast.Name(id=name), args=args):
-            return _call(name, [_text(arg, symbol) for arg in args])
+            return _call(name, [_text(arg, symbol, scaled=scaled) for arg in args])
     raise AssertionError(f"unexpected node {ast.dump(node)}")
 
 

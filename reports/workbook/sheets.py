@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from math import ceil
+from typing import ClassVar
 
 from openpyxl.comments import Comment
 from openpyxl.worksheet.hyperlink import Hyperlink
@@ -81,6 +82,7 @@ class BlockWriter:
     layout: Layout
     values: Values
     caches: CacheValues = field(default_factory=CacheValues)
+    tells: ClassVar[bool] = True  # formulas in words: not where they are what is asked
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
@@ -142,11 +144,12 @@ class BlockWriter:
         """A quantity's formula in the symbols of the book; nothing of a copy or a very long one."""
         if text is None:
             return ""
-        said = plain(text, lambda name: self._symbol(name, table))
+        said = plain(text, lambda name: self.symbol_of(name, table))
         equation = f"{quantity.symbol} = {said}"
         return "" if said == quantity.symbol or len(equation) > _LONGEST_NOTE else equation
 
-    def _symbol(self, name: str, table: str) -> str:
+    def symbol_of(self, name: str, table: str = "") -> str:
+        """Symbol of a name in a formula of a table."""
         model = self.layout.model
         field = model.fields.get(name)
         if field is not None:
@@ -155,7 +158,7 @@ class BlockWriter:
         if node is not None:
             return node.quantity.symbol
         run = model.grid_runs.get(name) or model.input_runs[name]
-        return self._symbol(run[0], "")
+        return self.symbol_of(run[0])
 
     def column(
         self,

@@ -63,6 +63,7 @@ from reports.workbook.places import (
 )
 from reports.workbook.print_setup import UPRIGHT, print_beginning, set_page, set_widths
 from reports.workbook.sheets import BlockWriter, CacheValues, link
+from reports.workbook.substitution import write_substitutions
 from reports.workbook.verdict import colour_verdicts, write_verdict
 
 _ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
@@ -196,6 +197,8 @@ def assemble(
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
+    if writer.tells:
+        write_substitutions(book, writer)
     boxes[INPUT_SHEET] = cockpit.charts_beside(inputs, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):

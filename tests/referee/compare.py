@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from reports.inputs.sections.input_file import InputFile
@@ -13,10 +15,26 @@ from reports.workbook.layout import FIRST_ROW, Layout
 from tools.referees.cells import Book, cached_values
 
 TOLERANCE = 1e-9
+_NUMBER = re.compile(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
 def close(ours: float, theirs: float, scale: float) -> bool:
     return abs(ours - theirs) <= TOLERANCE * max(1.0, scale)
+
+
+def same_text(ours: object, theirs: object) -> bool:
+    """Whether two texts differ in the last digits of their numbers alone."""
+    if isinstance(theirs, float):  # a text of digits alone, as Gnumeric saves it
+        theirs = repr(theirs)
+    if not (isinstance(ours, str) and isinstance(theirs, str)):
+        return False
+    if ours == theirs:
+        return True
+    parts, others = (_NUMBER.split(text) for text in (ours, theirs))
+    return parts == others and np.allclose(
+        *([float(each) for each in _NUMBER.findall(text)] for text in (ours, theirs)),
+        rtol=1e-3, atol=1e-7,
+    )  # fmt: skip
 
 
 def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
@@ -32,7 +50,7 @@ def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
                     value, cached, min(scale, 1 + abs(cached))
                 )
             else:
-                fits = cached is not None and value == cached
+                fits = same_text(cached, value)
             if not fits:
                 wrong.append(f"{sheet}!{cell}: cached {cached!r}, recalculated {value!r}")
     return wrong

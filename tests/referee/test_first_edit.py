@@ -26,7 +26,7 @@ from reports.workbook.read import load_workbook_input
 from reports.workbook.write import workbook_bytes
 from tests.cover import ALL
 from tests.referee.changes import Change, type_into, with_values, without_charts
-from tests.referee.compare import close
+from tests.referee.compare import close, same_text
 from tests.workbook.made import coarse, coarse_book, coarse_model
 from tools.referees.by_formualizer import Formualizer
 from tools.referees.cells import Book, cached_values
@@ -106,7 +106,7 @@ def same(value: float | str, other: float | str | None) -> bool:
     """Whether two cells tell one value."""
     if isinstance(value, float) and isinstance(other, float):
         return close(value, other, 1 + abs(value))
-    return value == other
+    return same_text(value, other)
 
 
 def stale(wanted: Book, collected: dict[str, list[list[float | str]]]) -> tuple[int, list[str]]:

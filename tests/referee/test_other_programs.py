@@ -17,7 +17,7 @@ from reports.workbook.read import load_workbook_input
 from tests.conftest import missing
 from tests.cover import ALL
 from tests.referee.changes import Change, with_values, without_charts
-from tests.referee.compare import errors_in
+from tests.referee.compare import errors_in, same_text
 from tests.workbook.made import MOVING, coarse, coarse_book, coarse_model, drawn
 from tools.referees.by_gnumeric import COMMAND, Gnumeric
 from tools.referees.by_hyperformula import PACKAGE, HyperFormula
@@ -62,7 +62,7 @@ def differing(book: bytes, actual: Book) -> list[str]:
         if not (
             abs(value - actual[sheet][at]) <= _NEAR * max(1, abs(value))
             if isinstance(value, float)
-            else actual[sheet][at] == value
+            else same_text(value, actual[sheet][at])
         )
     ]
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from openpyxl import Workbook, load_workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.workbook.course import short_model
 from reports.workbook.layout import HEADER_ROW, NUMBER_ROW, WAVES_SHEET
@@ -23,6 +24,11 @@ from tests.workbook.test_places import boxes_of
 from tools.referees.by_libreoffice import LibreOffice
 
 MOST_PAGES = {"full": 60, "course": 35}
+
+
+def printed_of(book: Workbook) -> list[Worksheet]:
+    """Sheets that are printed: a hidden one has no area."""
+    return [sheet for sheet in book.worksheets if sheet.sheet_state == "visible"]
 
 
 def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path: Path) -> None:
@@ -60,7 +66,7 @@ def test_the_print_of_waves_begins_where_their_rows_do(first: int, area: str) ->
 def test_no_list_is_cut_from_its_heading_by_the_end_of_a_page(name: str) -> None:
     """«Плечи колен» went on over the page without the names of its columns."""
     ended = []
-    for sheet in coarse_opened(name).worksheets:
+    for sheet in printed_of(coarse_opened(name)):
         page = sheet.page_setup
         if sheet.print_title_rows or (page.fitToWidth, page.fitToHeight) == (1, 1):
             continue
@@ -76,7 +82,7 @@ def test_no_list_is_cut_from_its_heading_by_the_end_of_a_page(name: str) -> None
 
 
 def test_tables_repeat_their_headers_and_nothing_of_the_lists_beside_them() -> None:
-    sheets = load_workbook(io.BytesIO(book())).worksheets
+    sheets = printed_of(load_workbook(io.BytesIO(book())))
     tables = [
         sheet for sheet in sheets if sheet.freeze_panes and sheet.freeze_panes.startswith("B")
     ]
@@ -90,7 +96,7 @@ def test_tables_repeat_their_headers_and_nothing_of_the_lists_beside_them() -> N
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_no_page_begins_within_a_table_beside_others(name: str) -> None:
     """Its rest would stand under the beginning of the first one's title."""
-    for sheet in coarse_opened(name).worksheets:
+    for sheet in printed_of(coarse_opened(name)):
         starts = [cell.column for cell in sheet[HEADER_ROW - 1] if cell.value]
         if sheet.sheet_properties.pageSetUpPr.fitToPage:
             assert len(starts) < 2 or sheet.page_setup.fitToWidth == 1, sheet.title

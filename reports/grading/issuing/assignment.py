@@ -209,8 +209,7 @@ class Assignment:
 
     def length(self, node: str) -> int:
         """Return number of values of a node."""
-        table, dot, _ = node.partition(".")
-        return len(self.model.tables[table].rows) if dot else 1
+        return len(self.model.tables[node.partition(".")[0]].rows) if "." in node else 1
 
     @cached_property
     def fill_nodes(self) -> frozenset[str]:

@@ -17,6 +17,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from math import isfinite, sqrt
+from typing import ClassVar
 
 import numpy as np
 from lxml import etree
@@ -74,6 +75,7 @@ class _HandoutWriter(BlockWriter):
     """Writes numbers where the solved book has formulas, formulas of what is asked, or nothing."""
 
     live: frozenset[Cell] = frozenset()
+    tells: ClassVar[bool] = False
 
     def column(
         self,

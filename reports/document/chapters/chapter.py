@@ -272,6 +272,7 @@ class Chapter:
     def full(self, name: str, end: str = "") -> Markup:
         """Return the formula of a scalar in symbols, with numbers and its result, numbered."""
         if self.writer.draft:
+            self.terms.put_in.add((name, None))
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
         formula = self.writer.formula(tex, FORMULA + name, end)
@@ -280,6 +281,7 @@ class Chapter:
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """Return the formula with numbers and its result, not numbered."""
         if self.writer.draft:
+            self.terms.put_in.add((name, at))
             return Markup("")
         formula = self.writer.formula(self.terms.substitution(name, at), None, end)
         return formula + self._explained(name, at, end)

@@ -95,7 +95,7 @@ MOST_LAMBDAS = 12
 BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
 # Checks of the calculation, besides the keys of the file that `check` warns of.
 CHECKS = (
-    "closure", "work", "grid", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
+    "supports", "virtual", "work", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
     "power", "share",
 )  # fmt: skip
 

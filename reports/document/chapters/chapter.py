@@ -265,7 +265,8 @@ class Chapter:
         """Return the formula of a node in symbols, numbered, without the terms of ``zeros``."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
-        return self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
+        formula = self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
+        return formula + self._explained(written_in(name), end)
 
     def full(self, name: str, end: str = "") -> Markup:
         """Return the formula of a scalar in symbols, with numbers and its result, numbered."""
@@ -274,7 +275,7 @@ class Chapter:
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
         formula = self.writer.formula(tex, FORMULA + name, end)
-        return formula + self._explained(name, None, end)
+        return formula + self._explained(self._put_in(name, None), end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """Return the formula with numbers and its result, not numbered."""
@@ -282,16 +283,21 @@ class Chapter:
             self.terms.put_in.add((name, at))
             return Markup("")
         formula = self.writer.formula(self.terms.substitution(name, at), None, end)
-        return formula + self._explained(name, at, end)
+        return formula + self._explained(self._put_in(name, at), end)
 
     def where(self, *names: str) -> Markup:
         """Return the «где» list under a formula, with the factors that are not explained yet."""
         factors = [WhereItem(power, f"перевод {words}") for power, words in self._factors()]
         return self.writer.where([*self.terms.where(*names), *factors])
 
-    def _explained(self, name: str, at: float | None, end: str) -> Markup:
+    def _put_in(self, name: str, at: float | None) -> Iterator[Factor]:
+        """Factors of a formula with numbers."""
+        yield from map(of_scale, self.terms.scales(name, at))
+        yield from written_in(name)
+
+    def _explained(self, used: Iterable[Factor], end: str) -> Markup:
         """Words on the factors of formulas whose sentence ends here."""
-        for factor in (*map(of_scale, self.terms.scales(name, at)), *written_in(name)):
+        for factor in used:
             self.scales.setdefault(factor, False)
         factors = list(self._factors()) if end == "." else []
         if not factors:

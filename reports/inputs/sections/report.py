@@ -79,15 +79,18 @@ DIAGRAMS = {
     "mechanism": "механизм с размерами",
     "counterweight": "противовес щеки с размерами",
     "torsion": "напряжения вала от крутильных колебаний",
+    "strength": "запасы прочности и напряжения деталей",
+    "speed": "внешняя характеристика с регуляторной ветвью",
+    "flywheel": "маховик с размерами",
 }
 Diagram = Literal[
     "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
     "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
-    "throw", "mechanism", "counterweight", "torsion",
+    "throw", "mechanism", "counterweight", "torsion", "strength", "speed", "flywheel",
 ]  # fmt: skip
 USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
          "main_wear", "shaft", "balance", "running", "results", "throw", "counterweight", "torsion",
-         "main_polar")  # fmt: skip
+         "strength", "speed", "flywheel", "main_polar")  # fmt: skip
 SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
 WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}

@@ -273,7 +273,9 @@ class Terms:
             product = formulas.to_tex_numbers(self._node_expr(node), self._symbols(name), number)
             return formulas.Raw("0" if product.startswith(r"0 \cdot") else product)
 
-        parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
+        given = formulas.to_tex_numbers(expr, self._symbols(name), number)
+        if given != parts[-1]:  # an extreme of a column has no numbers to put in
+            parts.append(given)
         parts.append(self.result_tex(name, at))
         return " = ".join(parts)
 

@@ -16,23 +16,19 @@ class Digits:
 
     ``kind`` is ``scientific`` (decimals of the mantissa before a power of ten) or ``text``;
     ``hides`` tells which values are left blank: zeros, or the marks of a row that does not
-    count.  Cells show ``decimals``; print rounds large engines' whole numbers to tens, hundreds
-    and so on, ``zeros`` of them, and every large number that is ``measured``, not counted.
+    count.  Cells show ``decimals``; print drops those of a number with five digits before them.
     """
 
     decimals: int = 3
     kind: Literal["fixed", "scientific", "text"] = "fixed"
     hides: Literal["", "zeros", "unused"] = ""
-    zeros: int = 0
-    measured: bool = False
 
     def within(self, largest: float) -> Digits:
-        """As print has values up to ``largest``: with five significant digits at most."""
+        """As print has values up to ``largest``: five significant digits, or all whole ones."""
         if self.kind != "fixed" or not largest or not math.isfinite(largest):
             return self
         over = int(f"{largest:.{_MOST - 1}e}".partition("e")[2]) - (_MOST - 1)
-        zeros = max(self.zeros, over if self.measured else 0)
-        return replace(self, decimals=min(self.decimals, max(0, -over)), zeros=zeros)
+        return replace(self, decimals=min(self.decimals, max(0, -over)))
 
 
 TEXT = Digits(0, "text")

@@ -127,7 +127,7 @@ def smallness(bore_m: float) -> int:
     """How much smaller an engine is than those of the books, in fifths of a power of ten.
 
     Nothing for bores from 60 to 200 mm, for which the books' own decimals serve; negative for
-    larger ones, which have fewer, and whole numbers rounded to tens.
+    larger ones, which have fewer.
     """
     low, high = _USUAL_BORES_M
     smaller = math.ceil(_FIFTHS * math.log10(low / bore_m) - 1e-9)
@@ -151,10 +151,9 @@ def quantity(key: str, small: int = 0) -> Quantity:
         raise _unknown(key) from None
     exact = small * _POWERS.get(base.unit, 0) / _FIFTHS
     more = math.ceil(exact) if small > 0 else round(exact)
-    digits = replace(base.digits, measured=bool(base.unit))
+    digits = base.digits
     if digits.kind == "fixed":
-        decimals = digits.decimals + more
-        digits = replace(digits, decimals=max(0, decimals), zeros=max(0, -decimals))
+        digits = replace(digits, decimals=max(0, digits.decimals + more))
     return replace(base, digits=digits)
 
 

@@ -60,7 +60,7 @@ _SCALE = 100.0  # pt at which texts are measured
 CAPITAL = 0.662  # height of a capital of the face [em]
 WIDER = 1.04  # a drawing program may set another face
 INDEX = 0.7  # size of an index: the next smaller height of ГОСТ 2.304
-HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0)  # of letters, ГОСТ 2.304 [mm]
+HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0)  # of letters, ГОСТ 2.304 [mm]
 SLANT = 15.0  # of the letters from the vertical [deg]
 STROKE = 0.1  # width of a line of type Б over the height of the letters
 _UNITS = 9.0  # of the stroke face in the height of a capital
@@ -250,6 +250,13 @@ def index_height(height: float) -> float:
     if height not in HEIGHTS:
         return INDEX * height
     return HEIGHTS[max(HEIGHTS.index(height) - 1, 0)]
+
+
+def larger(height: float) -> float:
+    """Height of a title over letters: the next larger one of ГОСТ 2.304, else in proportion."""
+    if height not in HEIGHTS:
+        return height / INDEX
+    return HEIGHTS[min(HEIGHTS.index(height) + 1, len(HEIGHTS) - 1)]
 
 
 def standard(height: float) -> float:

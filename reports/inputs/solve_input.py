@@ -157,10 +157,7 @@ class GridError:
         while digits.decimals < _FINEST and written(self.coarse, digits) == written(
             self.fine, digits
         ):
-            zeros = digits.zeros
-            digits = replace(
-                digits, zeros=max(0, zeros - 1), decimals=digits.decimals + (not zeros)
-            )
+            digits = replace(digits, decimals=digits.decimals + 1)
         return digits
 
     @property

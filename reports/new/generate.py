@@ -31,6 +31,7 @@ from reports.inputs.units import number_text, span_text
 from reports.new.counterweights import counterweights_for
 from reports.new.default_firing import Phases, phases
 from reports.new.part_sizes import parts_for
+from reports.new.prototypes import prototype_for
 from reports.new.sizing import (
     EngineTask,
     main_sizes,
@@ -157,6 +158,10 @@ def generate_engine(
         {**web, "counterweight_kg": weights.reduced_kg} for web in data["crankshaft"]["webs"]
     ]
     data["counterweight"] = weights.section
+    near = prototype_for(model, kind)
+    if near is not None:
+        data["prototype"] = near[0]
+        notes["prototype.name"] = f"по образцу {near[1]}: ближайший по виду, числу цилиндров, D и S"
     head = (
         f"Двигатель составлен {words} при {number_text(speed)} мин⁻¹, "
         f"рабочий объём {number_text(round(swept / 1e6, 2))} л.",

@@ -104,9 +104,7 @@ def written(value: float, digits: Digits, *, more: int | None = None, group: boo
         return f"{text}·10{str(exponent).translate(_RAISED)}" if exponent else text
     if more is not None:
         return fixed(value, digits.decimals + more, group=group)
-    printed = digits.within(value)
-    whole = round(value, -printed.zeros) if printed.zeros else value
-    return fixed(whole, printed.decimals, group=group)
+    return fixed(value, digits.within(value).decimals, group=group)
 
 
 def last_bound(text: str) -> str:

@@ -13,9 +13,9 @@ import numpy as np
 
 from reports.document.chapters.balance import asked_devices
 from reports.document.chapters.chapter import pin_stems, worst_pin
-from reports.document.page.charts import counterweight_of, mechanism_of, throw_of
+from reports.document.page.charts import counterweight_of, flywheel_of, mechanism_of, throw_of
 from reports.document.text.terms import Terms, plain_number
-from reports.document.text.texts import of_digits
+from reports.document.text.texts import limits, of_digits
 from reports.draw.canvas import (
     AXES,
     CONTOUR,
@@ -32,8 +32,9 @@ from reports.draw.canvas import (
 )
 from reports.draw.fonts import fitted, standard, width_of, wrapped
 from reports.draw.parts import mechanism_drawing, throw_drawing
-from reports.draw.weights import counterweight_drawing
+from reports.draw.weights import counterweight_drawing, flywheel_drawing
 from reports.inputs.firing import order_text
+from reports.model.blocks import ScalarTable
 from reports.model.shape import Shape
 from reports.shared.russian import capital, fixed
 
@@ -45,6 +46,7 @@ _STEPS = (30.0, 60.0, 90.0, 120.0, 180.0)
 _RESULTS = ("M_mean", "M_max", "M_min", "M_e", "p_i_calc", "N_i_calc")
 _BEARING = 5.0  # half a bearing on the scheme
 _BEYOND = 3.0  # of an axis beyond the throws, before their numbers
+_STRESSES = {"st_crown_MPa", "st_press_MPa", "st_pin_bend_MPa", "st_pin_shear_MPa", "st_cap_MPa"}
 _SECOND = ("F_order_kN", "M_order_Nm")
 _LETTERS = (3.5, 2.5, 1.8)  # heights to try
 # ГОСТ 2.302.
@@ -302,6 +304,26 @@ def counterweight(canvas: Canvas, room: CellArea, terms: Terms) -> None:
     words = (f"Противовес щеки: {terms.num('cw_mass')} кг, ширина {terms.num('cw_width_mm')} мм, "
              f"доля {terms.num('cw_taken')}")  # fmt: skip
     _placed(canvas, room, words, partial(counterweight_drawing, counterweight_of(terms)))
+
+
+def flywheel(canvas: Canvas, room: CellArea, terms: Terms) -> None:
+    """Draw the flywheel with its sizes."""
+    words = f"Маховик: {terms.num('fw_mass')} кг, {terms.num('I_flywheel')} кг·м²"
+    _placed(canvas, room, words, partial(flywheel_drawing, flywheel_of(terms)))
+
+
+def strength(canvas: Canvas, room: CellArea, terms: Terms) -> None:
+    """Safeties of the parts beside the allowed one, and stresses beside their usual range."""
+    room = headed(canvas, room, "Прочность деталей")
+    blocks = {b.id: b for b in terms.model.blocks if isinstance(b, ScalarTable)}
+    least = f"не менее {terms.num('strength_safety_allowed')}"
+    rows = [["Запас или напряжение", "Значение", "Предел"]]
+    rows += [[value.note, fixed(terms.value(value.key), 2), least]
+             for value, _ in blocks["strength_allowed"].pairs]  # fmt: skip
+    ranged = [pair for pair in blocks["strength_ranges"].pairs if pair[0].expr in _STRESSES]
+    rows += [[value.note, fixed(terms.value(value.key), 1), limits(value.usual_text)]
+             for value, _ in ranged]  # fmt: skip
+    grid(canvas, room, rows)
 
 
 def _placed(canvas: Canvas, room: CellArea, title: str, draw: Callable[..., list[Item]]) -> None:

@@ -130,7 +130,12 @@ def _unit(terms: Terms, name: str) -> str:
 def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, closed: bool) -> None:
     """Columns over an abscissa, with means and other levels across."""
     drawn = chart.drawn_by("report")
-    x, *ys = terms.curves([drawn[0].x, *(series.y for series in drawn)])
+    same = [series for series in drawn if series.x == drawn[0].x]
+    x, *ys = terms.curves([drawn[0].x, *(series.y for series in same)])
+    xs = [x] * len(same)
+    for series in drawn[len(same) :]:  # a curve that goes on in another table
+        xs.append(terms.column(series.x))
+        ys.append(terms.column(series.y))
     levels = [terms.value(level) for level in chart.levels]
     room = headed(canvas, room, chart.words)
     names = [Name(symbol(terms, s.y), _DASHES[n % len(_DASHES)]) for n, s in enumerate(drawn)]
@@ -141,7 +146,7 @@ def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, cl
     title = _unit(terms, drawn[0].y) if len(drawn) == 1 else chart.y_title
     wide = width_of(_unit(terms, drawn[0].x), TEXT) + 8
     low, high = _ends([*ys, np.asarray(levels)], zero=chart.from_zero)
-    left, right = float(x.min()), float(x.max())
+    left, right = min(float(each.min()) for each in xs), max(float(each.max()) for each in xs)
     across = round_scale(
         min(left, 0.0), right, room.width - _SIDE - wide, angle=chart.x_is_angle
     )  # fmt: skip
@@ -155,8 +160,8 @@ def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, cl
     level = up.at(0 if low <= 0 <= high else up.low)
     end = (origin[0] + across.length + 5.5, origin[1] + level - TEXT / 2)
     canvas.words(end, _unit(terms, drawn[0].x), TEXT)
-    for number, (series, y) in enumerate(zip(drawn, ys, strict=True)):
-        points = _points(origin, across, up, x, y)
+    for number, (series, along, y) in enumerate(zip(drawn, xs, ys, strict=True)):
+        points = _points(origin, across, up, along, y)
         dash = _DASHES[number % len(_DASHES)]
         name = f"{chart.id}:{series.y}"
         canvas.line(*points, layer=CURVES, dash=dash, closed=closed, name=name)

@@ -16,13 +16,14 @@ from reports.document.page.render import render_pdf
 from reports.document.text.terms import Terms
 from reports.draw import fonts
 from reports.draw.canvas import FRAME, THIN, Canvas, Item, Words, bounds, moved
-from reports.draw.fonts import HEIGHTS, fitted, width_of, wrapped
+from reports.draw.fonts import HEIGHTS, fitted, larger, standard, width_of, wrapped
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
 from reports.draw.writers import dxf_bytes, svg_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import USUAL, ReportSection, SheetSection
 from reports.inputs.solve_input import fine_columns
 from reports.model.blocks import Model
+from reports.model.charts import ChartSpec
 from reports.model.evaluation import Values
 from reports.model.shape import pin_figure
 from reports.shared.errors import InputError, Problem
@@ -33,10 +34,12 @@ from reports.sheet.cell import (
     CellArea,
     balance,
     counterweight,
+    flywheel,
     mechanism,
     results,
     running,
     shaft,
+    strength,
     throw,
 )
 
@@ -53,7 +56,8 @@ _GAP = 6.0
 _LEAST = (120.0, 92.0)  # of a cell [mm]
 _FILLERS = ("mechanism", "main_load")
 Draw = Callable[[Canvas, CellArea, Terms], None]
-_LETTERS = 0.02  # height of the letters of a drawing true to size, of its extent
+_LETTERS = 0.025  # greatest height of the letters of a drawing true to size, of its extent
+_SMALL = 0.8  # of it, where the drawing is smaller than any letters of the standard
 _PRINTED = 3.5  # mm: the height of letters on paper that the dashes of lines go with
 _PAGE = """<!DOCTYPE html><html lang="ru"><head><meta charset="utf-8"><title>{title}</title>
 <meta name="dcterms.created" content="{year}-01-01">
@@ -248,10 +252,26 @@ def available(terms: Terms) -> dict[str, Draw]:
         for name, (key, draw) in charts.items()
         if key in terms.model.charts_by_id
     }
-    drawn: dict[str, Draw] = {"counterweight": counterweight} if terms.has("cw_mass") else {}
+    parts: dict[str, tuple[str, Draw]] = {
+        "counterweight": ("cw_mass", counterweight), "flywheel": ("fw_mass", flywheel),
+        "strength": ("st_crown_MPa", strength),
+    }  # fmt: skip
+    drawn = {name: draw for name, (key, draw) in parts.items() if terms.has(key)}
+    if "speed_Me" in terms.model.charts_by_id:
+        draws["speed"] = partial(curves, chart=_characteristic(terms))
     return draws | drawn | {"shaft": shaft, "balance": balance,
                     "running": running, "results": results,
                     "throw": throw, "mechanism": mechanism}  # fmt: skip
+
+
+def _characteristic(terms: Terms) -> ChartSpec:
+    """Torque over the speed, of a diesel with the branch of its governor."""
+    known, branch = (terms.model.charts_by_id.get(key) for key in ("speed_Me", "governor_Me"))
+    assert known is not None
+    further = [replace(each, only="") for each in branch.series] if branch is not None else []
+    words = "Крутящий момент по внешней характеристике"
+    words += " с регуляторной ветвью" * bool(further)
+    return replace(known, series=(*known.series, *further), caption=words)
 
 
 def cells(width: float, height: float, count: int, section: SheetSection) -> list[CellArea]:
@@ -311,19 +331,25 @@ def sheet_files(model: Model, values: Values) -> dict[str, bytes]:
 def _throws(throws: list[ThrowSizes]) -> bytes:
     """Every throw true to size beside the one before it; letters in proportion."""
     items: list[Item] = []
-    letters, left_end = _LETTERS * max(sizes.size for sizes in throws), 0.0
+    letters, left_end = _letters(max(sizes.size for sizes in throws)), 0.0
     for number, sizes in enumerate(throws, 1):
         drawn = throw_drawing(sizes, letters=letters)
         left, low, right, _ = bounds(drawn)
         items += moved(drawn, left_end - left, 0.0)
         middle = left_end + (right - left) / 2
-        items.append(Words((middle, low - 4 * letters), f"Колено {number}", 1.4 * letters, 0.5))
+        items.append(Words((middle, low - 4 * letters), f"Колено {number}", larger(letters), 0.5))
         left_end += right - left + 12 * letters
     return dxf_bytes(items, letters / _PRINTED)
 
 
+def _letters(size: float) -> float:
+    """Height of the letters of a drawing of that extent, of the row of ГОСТ 2.304 [mm]."""
+    most = _LETTERS * size
+    return standard(most) if most >= HEIGHTS[0] else _SMALL * most
+
+
 def _mechanism(mechanism: MechanismSizes) -> bytes:
-    letters = _LETTERS * mechanism.size
+    letters = _letters(mechanism.size)
     return dxf_bytes(mechanism_drawing(mechanism, letters=letters), letters / _PRINTED)
 
 

@@ -37,6 +37,7 @@ _PARTS = {"cover": "Cover", "task": "Task", "notation": "Notation"}
 _PARAGRAPHS = {"flush": "Flush", "keys": "Keywords"}
 _BLOCKS = {"div", "p", "section", "ul", "ol", "figure", "table", "nav", "h1", "h2", "h3"}
 _BESIDE = (0.04, 0.86, 0.10)  # of the width: left of a numbered formula, it, its number
+_SIGNED = (0.24, 0.42, 0.34)  # of the width: post, name, signature with its date
 _APPENDIX = re.compile(r"(Приложение )([А-Я])$")
 _BELOW = {"BodyText": "BodyAfterTable", "Flush": "FlushAfterTable"}
 
@@ -204,10 +205,10 @@ class Blocks:
         out: list[Element] = []
         for element in elements:
             for block in self._block(element, usual):
-                if _is_formula(block) and out and _is_formula(out[-1]):
+                if out and _in_rows(block) and _in_rows(block) == _in_rows(out[-1]):
                     out[-1].append(block[-1])
                     continue
-                if out and _is_table(out[-1]) and not _is_formula(out[-1]):
+                if out and _is_table(out[-1]) and not _in_rows(out[-1]):
                     if _is_table(block):  # side by side they would be one
                         out.append(paragraph("AfterTable"))
                     else:
@@ -240,6 +241,7 @@ class Blocks:
         """Yield a ``div`` or ``section`` by its class."""
         special: dict[str, Callable[[HtmlElement], Iterator[Element]]] = {
             "eq": self._formula, "where": self._where, "tcap": self._caption, "toc": self._contents,
+            "person": self._person,
         }  # fmt: skip
         name = next((n for n in names if n in special), "")
         if name:
@@ -338,6 +340,18 @@ class Blocks:
         table.append(row)
         yield table
 
+    def _person(self, element: HtmlElement) -> Iterator[Element]:
+        """Yield a row of the title page: post, name, a line with «подпись, дата» under it."""
+        widths = [round(self.width * share) for share in _SIGNED]
+        row = w("tr", w("trPr", w("cantSplit")))
+        for width, part in zip(widths, element.iterfind("span"), strict=True):
+            jc = "center" if part.get("class") == "sign" else "left"
+            content = paragraph("CoverPerson", self.lines.runs(part), w("jc", val=jc))
+            row.append(table_cell(width, [content], middle=False))
+        table = frame_of("SignTable", widths)
+        table.append(row)
+        yield table
+
     def _where(self, element: HtmlElement) -> Iterator[Element]:
         for item in element.iterfind("p"):
             lead = [] if item.find("span[@class='g']") is not None else [run("\t")]
@@ -377,6 +391,8 @@ def _moved_down(block: Element) -> None:
         style.set(key, _BELOW.get(style.get(key, ""), style.get(key, "")))
 
 
-def _is_formula(element: Element) -> bool:
+def _in_rows(element: Element) -> str:
+    """Style of a table whose rows go on with those of the next one; empty for any other block."""
     style = element.find(f"{{{element.nsmap['w']}}}tblPr/{{{element.nsmap['w']}}}tblStyle")
-    return style is not None and "FormulaTable" in style.attrib.values()
+    name = "" if style is None else str(style.get(f"{{{element.nsmap['w']}}}val"))
+    return name if name in ("FormulaTable", "SignTable") else ""

@@ -190,6 +190,8 @@ def _delimited(nodes: Sequence[TexNode], start: int, upright: bool) -> tuple[Mat
         raise ValueError(msg)
     closing = _bracket(nodes[end])
     inner = _merged(_elements(nodes[start + 2 : end - 1], upright))
+    if opening and closing and all(map(_is_run, inner)):  # growing ones are thinned in LibreOffice
+        return _merged([_run(opening, _PLAIN), *inner, _run(closing, _PLAIN)]), end + 1
     marks = (_element("begChr", val=opening), _element("endChr", val=closing))
     return [_element("d", _element("dPr", *marks), _element("e", *inner))], end + 1
 

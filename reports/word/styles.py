@@ -104,6 +104,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
         "CoverKind": ParagraphStyle("Вид работы", "Cover", before=128),
         "CoverPeople": ParagraphStyle("Исполнители", "Cover", jc="left", left=round(0.45 * width),
                             before=10),
+        "CoverPerson": ParagraphStyle("Исполнитель с подписью", "Cover", jc="left", before=10),
         # Lines as far apart as the PDF's: Word multiplies the letters' own height.
         "Task": ParagraphStyle("Задание", line=1.25 / _HIGH, after=6, size=13),
         "TaskCentre": ParagraphStyle("Задание по центру", "Task", jc="center"),
@@ -252,6 +253,7 @@ def _table_styles() -> list[Element]:
         ("ReportTable", "Таблица отчёта", (*outer, "insideV")),
         ("ReportTableLined", "Таблица отчёта с линиями", (*outer, "insideH", "insideV")),
         ("FormulaTable", "Формула с номером", ()),
+        ("SignTable", "Подписи титульного листа", ()),
     ):
         styles.append(w("style", w("name", val=name), w("basedOn", val="TableNormal"),
                       w("tblPr", *([borders(*sides)] if sides else [])),

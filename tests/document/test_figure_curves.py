@@ -1,12 +1,13 @@
 import math
 import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from reports.document.chapters.cycle import _characteristic_plan
 from reports.document.figures.canvas import SMALL
-from reports.document.figures.curves import Panel, PlotCurve, curves_figure
+from reports.document.figures.curves import Mark, Panel, PlotCurve, curves_figure, spread
 from reports.document.figures.labels import text_size
 from reports.document.text.terms import Terms
 from reports.model.evaluation import evaluate_model
@@ -27,6 +28,25 @@ def test_patterns_differ_without_colour():
 def test_curves_are_named_and_a_crowd_gets_a_legend():
     assert {"среднее", "max"} <= set(texts(FIGURES["line"]()))
     assert sum(text.strip().startswith("a") for text in texts(FIGURES["legend"]())) == 8
+
+
+@pytest.mark.parametrize("wanted", [[50.0] * 8, [0.0, 1.0, 60.0, 61.0, 99.0], [98.0, 99.0, 100.0]])
+def test_names_of_a_fan_keep_apart_and_inside(wanted):
+    """Eight rays of a diagram of Campbell had names over one another in a legend of dashes."""
+    places = spread(wanted, 10.0, 0.0, 100.0)
+    assert all(b - a >= 10.0 - 1e-9 for a, b in pairwise(places))
+    assert places[0] >= -1e-9 and places[-1] <= 100.0 + 1e-9
+
+
+def test_a_fan_has_its_names_and_no_legend():
+    x = np.linspace(0, 3000, 20)
+    rays = [PlotCurve(f"ν = {n}", n * x / 60) for n in range(1, 9)]
+    panel = Panel(rays, "f, Гц", marks=(Mark("ν = 3, форма 1", 1500.0, 75.0),), fan=True)
+    svg = curves_figure(x, [panel], "n", angle=False)
+    said = [text.replace("\xa0", " ") for text in texts(svg)]
+    assert {f"ν = {n}" for n in range(1, 9)} <= set(said) and "ν = 3, форма 1" in said
+    assert min(map(float, re.findall(r'font-size="([\d.]+)"', svg)), default=9.5) >= 9.5
+    assert len(set(re.findall(r'stroke-dasharray="([^"]*)"', svg))) <= 2  # leaders alone
 
 
 def test_panels_are_lettered_and_one_is_not():

@@ -57,6 +57,10 @@ def words_of(source, detail="course"):
         ("Давление окружающей среды", "gots-diesel", "two-stroke"),
         ("МПа в ВМТ после скачка", "gots-diesel", "mwm-6"),
         ("эффективная мощность", "gots-diesel", None),
+        # The second journal of one throw had the table of the first again.
+        ("Удельные силы, одинаковые у коренных шеек 1 и 2 (П4.3.1, П4.3.2)", "two-stroke",
+         "gots-diesel"),
+        ("Удельные силы, действующие на коренную шейку 2 (П4.3.2)", "gots-diesel", "two-stroke"),
     ],
 )  # fmt: skip
 def test_a_sentence_stands_where_it_holds(words, said, unsaid):

@@ -55,6 +55,18 @@ def test_a_number_told_twice_is_one_number(layout, speed, step):
             assert text.count(number.strip()) > 1, (said, number)
 
 
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "vaz-2106"])
+def test_an_angular_speed_is_written_in_one_way(name):
+    """ω = 219,91 rad/s stood as 219,9115 in the formula of the greatest speed."""
+    formulas = formulas_of(bare_page(engine(source=name, report__detail="course")))
+    numbers = re.findall(r"\d+\{,\}\d+", " ".join(formulas))
+    stated = next(re.findall(r"\d+\{,\}\d+", tex)[-1] for tex in formulas
+                  if tex.startswith(r"\omega = "))  # fmt: skip
+    speed = float(stated.replace("{,}", "."))
+    near = {text for text in numbers if abs(float(text.replace("{,}", ".")) / speed - 1) < 1e-4}
+    assert near == {stated}
+
+
 def _bare(text):
     return re.sub(r"<[^>]+>|[\s\u200b]", "", html.unescape(text)).replace("−", "-")
 

@@ -317,6 +317,7 @@ def test_no_slip_in_a_sample_is_silent(name):
 def test_no_slip_in_an_engine_made_of_usual_values_is_silent(case, named):
     cylinders, layout, strokes, kind = case
     raw = copy.deepcopy(generate_engine(cylinders, layout=layout, strokes=strokes, kind=kind).data)
+    raw.pop("prototype", None)  # another engine's numbers
     if not named:
         raw["engine"].pop("name")
     assert silent(raw) == []

@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reports.draw.canvas import CURVES, LAYERS, SIZE, Line, Words
-from reports.draw.fonts import HEIGHTS
+from reports.draw.fonts import HEIGHTS, INDEX, larger
 from reports.draw.parts import ThrowSizes
 from reports.draw.writers import DIMSTYLE, STYLE, dxf_bytes, parts_placed
 from reports.inputs.load import load_text
@@ -98,7 +98,8 @@ def check_curves(t) -> int:
         chart = t.model.charts_by_id[key]
         if chart.kind == "wear":
             continue
-        series = next(s for s in chart.drawn_by("report") if s.y == column)
+        everything = (s for each in (chart, *t.model.charts) for s in each.series)
+        series = next(s for s in everything if s.y == column)
         table = np.column_stack([t.column(series.x), t.column(column)])
         where = np.empty_like(table)
         for axis, match in enumerate(marks(texts, fields[key])):
@@ -265,8 +266,10 @@ def test_of_any_engine_dashes_go_with_the_letters(size: float) -> None:
         (71 * size, 71 * size), (37 * size, 37 * size),
     )  # fmt: skip
     document = read(_throws([throw]))
-    letters = min(text.dxf.height for text in document.modelspace().query("TEXT")) / 1.4
-    assert document.header["$LTSCALE"] == pytest.approx(letters / 3.5)
+    titles = {text.dxf.height for text in document.modelspace().query("TEXT")}
+    letters = [height for height in (*HEIGHTS, INDEX * min(titles)) if larger(height) in titles]
+    assert any(document.header["$LTSCALE"] == pytest.approx(height / 3.5) for height in letters)
+    assert size < 1 or titles <= set(HEIGHTS)  # ГОСТ 2.304, but for what is smaller than its row
 
 
 def test_on_paper_dashes_are_as_long_as_they_say() -> None:

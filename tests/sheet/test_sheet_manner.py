@@ -36,7 +36,7 @@ def test_letters_are_as_high_as_they_say_and_lean():
 def test_all_heights_of_the_sheet_are_of_the_standard(name):
     canvas, _, _ = drawn(terms(name))
     assert {w.height for w in canvas.items if isinstance(w, Words)} <= set(HEIGHTS)
-    assert set(HEIGHTS) == {1.8, 2.5, 3.5, 5.0, 7.0, 10.0}
+    assert HEIGHTS == (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0)
     box = (0.0, 0.0, 841.0, 594.0)
     assert seen_letters(canvas.items, box) == []
     assert seen_letters([Words((9.0, 9.0), "漢", 3.5)], box)  # in the face that has it
@@ -78,6 +78,24 @@ def test_the_designation_is_the_drawings_own_and_stands_in_the_corner():
     (corner,) = [w for w in words if w.angle == 180.0]
     assert len(words) == 2 and corner.place[1] > height - 20 and corner.place[0] < 90
     assert not [w for w in canvas.items if isinstance(w, Words) and w.text.endswith("ПЗ")]
+
+
+def test_what_the_note_calculates_fills_the_lower_left_of_the_sheet():
+    """A sheet of an engine with these chapters had an empty cell there."""
+    raw = to_mapping(sample("yamz-236"))
+    raw |= {"strength": {"kind": "diesel"}, "torsion": {}, "counterweight": {}, "flywheel": {}}
+    canvas, _, _ = sheet_items(terms_of(load_mapping(raw, source="v").model))
+    words = [w for w in canvas.items if isinstance(w, Words)]
+    titles = " ".join(w.text for w in words)
+    assert "Прочность деталей" in titles and "Маховик: " in titles and "кручения вала" in titles
+    assert any(w.place[0] < 180 and w.place[1] < 120 for w in words)
+
+
+def test_a_diesel_of_the_cycle_has_the_branch_of_its_governor():
+    model = load_mapping(to_mapping(sample("cycle-turbo-diesel")), source="c").model
+    canvas, _, _ = sheet_items(terms_of(model))
+    named = {i.name for i in canvas.items if isinstance(i, Line)}
+    assert {"speed_Me:speed.speed_Me", "speed_Me:governor.gov_Me"} <= named
 
 
 def test_symbols_have_their_indices():

@@ -59,6 +59,15 @@ def test_the_campbell_diagram_shows_the_orders_of_the_strongest_resonances() -> 
     assert any("," in order for order in shown)
 
 
+def test_the_dangerous_order_is_marked_in_both_figures() -> None:
+    html = whole("mwm-6")
+    for title in ("Резонансные напряжения", "Диаграмма Кэмпбелла"):
+        figure = re.search(f"<title>{title}.*?</svg>", html, re.S)[0]
+        words = " ".join(re.findall("<text[^>]*>([^<]*)</text>", figure))
+        assert re.search(r"=\s*6 \(форма 1\)", words), words
+        assert "<circle" in figure or "#000000" in figure
+
+
 @pytest.mark.parametrize(
     ("pairs", "said"),
     [

@@ -43,6 +43,19 @@ def test_room_after_tables_comes_from_styles(parts):
     assert b"BodyAfterTable" in parts["word/document.xml"]
 
 
+def test_the_words_signature_and_date_stand_under_their_line(parts):
+    """They stood under the name, on a line of their own."""
+    body = etree.fromstring(parts["word/document.xml"])
+    (table,) = (t for t in body.iter(f"{W}tbl")
+                if t.find(f"{W}tblPr/{W}tblStyle").get(f"{W}val") == "SignTable")  # fmt: skip
+    rows = [["".join(cell.itertext()) for cell in row.iterfind(f"{W}tc")]
+            for row in table.iterfind(f"{W}tr")]  # fmt: skip
+    assert [row[0] for row in rows] == ["Выполнил", "Руководитель"]
+    assert all(row[2].strip("\u00a0 ") == "подпись, дата" for row in rows)
+    last = table.find(f"{W}tr").findall(f"{W}tc")[2]
+    assert last.find(f".//{W}br") is not None and last.find(f".//{W}jc").get(f"{W}val") == "center"
+
+
 def test_branches_of_a_brace_stand_in_columns(parts):
     text = parts["word/document.xml"].decode()
     assert USUAL.table_continuation

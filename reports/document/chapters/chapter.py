@@ -12,16 +12,15 @@ import numpy as np
 from markupsafe import Markup
 
 from kshm.defaults import FINE_STEP
-from kshm.nomenclature.quantity import UNITS
 from reports.document.chapters.record import Record, Write, chosen, relevant
 from reports.document.page.blocks import angle_table, scalar_table
 from reports.document.page.charts import HEIGHT, chart_figure, panels_figure
 from reports.document.page.numbering import Figure, Kind, TablePlan, Writer
 from reports.document.page.style import Style
+from reports.document.text.factors import WRITTEN_ALL, Factor, of_scale, written_in
 from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms, WhereItem, with_unit
 from reports.document.text.texts import of_digits
-from reports.formula.tex import exponent_of
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
 from reports.inputs.sections.report import CHAPTERS
@@ -40,7 +39,6 @@ BOOK = "gots"
 ELSEWHERE = "книги Excel"  # where the tables of chapters that are left out stand
 # Signs of a place in the textbook that stays with the word before it; that stays in one line.
 _SHORT_PLACE, _ONE_FORMULA = 8, 14
-_PLAIN = {"MPa": "Па", "kN": "Н", "mm": "м", "kW": "Вт", "dm3": "м³"}  # units of SI
 FORMULA = "n:"  # prefix of the keys of formulas of nodes
 
 
@@ -158,7 +156,7 @@ class Chapter:
     prototype: Prototype | None = None
     records: Sequence[Record] = ()
     figures: dict[str, str] = field(default_factory=dict)  # chart → key of its figure, in a draft
-    scales: dict[str, bool] = field(default_factory=dict)  # factors of the chapter → explained
+    scales: dict[Factor, bool] = field(default_factory=dict)  # of the chapter → explained
 
     @property
     def model(self) -> Model:
@@ -267,50 +265,60 @@ class Chapter:
         """Return the formula of a node in symbols, numbered, without the terms of ``zeros``."""
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
-        return self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
+        formula = self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
+        return formula + self._explained(written_in(name), end)
 
     def full(self, name: str, end: str = "") -> Markup:
         """Return the formula of a scalar in symbols, with numbers and its result, numbered."""
         if self.writer.draft:
+            self.terms.put_in.add((name, None))
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
         formula = self.writer.formula(tex, FORMULA + name, end)
-        return formula + self._explained(name, None, end)
+        return formula + self._explained(self._put_in(name, None), end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """Return the formula with numbers and its result, not numbered."""
         if self.writer.draft:
+            self.terms.put_in.add((name, at))
             return Markup("")
         formula = self.writer.formula(self.terms.substitution(name, at), None, end)
-        return formula + self._explained(name, at, end)
+        return formula + self._explained(self._put_in(name, at), end)
 
     def where(self, *names: str) -> Markup:
         """Return the «где» list under a formula, with the factors that are not explained yet."""
         factors = [WhereItem(power, f"перевод {words}") for power, words in self._factors()]
         return self.writer.where([*self.terms.where(*names), *factors])
 
-    def _explained(self, name: str, at: float | None, end: str) -> Markup:
+    def _put_in(self, name: str, at: float | None) -> Iterator[Factor]:
+        """Factors of a formula with numbers."""
+        yield from map(of_scale, self.terms.scales(name, at))
+        yield from written_in(name)
+
+    def _explained(self, used: Iterable[Factor], end: str) -> Markup:
         """Words on the factors of formulas whose sentence ends here."""
-        for scale in self.terms.scales(name, at):
-            self.scales.setdefault(scale, False)
+        for factor in used:
+            self.scales.setdefault(factor, False)
         factors = list(self._factors()) if end == "." else []
         if not factors:
             return Markup("")
-        powers = joined([inline_html(power) for power, _ in factors])
-        several = len(factors) > 1
-        verb = "множители {} переводят" if several else "множитель {} переводит"
-        said = Markup(f"Здесь {verb} {{}}.").format(Markup(powers), joined([w for _, w in factors]))
+        numbers = [power for power, _ in factors]
+        if len(set(numbers)) == 1:  # one number in several places
+            numbers = numbers[:1]
+        word = ("число", "числа") if set(factors) & WRITTEN_ALL else ("множитель", "множители")
+        verb = f"{word[1]} {{}} переводят" if len(numbers) > 1 else f"{word[0]} {{}} переводит"
+        said = Markup(f"Здесь {verb} {{}}.").format(
+            Markup(joined([inline_html(number) for number in numbers])),
+            joined([words for _, words in factors]),
+        )
         return Markup('<p class="flush">{}</p>').format(said)
 
-    def _factors(self) -> Iterator[tuple[str, str]]:
-        """Powers of ten that wait for their words, with these."""
-        for scale, explained in self.scales.items():
+    def _factors(self) -> Iterator[Factor]:
+        """Factors that wait for their words, with these."""
+        for factor, explained in self.scales.items():
             if not explained:
-                self.scales[scale] = True
-                way, unit = scale.split("_", 1)
-                pair = (_PLAIN[unit], UNITS[unit].label)
-                first, last = pair if way == "to" else reversed(pair)
-                yield f"10^{{{exponent_of(scale)}}}", f"{first} в {last}"
+                self.scales[factor] = True
+                yield factor
 
     def ref(self, name: str) -> Markup:
         """Return the number of a node's formula as a link, in brackets."""

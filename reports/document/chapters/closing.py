@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
+from types import MappingProxyType
 
 from markupsafe import Markup
 
@@ -23,7 +24,7 @@ from reports.document.chapters.chapter import (
     worst_pin,
     worst_running,
 )
-from reports.document.chapters.journals import least_ray
+from reports.document.chapters.journals import alike_journals, least_ray
 from reports.document.chapters.oil_hole import oil_hole
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
@@ -34,7 +35,7 @@ from reports.document.text.tolerances import tolerance
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import Held
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
-from reports.shared.russian import NBSP, capital, fixed, uncapital
+from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
 from reports.shared.standing import Standing
 from reports.tables.left_out import without_orders
 from reports.tables.verdicts import JudgedValue, check_value, reasons_of
@@ -77,11 +78,50 @@ SOURCES = {
         "Серенсен, С. В. Несущая способность и расчет деталей машин на прочность / "
         "С. В. Серенсен, В. П. Когаев, Р. М. Шнейдерович. — 3-е изд. — Москва : "
         f"Машиностроение, 1975. — 488 с. {_TEXT}.",
+    "orlin_theory":
+        "Двигатели внутреннего сгорания : Теория поршневых и комбинированных двигателей / "
+        "Д. Н. Вырубов, Н. А. Иващенко, В. И. Ивин [и др.] ; под редакцией А. С. Орлина, "
+        f"М. Г. Круглова. — 4-е изд. — Москва : Машиностроение, 1983. — 372 с. {_TEXT}.",
+    "orlin_design":
+        "Двигатели внутреннего сгорания : Конструирование и расчёт на прочность поршневых и "
+        "комбинированных двигателей / Д. Н. Вырубов, С. И. Ефимов, Н. А. Иващенко [и др.] ; под "
+        "редакцией А. С. Орлина, М. Г. Круглова. — 4-е изд. — Москва : Машиностроение, 1984. — "
+        f"384 с. {_TEXT}.",
+    "lukanin_cycle":
+        "Двигатели внутреннего сгорания. В 3 кн. Кн. 1. Теория рабочих процессов / В. Н. Луканин, "
+        "К. А. Морозов, А. С. Хачиян [и др.] ; под редакцией В. Н. Луканина, М. Г. Шатрова. — "
+        f"2-е изд. — Москва : Высшая школа, 2005. — 479 с. {_TEXT}.",
+    "lukanin_dynamics":
+        "Двигатели внутреннего сгорания. В 3 кн. Кн. 2. Динамика и конструирование / "
+        "В. Н. Луканин, И. В. Алексеев, М. Г. Шатров [и др.] ; под редакцией В. Н. Луканина, "
+        f"М. Г. Шатрова. — 2-е изд. — Москва : Высшая школа, 2005. — 400 с. {_TEXT}.",
+    "popyk":
+        "Попык, К. Г. Динамика автомобильных и тракторных двигателей / К. Г. Попык. — 2-е изд. — "
+        f"Москва : Высшая школа, 1970. — 328 с. {_TEXT}.",
+    "istomin":
+        "Истомин, П. А. Крутильные колебания в судовых ДВС / П. А. Истомин. — Ленинград : "
+        f"Судостроение, 1968. — 304 с. {_TEXT}.",
+    "terskikh":
+        "Терских, В. П. Крутильные колебания валопровода силовых установок. Т. 1. Элементы системы "
+        "и возмущающие моменты / В. П. Терских. — Ленинград : Судостроение, 1969. — 206 с. "
+        f"{_TEXT}.",
+    "maslov":
+        "Маслов, Г. С. Расчёты колебаний валов : справочник / Г. С. Маслов. — 2-е изд. — Москва : "
+        f"Машиностроение, 1980. — 151 с. {_TEXT}.",
+    "zakharov":
+        "Захаров, С. М. Подшипники коленчатых валов тепловозных дизелей / С. М. Захаров, "
+        "А. П. Никитин, Ю. А. Загорянский. — Москва : Транспорт, 1981. — 181 с. "
+        f"{_TEXT}.",
+    "birger":
+        "Биргер, И. А. Расчёт на прочность деталей машин : справочник / И. А. Биргер, Б. Ф. Шорр, "
+        "Г. Б. Иосилевич. — 4-е изд. — Москва : Машиностроение, 1993. — 640 с. "
+        f"{_TEXT}.",
 }  # fmt: skip
 
 # Chapters whose results the conclusion repeats.
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
+_JOURNALS = "Удельные силы, одинаковые у коренных шеек {} ({})"
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 _CHECKED = 3  # decimals of all checks, in one column
 
@@ -284,6 +324,8 @@ def appendices(chapter: Chapter) -> Markup:
     # Statics gives a table of its own only where it differs from the rule.
     separate = pin_torque(terms, shape.throws, 1).startswith(STATICS)
     running = ("P4_4", "P4_5", *((STATICS,) if separate else ()))
+    journals = alike_journals(terms, shape.throws)
+    together = {f"P4_3_{alike[0]}": alike for alike in journals if len(alike) > 1}
     reactions = ["phi_deg", "Rx_MPa", "Ry_MPa", "R_MPa", "psiR_deg"]
     kinematic = [
         ("P3_1", None, ""),
@@ -296,12 +338,12 @@ def appendices(chapter: Chapter) -> Markup:
         ("P4_1", None, ""),
         ("P4_2", None, wide),
         *((key, None, "") for key in _loads(shape)),
-        *((f"P4_3_{k}", reactions, "") for k in range(1, shape.throws + 2)),
+        *((f"P4_3_{alike[0]}", reactions, "") for alike in journals),
         *((key, _moments(terms, key), wide) for key in running),
         (rays_table(worst_pin(terms)), None, "dense"),
     ]
     return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),
-                        forces=_plans(chapter, "Б", forces))  # fmt: skip
+                        forces=_plans(chapter, "Б", forces, together))  # fmt: skip
 
 
 def _loads(shape: Shape) -> list[str]:
@@ -320,9 +362,15 @@ def _moments(terms: Terms, table: str) -> list[str]:
 
 
 def _plans(
-    chapter: Chapter, letter: str, tables: Sequence[tuple[str, list[str] | None, str]]
+    chapter: Chapter,
+    letter: str,
+    tables: Sequence[tuple[str, list[str] | None, str]],
+    together: Mapping[str, tuple[int, ...]] = MappingProxyType({}),
 ) -> list[tuple[str, TablePlan]]:
-    """Tables of an appendix, numbered within it; the textbook's number stands in the title."""
+    """Tables of an appendix, numbered within it; the textbook's number stands in the title.
+
+    ``together`` are the journals of a table that serves several.
+    """
     plans = []
     for number, (key, columns, size) in enumerate(tables, 1):
         spec = chapter.model.tables[key]
@@ -336,6 +384,11 @@ def _plans(
         )
         match = _TEXTBOOKS.fullmatch(spec.number)
         title = f"{spec.title} ({spec.number})" if match else spec.title
+        if key in together:  # equal loads are printed once
+            title = _JOURNALS.format(
+                joined([str(number) for number in together[key]]),
+                ", ".join(f"П4.3.{number}" for number in together[key]),
+            )
         usual = "" if chapter.whole else "dense"
         plan = TablePlan(build, title, number=f"{letter}.{number}", size=size or usual)
         plans.append((key, plan))

@@ -117,6 +117,26 @@ def _are_alike(terms: Terms, columns: Sequence[str]) -> bool:
     return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
 
 
+def alike_journals(terms: Terms, throws: int) -> list[tuple[int, ...]]:
+    """Main journals in groups that one table of loads serves: at every angle they are the same."""
+    groups: list[tuple[int, ...]] = []
+    for number in range(1, throws + 2):
+        for place, group in enumerate(groups):
+            if _is_same_load(terms, group[0], number):
+                groups[place] = (*group, number)
+                break
+        else:
+            groups.append((number,))
+    return groups
+
+
+def _is_same_load(terms: Terms, one: int, other: int) -> bool:
+    scale = float(np.abs(terms.column(f"P4_3_{one}.R_MPa")).max())
+    pairs = ((terms.column(f"P4_3_{one}.{key}"), terms.column(f"P4_3_{other}.{key}"))
+             for key in ("Rx_MPa", "Ry_MPa"))  # fmt: skip
+    return all(np.allclose(a, b, rtol=0, atol=1e-6 * scale) for a, b in pairs)
+
+
 def _have_equal_gaps(chapter: Chapter) -> bool:
     """Whether the rods of every pin work at the same intervals, whatever the pin."""
     offsets, period = chapter.input.crankshaft.firing_offsets_deg, chapter.shape.period
@@ -169,7 +189,7 @@ def journals(chapter: Chapter) -> Markup:
         arms=[name for name in (*_ARMS, *_OUTER) if name in _read_by_first(chapter) - absent],
         absent=absent,
         numbers=numbers,
-        tables=[f"P4_3_{n}" for n in numbers],
+        tables=[f"P4_3_{alike[0]}" for alike in alike_journals(terms, throws)],
         drawn=drawn,
         curves=[f"fig55_{n}" for n in drawn],
         forces=_throws(

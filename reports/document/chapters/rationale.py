@@ -149,6 +149,7 @@ def rationale(chapter: Chapter) -> Markup:
         known_kind=bool(stated_kind(chapter.input)),
         compared=prototype is not None,
         prototype=prototype.name if prototype else "",
+        design=chapter.input.prototype.description.strip() if chapter.input.prototype else "",
         pairs=TablePlan(partial(_main_table, pairs), "Двигатель и прототип") if pairs else None,
         denser=_denser(pairs),
         film=judged[-1].reason.key == "film",

@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from kshm.defaults import DAMPING_SHARE, FLYWHEEL_SHARE, PULLEY_SHARE, SPEED_RANGE, SPEEDS
 from reports.document.chapters.chapter import Chapter
+from reports.document.figures.curves import Mark
 from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
@@ -125,6 +126,8 @@ def torsion(chapter: Chapter) -> Markup:
                              "Резонансы рабочего диапазона", keep=True) if resonances else None,
         hidden=_hidden(terms, modes) - len(resonances),
         rays=_rays(terms, resonances),
+        shown_levels=tuple(f"tor_f{m}_hz" for m in modes if m in {mode for mode, _ in resonances}),
+        dangerous=_dangerous(terms) if resonances else None,
         order=terms.value("tor_worst_order"),
         worst_order=fixed(terms.value("tor_worst_order"), 1).removesuffix(",0"),
         mode=round(terms.value("tor_worst_mode")),
@@ -300,6 +303,17 @@ def _rays(terms: Terms, resonances: list[tuple[int, int]]) -> tuple[Series, ...]
         )
         for order in sorted(strongest)
     )
+
+
+def _dangerous(terms: Terms) -> dict[str, tuple[Mark, ...]]:
+    """Marks of the strongest resonance: over the orders and over the speed."""
+    order, mode = terms.value("tor_worst_order"), round(terms.value("tor_worst_mode"))
+    name = f"$\\nu$ = {short(order)} (форма {mode})"
+    speed = f"{name}, {terms.num('tor_worst_rpm', beside='tor_n_max')} мин⁻¹"
+    return {
+        "stress": (Mark(name, order, terms.value("tor_worst")),),
+        "speed": (Mark(speed, terms.value("tor_worst_rpm"), terms.value(f"tor_f{mode}_hz")),),
+    }
 
 
 def _resonance_table(terms: Terms, resonances: list[tuple[int, int]]) -> TableBlock:

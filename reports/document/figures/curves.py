@@ -39,6 +39,7 @@ _IN_ROW, _INSET = 4, 3.3
 _NEAR = 1 / 3  # of its length, the abscissa's beginning from which it is drawn from zero
 _BESIDE, _DOT = 4.0, 3.4  # pt between the stems of one order; dots at their ends
 _THIN = LineStyle(0.6, (5, 2.5))
+_RAY, _LEADER, _FAN_ROW, _LOUD = LineStyle(0.9), 16.0, 13.0, 2.8  # of a fan, and its mark [pt]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,10 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One plot: ``zero`` is taken into the ordinate, ``points`` get dots, ``stems`` no curves."""
+    """One plot: ``zero`` is taken into the ordinate, ``points`` get dots, ``stems`` no curves.
+
+    The curves of a ``fan`` are alike and have their names at their ends, in a column.
+    """
 
     curves: Sequence[PlotCurve]
     y_title: str
@@ -77,6 +81,7 @@ class Panel:
     zero: bool = True
     points: Sequence[tuple[ArrayLike, ArrayLike]] = ()
     stems: bool = False
+    fan: bool = False
 
     def ordinates(self, size: int) -> list[NDArray[np.float64]]:
         """Return the curves as arrays, shape (size,) each.
@@ -142,8 +147,10 @@ def curves_figure(
     ]
     left = max(ticks.width() for ticks in y_ticks) + 8
     right = text_size(x_title, FONT_SIZE)[0] + x_ticks.beyond() + 3
+    right = max(right, *(_fan_width(panel) for panel in panels))
     # Rows of a legend above the first; those of the other panels stand between them.
-    top = _TOP + LEGEND_ROW * (max(len(panels[0].curves) - 1, 0) // _IN_ROW)
+    legends = 0 if panels[0].fan else max(len(panels[0].curves) - 1, 0) // _IN_ROW
+    top = _TOP + LEGEND_ROW * legends
     page = Sheet(PAGE_WIDTH, height * len(panels))
     room = page.height - _BOTTOM - top - _BETWEEN * (len(panels) - 1)
     tall = room / len(panels)
@@ -164,7 +171,7 @@ def _plot(axes: Axes, x: NDArray[np.float64], panel: Panel) -> None:
     axes.name_y(panel.y_title)
     lines = [axes.at(x, y) for y in panel.ordinates(x.size)]
     for number, line in enumerate(lines):
-        look = PATTERNS[number % len(PATTERNS)]
+        look = _RAY if panel.fan else PATTERNS[number % len(PATTERNS)]
         if panel.stems:
             beside = _BESIDE * (number - (len(lines) - 1) / 2)
             _stems(axes, line + np.array([beside, 0.0]), look)
@@ -198,12 +205,16 @@ def _name(axes: Axes, panel: Panel, lines: Sequence[Points]) -> None:
     across = [dense(axes.at(ends, y)) for y in (*(level.y for level in panel.levels), 0.0)]
     room.curves += [*lines, *across]
     for mark in panel.marks:
-        _mark(axes, room, axes.at(mark.x, mark.y).tolist(), mark.name)
+        _mark(
+            axes, room, axes.at(mark.x, mark.y).tolist(), mark.name, loud=panel.fan or panel.stems
+        )
     for level, line in zip(panel.levels, across, strict=False):
         centre = label_curve(room, line, lines, text_size(level.name, FONT_SIZE))
         if centre:
             axes.page.text(centre, level.name, halo=True)
-    if len(panel.curves) < 2:
+    if panel.fan:
+        _fan(axes, panel.curves, lines)
+    if len(panel.curves) < 2 or panel.fan:
         return
     points = []
     for curve, line in () if panel.stems else zip(panel.curves, lines, strict=True):
@@ -234,11 +245,57 @@ def legend(axes: Axes, names: Sequence[str], *, in_row: int = _IN_ROW, above: fl
         x -= _GAP + _SAMPLE + _COLUMNS_GAP
 
 
-def _mark(axes: Axes, room: LabelField, point: tuple[float, float], name: str) -> None:
-    axes.page.circle((point[0], point[1]), 1.6, "#000000", None, 4)
-    centre = label_point(room, (point[0], point[1]), text_size(name, SMALL))
+def _mark(
+    axes: Axes, room: LabelField, point: tuple[float, float], name: str, *, loud: bool = False
+) -> None:
+    """Draw a point with its name; a ``loud`` one is what the figure is about."""
+    size, way = (FONT_SIZE, (1.0, -1.0)) if loud else (SMALL, (1.0, 1.0))
+    axes.page.circle((point[0], point[1]), _LOUD if loud else 1.6, "#000000", None, 4)
+    gaps = (5.0, 9.0, 14.0, 20.0, 30.0, 45.0) if loud else (2.5, 5.0, 9.0, 14.0, 20.0)
+    around = (point[0], point[1])
+    centre = label_point(room, around, text_size(name, size), first=way, gaps=gaps)
     if centre:
-        axes.page.text(centre, name, SMALL, halo=True)
+        axes.page.text(centre, name, size, halo=True)
+
+
+def _fan_width(panel: Panel) -> float:
+    """Room that the names at the ends of a fan ask for [pt]."""
+    names = (text_size(curve.name, FONT_SIZE)[0] for curve in panel.curves if panel.fan)
+    return max(names, default=-_LEADER) + _LEADER
+
+
+def _fan(axes: Axes, curves: Sequence[PlotCurve], lines: Sequence[Points]) -> None:
+    """Names of a fan at the right edge, from below as the ends are, none over another."""
+    ends = [line[-1].tolist() for line in lines]
+    rising = sorted(range(len(ends)), key=lambda n: ends[n][1])
+    places = spread([ends[n][1] for n in rising], _FAN_ROW, axes.field[1], axes.field[3])
+    edge = axes.field[2] + _LEADER
+    for number, y in zip(rising, places, strict=True):
+        axes.page.lines([[tuple(ends[number]), (edge - 3, y)]], _THIN, 1.2)
+        axes.page.text((edge, y), curves[number].name, align=0.0)
+
+
+def spread(wanted: Sequence[float], gap: float, low: float, high: float) -> list[float]:
+    """Return places near the wanted ones, which rise, not closer together than a gap.
+
+    >>> spread([1.0, 1.0, 9.0], 2.0, 0.0, 10.0)
+    [0.0, 2.0, 9.0]
+    """
+    runs: list[tuple[float, int]] = []  # middle and count of places in a row
+
+    def held(middle: float, count: int) -> float:
+        half = gap * (count - 1) / 2
+        return min(max(middle, low + half), high - half)
+
+    for place in wanted:
+        runs.append((held(place, 1), 1))
+        while len(runs) > 1:
+            (one, first), (other, second) = runs[-2:]
+            if other - one >= gap * (first + second) / 2 - 1e-9:
+                break
+            middle = (one * first + other * second) / (first + second)
+            runs[-2:] = [(held(middle, first + second), first + second)]
+    return [middle + gap * (n - (count - 1) / 2) for middle, count in runs for n in range(count)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -154,6 +154,7 @@ def chart_figure(
     *,
     caption: str = "",
     series: tuple[Series, ...] = (),
+    levels: tuple[str, ...] = (),
     **more: Any,  # noqa: ANN401
 ) -> Figure:
     """Return a chart as a figure.
@@ -164,10 +165,11 @@ def chart_figure(
         size: height of curves, greatest side of a path, width of a wear diagram [mm].
         caption: what to say instead of the specification's words.
         series: what is drawn instead of the specification's curves.
-        more: ``rows`` and ``closed`` of curves, ``least_step`` of a path, ``top`` of a wear
-            diagram.
+        levels: lines across instead of the specification's.
+        more: ``rows``, ``marks``, ``fan`` and ``closed`` of curves, ``least_step`` of a path,
+            ``top`` of a wear diagram.
     """
-    chart = replace(chart, series=series or chart.series)
+    chart = replace(chart, series=series or chart.series, levels=levels or chart.levels)
     draw = _KINDS[chart.kind](terms, chart, size, **more)
     words = caption or chart.words
     return Figure(draw, words, _spoken(terms, words, [chart]))
@@ -198,10 +200,18 @@ def panels_figure(
 
 
 def _curves(
-    terms: Terms, chart: ChartSpec, size: float, *, rows: Sequence[Row] = (), closed: bool = False
+    terms: Terms,
+    chart: ChartSpec,
+    size: float,
+    *,
+    rows: Sequence[Row] = (),
+    closed: bool = False,
+    fan: bool = False,
+    marks: Sequence[Mark] = (),
 ) -> Callable[[], str]:
     name, x, (columns,) = _together(terms, [chart])
     panel = _panel(terms, chart, columns, rows)
+    panel = replace(panel, fan=fan, marks=(*panel.marks, *marks))
     if closed:
         x = np.append(x, x[0])
         curves = (PlotCurve(c.name, np.append(c.y, np.asarray(c.y)[0])) for c in panel.curves)

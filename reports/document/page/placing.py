@@ -15,6 +15,7 @@ from typing import Any, Literal, NamedTuple
 Kind = Literal["chapter", "heading", "text", "tied", "float", "table", "other"]
 
 _HEADING = re.compile(r"<h[1-3]")
+_LINKS, _IDS = re.compile(r'href="#([^"]+)"'), re.compile(r'\bid="([^"]+)"')
 WIDTH = re.compile(r'<(?:svg|img) class="fig"[^>]*?style="width:([\d.]+)mm')
 _TOGETHER = 3  # rows of a table that stand together at its beginning and at its end
 _DIVIDED = 4  # lines of the least paragraph that is divided
@@ -24,6 +25,7 @@ _TOO_BLANK = 0.25  # the share from which a page looks like the end of a chapter
 _HOLE = 4.0  # for each page's height of the blank beyond it
 _FAR = 0.0006  # for each block that a figure lets pass
 _NEXT = 0.015  # for each figure that lets a heading pass
+_LATE = 1.0  # for each page between a figure and the one after that of its first mention
 _SMALLER = 0.2  # for the square of the share that a figure loses
 _WRONG = 0.1  # the chance that what is left is less by a line than estimated
 _PAGE = 0.1  # for each page, where a chapter could end one earlier
@@ -62,6 +64,7 @@ class Block:
     rows: tuple[float, ...] = ()
     line: float = 0.0  # of a paragraph
     tail: float = 0.0  # of what follows and must stand on the same page
+    names: tuple[str, ...] = ()  # figures first mentioned here; of a figure its own name
 
 
 class _Layout(NamedTuple):
@@ -70,9 +73,15 @@ class _Layout(NamedTuple):
     spot: Spot
     waiting: tuple[Block, ...] = ()
     placed: tuple[str, Any] | None = None
+    mentions: tuple[tuple[str, int], ...] = ()  # figures to come and the pages that name them
 
     def then(self, html: str, spot: Spot, waiting: tuple[Block, ...]) -> _Layout:
-        return _Layout(spot, waiting, (html, self.placed))
+        return _Layout(spot, waiting, (html, self.placed), self.mentions)
+
+    def late(self, block: Block, page: int) -> float:
+        """Cost of a figure on a page that is not the next after its first mention."""
+        named = (at for name, at in self.mentions if name in block.names)
+        return _LATE * max(0, page - 1 - min(named, default=page))
 
 
 def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tuple[list[str], Spot]:
@@ -98,7 +107,7 @@ def _search(
     """Return the cheapest layout; figures may be reduced for so many blocks that follow them."""
     layouts = [_Layout(spot._replace(cost=0.0))]
     headed = True  # between a heading and its text stands no figure
-    for block in _with_tails(blocks):
+    for block in _with_tails(list(_naming(blocks))):
         if block.kind not in ("tied", "other") and not headed:
             layouts = [way for layout in layouts for way in _ways(layout, room, line, together)]
         layouts = _best([_followed(layout, block, room) for layout in layouts])
@@ -107,6 +116,16 @@ def _search(
         )
     placed = (_all_placed(layout, room, line, together) for layout in layouts)
     return min(placed, key=_cost)
+
+
+def _naming(blocks: Sequence[Block]) -> Iterator[Block]:
+    """Yield the blocks with the figures of the chapter that each is the first to name."""
+    own = [tuple(_IDS.findall(block.html)) if block.figure else () for block in blocks]
+    coming = {name for names in own for name in names}
+    for block, names in zip(blocks, own, strict=True):
+        first = tuple(name for name in _LINKS.findall(block.html) if name in coming)
+        coming.difference_update(first)
+        yield replace(block, names=names or first)
 
 
 def _with_tails(blocks: Sequence[Block]) -> list[Block]:
@@ -156,7 +175,8 @@ def _ways(layout: _Layout, room: float, line: float, together: int) -> Iterator[
         if any(bool(block.figure) == bool(other.figure) for other in layout.waiting[:number]):
             continue
         waiting = layout.waiting[:number] + layout.waiting[number + 1 :]
-        for html, spot in _put(block, waiting[:together], layout.spot, room, line):
+        for html, put in _put(block, waiting[:together], layout.spot, room, line):
+            spot = put._replace(cost=put.cost + layout.late(block, put.page))
             yield from _ways(layout.then(html, spot, waiting), room, line, together)
 
 
@@ -184,13 +204,16 @@ def _put(
 
 def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
     """Return the next block of the text, waiting if it floats."""
-    spot, waiting, _ = layout
+    spot, waiting, *_ = layout
     if block.kind == "float" or (waiting and block.kind == "table"):
         return layout._replace(waiting=(*waiting, block))
     passed = _NEXT if block.kind == "heading" else _FAR
     placed = after(block, spot, room)
     placed = placed._replace(cost=placed.cost + passed * len(waiting))
-    return layout.then(_paged(block, placed.page), placed, waiting)
+    then = layout.then(_paged(block, placed.page), placed, waiting)
+    # A paragraph over the end of a page may name it in its first lines.
+    page = spot.page if block.line and spot.used < room - block.line else placed.page
+    return then._replace(mentions=then.mentions + tuple((name, page) for name in block.names))
 
 
 def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
@@ -198,7 +221,7 @@ def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
     cheapest: dict[tuple[object, ...], _Layout] = {}
     for layout in sorted(layouts, key=lambda each: each.spot.cost):
         spot = layout.spot
-        key = (spot.page, round(spot.used), tuple(map(id, layout.waiting)))
+        key = (spot.page, round(spot.used), tuple(map(id, layout.waiting)), layout.mentions[-2:])
         cheapest.setdefault(key, layout)
     return list(cheapest.values())[:_LAYOUTS]
 

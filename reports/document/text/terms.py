@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -42,6 +43,7 @@ _SYMBOLS = {
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
 _SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
+_MOST_DECIMALS = 7  # of an angular speed
 _NO_SPACE = {"°"}
 _GIVEN = 8  # significant digits of an input that nobody would write by hand
 # Words of a field's title for who fills it in, which a note does not repeat.
@@ -131,6 +133,8 @@ class Terms:
     model: Model
     values: Values
     fine: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
+    put_in: set[tuple[str, float | None]] = field(default_factory=set)  # formulas with numbers
+    speed_decimals: dict[int, int] = field(default_factory=dict)  # by how many those are
 
     @cached_property
     def grid_errors(self) -> tuple[GridError, ...]:
@@ -226,6 +230,8 @@ class Terms:
         value = self.value(name, at)
         if name in self.model.fields:
             return plain_number(value)
+        if self._is_speed(name):
+            return fixed(value, self._speed_decimals)
         digits = self._digits(name)
         if beside:
             other = self._digits(beside).within(self.value(beside))
@@ -267,7 +273,9 @@ class Terms:
             product = formulas.to_tex_numbers(self._node_expr(node), self._symbols(name), number)
             return formulas.Raw("0" if product.startswith(r"0 \cdot") else product)
 
-        parts.append(formulas.to_tex_numbers(expr, self._symbols(name), number))
+        given = formulas.to_tex_numbers(expr, self._symbols(name), number)
+        if given != parts[-1]:  # an extreme of a column has no numbers to put in
+            parts.append(given)
         parts.append(self.result_tex(name, at))
         return " = ".join(parts)
 
@@ -295,12 +303,49 @@ class Terms:
         return book_place(*(node.source for node in map(self._node, names) if node is not None))
 
     def _result_tex(self, name: str, value: float) -> str:
+        if self._is_speed(name):
+            return to_tex(fixed(value, self._speed_decimals))
         return of_digits_tex(value, self._digits(name))
 
     def _digits(self, name: str) -> Digits:
         """Digits of a node; of a column those that its table has."""
         digits = self.quantity(name).digits
         return digits.within(np.abs(self.column(name)).max()) if self._column(name) else digits
+
+    def _is_speed(self, name: str) -> bool:
+        """Whether a node is an angular speed of the shaft, which a note writes in one way."""
+        return name in self.model.scalars and self.model.scalars[name].quantity.unit == "rad_s"
+
+    @property
+    def _speed_decimals(self) -> int:
+        """Fewest decimals of the angular speeds that give the result of every formula put in."""
+        known = self.speed_decimals
+        if len(self.put_in) not in known:
+            decimals = _SIGNIFICANT - 1 - math.floor(math.log10(self.value("omega")))
+            while decimals < _MOST_DECIMALS and not all(
+                self._gives(name, at, decimals) for name, at in self.put_in
+            ):
+                decimals += 1
+            known[len(self.put_in)] = decimals
+        return known[len(self.put_in)]
+
+    def _gives(self, name: str, at: float | None, decimals: int) -> bool:
+        """Whether a formula with speeds of so many decimals gives its printed result."""
+        table = name.rpartition(".")[0]
+
+        def rounded(inner: str) -> float:
+            node = self._global(inner, table)
+            value = self.value(node, at)
+            return round(value, decimals) if self._is_speed(node) else value
+
+        try:
+            value = float(evaluate(self._expr(name, at), rounded))
+        except (IndexError, KeyError, TypeError, ValueError):  # whole columns, choices
+            return True
+        given = self.value(name, at)
+        if self._is_speed(name):
+            return fixed(value, decimals) == fixed(given, decimals)
+        return self._result_tex(name, value) == self._result_tex(name, given)
 
     def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]
@@ -360,6 +405,8 @@ class Terms:
             if self._is_product(node):
                 return float(evaluate(self._node_expr(node), rounded))
             value = self.value(node, at)
+            if self._is_speed(node):
+                return round(value, self._speed_decimals)
             if node not in self.model.fields and self.quantity(node).unit == "rad":
                 return float(np.radians(round(float(np.degrees(value)), _decimals_deg(digits))))
             return float(f"{value:.{digits - 1}e}")
@@ -381,6 +428,8 @@ class Terms:
         value = self.value(name, at)
         if name in self.model.fields:
             return formulas.Raw(_number_tex(value, digits))
+        if self._is_speed(name):
+            return formulas.Raw(to_tex(fixed(value, self._speed_decimals)))
         quantity = self.quantity(name)
         if quantity.unit == "rad":
             text = to_tex(fixed(float(np.degrees(value)), _decimals_deg(digits)))

@@ -155,6 +155,7 @@ class PrototypeSection(Strictly):
 
     name: str = text(f"{_PROTOTYPE}: название", "")
     file: str = text(f"{_PROTOTYPE}: файл исходных данных", "")
+    description: str = text(f"{_PROTOTYPE}: описание конструкции", "")
     cylinders: int | None = number(
         f"{_PROTOTYPE}: число цилиндров", "i", NONE, 1, MAX_CYLINDERS, None
     )

@@ -79,15 +79,18 @@ DIAGRAMS = {
     "mechanism": "механизм с размерами",
     "counterweight": "противовес щеки с размерами",
     "torsion": "напряжения вала от крутильных колебаний",
+    "strength": "запасы прочности и напряжения деталей",
+    "speed": "внешняя характеристика с регуляторной ветвью",
+    "flywheel": "маховик с размерами",
 }
 Diagram = Literal[
     "pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
     "main_polar", "main_load", "main_wear", "shaft", "balance", "running", "results",
-    "throw", "mechanism", "counterweight", "torsion",
+    "throw", "mechanism", "counterweight", "torsion", "strength", "speed", "flywheel",
 ]  # fmt: skip
 USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_load", "pin_wear",
          "main_wear", "shaft", "balance", "running", "results", "throw", "counterweight", "torsion",
-         "main_polar")  # fmt: skip
+         "strength", "speed", "flywheel", "main_polar")  # fmt: skip
 SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
 WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}
@@ -95,7 +98,7 @@ MOST_LAMBDAS = 12
 BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
 # Checks of the calculation, besides the keys of the file that `check` warns of.
 CHECKS = (
-    "closure", "work", "grid", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
+    "supports", "virtual", "work", "lam", "phases", "symmetry", "cycle_rho", "cycle_pz", "cycle_Tr",
     "power", "share",
 )  # fmt: skip
 

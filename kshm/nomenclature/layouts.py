@@ -128,6 +128,13 @@ _HELPERS = (
     ("throw_line_y", r"y_{\mathrm{к}}", "", "линия колен, y", 3),
     ("bank_line_x", r"x_{\mathrm{р}}", "", "оси рядов, x", 3),
     ("bank_line_y", r"y_{\mathrm{р}}", "", "оси рядов, y", 3),
+    *((f"curve_{side}{of}{rod}", rf"{symbol}_{{\mathrm{{{side}}}{rod}}}", "", f"доля {what}", 5)
+      for side, where in (("a", "слева"), ("b", "справа"))
+      for rod, whose in (("", "левого шатуна"), ("2", "правого шатуна"))
+      for of, symbol, axis in (("c", "c", "вдоль оси"), ("s", "s", "поперёк оси"))
+      for what in (f"силы {whose} колена {where} от шейки, {axis}",)),
+    *((f"curve_{side}{axis}", rf"{axis}_{{\mathrm{{{side}}}}}", "MPa", f"постоянная часть реакции колена {where} от шейки, по оси {axis}", 4)
+      for side, where in (("a", "слева"), ("b", "справа")) for axis in "xy"),
     ("sketch", "x", "", "точка схемы", 4),
     ("sketch_axis_x", r"x_{\mathrm{о}}", "", "ось цилиндра, x", 4),
     ("sketch_axis_y", r"y_{\mathrm{о}}", "", "ось цилиндра, y", 4),

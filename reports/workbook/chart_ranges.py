@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from openpyxl.utils import get_column_letter
 
-from kshm.nomenclature.quantity import roman
-from reports.model.charts import ChartSpec
+from kshm.nomenclature.quantity import quantity, roman
+from reports.model.charts import ChartSpec, Series
 from reports.model.evaluation import Values
 from reports.workbook.layout import Layout, column_range, quoted
 
@@ -36,6 +36,26 @@ class Drawn:
     hidden: bool = False  # only keeps the axes in proportion
 
 
+def drawn_series(spec: ChartSpec, layout: Layout) -> list[Series]:
+    """Curves of the workbook's chart, from the fine table those that it has whole."""
+    return [drawn_from(series, layout) for series in spec.drawn_by("workbook")]
+
+
+def drawn_from(series: Series, layout: Layout) -> Series:
+    """Return a curve with the columns that it is drawn from, under its own name."""
+    draws = layout.model.draws
+    if not (series.x in draws and series.y in draws):
+        return series
+    name = series.name or symbol_of(series.y, layout)
+    return replace(series, x=draws[series.x], y=draws[series.y], name=name)
+
+
+def symbol_of(key: str, layout: Layout) -> str:
+    """Return a symbol of a column or of a grid's row: those are called by quantity."""
+    about = layout.model.nodes.get(key) or layout.model.grid_rows.get(key)
+    return (about.quantity if about is not None else quantity(key.split(".")[1])).symbol
+
+
 def rays(spec: ChartSpec, layout: Layout) -> list[CurveRanges]:
     """Worn depth at every ray of a wear diagram, from the wear to the circle."""
     circle, wear = spec.drawn_by("workbook")[:2]
@@ -50,7 +70,7 @@ def rays(spec: ChartSpec, layout: Layout) -> list[CurveRanges]:
 
 def marks(spec: ChartSpec, layout: Layout, values: Values) -> list[CurveRanges]:
     """Points of a polar diagram at round angles, called by them: no name upon another."""
-    path = spec.drawn_by("workbook")[0]
+    path = drawn_series(spec, layout)[0]
     if path.y not in layout.columns:
         return []
     table = layout.columns[path.y][0]

@@ -25,12 +25,19 @@ from openpyxl.drawing.text import (
     RegularTextRun,
 )
 
-from kshm.nomenclature.quantity import quantity
 from reports.model.charts import ChartSpec
 from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
 from reports.workbook.chapters import contents_for, is_smooth_sheet
-from reports.workbook.chart_ranges import CurveRanges, Drawn, limits, marks, rays
+from reports.workbook.chart_ranges import (
+    CurveRanges,
+    Drawn,
+    drawn_series,
+    limits,
+    marks,
+    rays,
+    symbol_of,
+)
 from reports.workbook.layout import FIRST_ROW, Layout
 
 WIDE, HIGH = 408, 272  # px: several beside a table
@@ -61,7 +68,7 @@ def make_chart(
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
     chart = _empty(spec.heading)
-    curves = spec.drawn_by("workbook")
+    curves = drawn_series(spec, layout)
     for number, series in enumerate(curves):
         chart.series.append(
             _series(series, number, layout, smooth=is_smooth(spec, layout), stems=spec.stems)
@@ -109,7 +116,7 @@ def _pole(number: int) -> XYSeries:
 def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
     """Whether all curves of a chart are zero; cells still to be filled in are not."""
     ranges = ranges_of(spec, layout, values)
-    ends = [series.y for series in spec.drawn_by("workbook") if not series.invisible]
+    ends = [series.y for series in drawn_series(spec, layout) if not series.invisible]
     return all(abs(y) < _ZERO for key in ends for y in ranges[layout.range_of(key)])
 
 
@@ -279,10 +286,7 @@ def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
 def _series(
     series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool
 ) -> XYSeries:
-    node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
-    row = layout.model.grid_rows.get(series.y)
-    measure = node.quantity if node else row.quantity if row else quantity(series.y.split(".")[1])
-    name = series.name or measure.symbol
+    name = series.name or symbol_of(series.y, layout)
     line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:
@@ -346,14 +350,14 @@ def _look(number: int) -> LineProperties:
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:
     """Range of each series → its numbers, which the finishing pass puts into the chart."""
     ranges = {}
-    for key in (key for series in spec.drawn_by("workbook") for key in (series.x, series.y)):
+    for key in (key for series in drawn_series(spec, layout) for key in (series.x, series.y)):
         table, column = key.split(".")
         if table in values.columns:
             numbers = values.columns[table][column].astype(float).tolist()
         else:
             numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
         ranges[layout.range_of(key)] = numbers
-    path = spec.drawn_by("workbook")[0]
+    path = drawn_series(spec, layout)[0]
     if spec.kind == "wear":
         circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
         for axis in "xy":

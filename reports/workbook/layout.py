@@ -47,6 +47,7 @@ _NEXT = "\x02"
 _ABOVE = "\x03"
 # The column of the first row's order; that of the next row stands beside it.
 _BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
+_DOWN_TO_HERE = re.compile(f":[A-Z]+{_ROW}")
 _WAVE = re.compile("\x04(\\d+)\x04")
 
 
@@ -386,6 +387,16 @@ def at_row(formula: str, row: int, *, last: bool = False) -> str:
             lambda match: get_column_letter(int(match[1]) + row - FIRST_ROW), formula
         )
     return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
+
+
+def can_share(formula: str) -> bool:
+    """Whether one formula serves all rows of a column as spreadsheet programs shift it.
+
+    They share none that names another sheet; what rows above give, LibreOffice then calculates in
+    another order and to other last digits.
+    """
+    marks = any(mark in formula for mark in ("!", _NEXT, _ABOVE, "\x04", "\x05"))
+    return not marks and _DOWN_TO_HERE.search(formula) is None
 
 
 def check_names(layout: Layout) -> None:

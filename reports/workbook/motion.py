@@ -22,9 +22,10 @@ from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
+from reports.model.charts import Series
 from reports.model.shape import Shape, cylinder_table_id
 from reports.workbook import styles
-from reports.workbook.chart_ranges import Drawn
+from reports.workbook.chart_ranges import Drawn, drawn_from
 from reports.workbook.charts import HIGH, drawing
 from reports.workbook.layout import NOTE_ROW, Cell, Layout, RowReferences, column_range, quoted
 from reports.workbook.places import GAP, Box, anchor
@@ -322,10 +323,11 @@ def _charts(
     layout, values = writer.layout, writer.values
 
     def curve(name: str, x: str, y: str) -> Drawn:
-        for at in (x, y):
+        series = drawn_from(Series(x, y, name), layout)
+        for at in (series.x, series.y):
             table, key = at.split(".")
             writer.caches.ranges[layout.range_of(at)] = values.columns[table][key].tolist()
-        return Drawn(name, layout.range_of(x), layout.range_of(y))
+        return Drawn(name, layout.range_of(series.x), layout.range_of(series.y))
 
     limits = layout.range_of(_BOX)
     writer.caches.ranges[limits] = [float(values.scalars[k]) for k in layout.keys_of_run(_BOX)]

@@ -18,6 +18,7 @@ from reports.model.contents import Contents
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
 from reports.shared.gc_pause import uncollected
+from reports.tables.curves import with_curves, with_values
 from reports.tables.verdicts import accepted_checks
 from reports.workbook import cockpit, motion, styles
 from reports.workbook.bars import draw_bars
@@ -141,9 +142,11 @@ def _cell(
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     """Return the finished workbook as bytes; the same model gives the same bytes."""
+    values = values or evaluate_model(model)
+    model = with_curves(model)
     layout = Layout.of(model)
     check_names(layout)
-    writer = BlockWriter(layout, values or evaluate_model(model))
+    writer = BlockWriter(layout, with_values(model, values))
     with uncollected():
         book = assemble(model, writer)
         write_texts(book, model)
@@ -230,11 +233,10 @@ def assemble(
 
 
 def _fold(book: Workbook, model: Model) -> None:
-    """Hide the sheets of a short book that only serve formulas, behind all others."""
-    if not (model.left_out or model.folded):
-        return
+    """Hide the sheets that only serve charts and, of a short book, formulas, behind all others."""
+    waves = {WAVES_SHEET} if model.left_out or model.folded else set()
     for sheet in list(book.worksheets):
-        if sheet.title in {WAVES_SHEET, *model.folded}:
+        if sheet.title in {*waves, *model.folded, *model.drawn}:
             sheet.sheet_state = "hidden"
             book.move_sheet(sheet, len(book.worksheets))
 

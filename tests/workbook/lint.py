@@ -31,6 +31,7 @@ VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", 
 OF_RANGES = {
     "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT",
 }  # fmt: skip
+FINE = 200  # points of a curve that is saved by its shape
 LONGEST = 200  # characters of a formula that a person reads
 _GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
@@ -125,7 +126,12 @@ def _cache_problems(root: etree._Element) -> list[str]:
         points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
         count = reference.find(f"{C}numCache/{C}ptCount")
         least = 2 if len(set(where.rpartition("!")[2].split(":"))) > 1 else 1
-        if count is None or not len(points) == int(count.get("val")) >= least:
+        # Of a fine curve the rows between which it is straight, its ends among them.
+        rows = [int(point.get("idx")) for point in reference.iterfind(f"{C}numCache/{C}pt")]
+        whole = int(count.get("val")) if count is not None else 0
+        thinned = whole > FINE and _val(root.find(f"{C}chart"), "dispBlanksAs") == "span"
+        filled = thinned and len(rows) >= whole / 10 and rows[0] == 0 and rows[-1] == whole - 1
+        if not (filled or len(points) == whole) or whole < least:
             collected.append(f"{where}: the cache is not filled")
         elif not all(_is_number(text) for text in points):
             collected.append(f"{where}: the cache holds no number")
@@ -177,8 +183,10 @@ def formula_problems(cell: etree._Element) -> list[str]:
     if "_xlfn" in text:
         collected.append("newer than Excel 2007")
     # LibreOffice loads array formulas dirty, and the first edit stops there.
-    if formula.attrib:
-        collected.append(f"array or shared formula {dict(formula.attrib)}")
+    if formula.get("t") not in (None, "shared"):
+        collected.append(f"array formula {dict(formula.attrib)}")
+    if formula.get("t") == "shared" and "!" in text:  # Excel shares none with another sheet
+        collected.append("a shared formula names another sheet")
     # Gnumeric lifts a function over a range in array formulas alone.
     if re.search(r"\b(?:SIN|COS)\([^()]*:", text):
         collected.append("a function over a range")

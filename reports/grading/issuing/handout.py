@@ -74,6 +74,7 @@ class _HandoutWriter(BlockWriter):
     """Writes numbers where the solved book has formulas, formulas of what is asked, or nothing."""
 
     live: frozenset[Cell] = frozenset()
+    shares: bool = False  # cells of a column differ: numbers, formulas, nothing
 
     def column(
         self,

@@ -166,7 +166,7 @@ def finish(book: Workbook, caches: CacheValues | None = None) -> bytes:
             if name in titles:
                 data = _fill(data, titles[name], caches)
             elif name.startswith(_CHARTS):
-                data = _fill_chart(data, caches.ranges)
+                data = _fill_chart(data, caches)
             elif name.startswith(_DRAWINGS):
                 data = _written(described(parts, name))
             elif name.endswith(".rels"):
@@ -300,8 +300,9 @@ def _pieces(runs: Runs, bold: bool) -> str:
     return "".join(pieces)
 
 
-def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
+def _fill_chart(data: bytes, caches: CacheValues) -> bytes:
     """Put the numbers of its ranges into a chart, for viewers that do not compute."""
+    ranges = caches.ranges
     root, marks = etree.fromstring(data), list[bytes]()
     for series in root.iter(f"{{{_CHART}}}ser"):
         references = list(series.iter(f"{{{_CHART}}}numRef"))
@@ -319,6 +320,11 @@ def _fill_chart(data: bytes, ranges: dict[str, list[float]]) -> bytes:
             reference.append(_marked(
                 f"<numCache><formatCode>General</formatCode>"
                 f'<ptCount val="{len(numbers)}"/>{points}</numCache>', marks,
+            ))  # fmt: skip
+        for name in series.iter(f"{{{_CHART}}}strRef"):
+            text = _escaped(caches.names[name.findtext(f"{{{_CHART}}}f")])
+            name.append(_marked(
+                f'<strCache><ptCount val="1"/><pt idx="0"><v>{text}</v></pt></strCache>', marks,
             ))  # fmt: skip
         if is_thinned:
             root.find(f".//{{{_CHART}}}dispBlanksAs").set("val", "span")

@@ -23,6 +23,7 @@ class CurveRanges:
     name: str
     x: str
     y: str
+    cell: str = ""  # that has the name
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,48 @@ class Drawn:
 
 def drawn_series(spec: ChartSpec, layout: Layout) -> list[Series]:
     """Curves of the workbook's chart, from the fine table those that it has whole."""
-    return [drawn_from(series, layout) for series in spec.drawn_by("workbook")]
+    table = live_table(spec, layout)
+    return [
+        replace(series, x=f"{table}_frame.frame_x", y=f"{table}_frame.frame_y")
+        if table and series.invisible
+        else drawn_from(series, layout)
+        for series in spec.drawn_by("workbook")
+    ]
+
+
+def live_table(spec: ChartSpec, layout: Layout) -> str:
+    """Table of a polar diagram whose axes, arrow and names follow its values; none of others."""
+    path = spec.series[0]
+    table = path.y.partition(".")[0]
+    is_live = spec.kind == "polar" and path.y in layout.model.draws
+    return table if is_live and f"{table}_marks.mark_label" in layout.model.grid_runs else ""
+
+
+def live_marks(table: str, path: Series, layout: Layout) -> list[CurveRanges]:
+    """Points at round angles, called by cells that are blank where another name is near."""
+    labels = layout.cells_of_run(f"{table}_marks.mark_label")
+    spec = layout.columns[path.y][0]
+    rows = layout.rows_of(spec)[: -1 : (len(spec.rows) - 1) // len(labels)]
+    x, y = (f"{quoted(spec.sheet)}!${get_column_letter(layout.column_of(key))}$"
+            for key in (path.x, path.y))  # fmt: skip
+    return [
+        CurveRanges("", f"{x}{row}", f"{y}{row}", label.absolute)
+        for row, label in zip(rows, labels, strict=True)
+    ]
+
+
+def arrow(table: str, layout: Layout) -> CurveRanges:
+    """Line from the pole to the greatest value, called by the angle of it."""
+    x, y = (layout.range_of(f"{table}_arrow.arrow_{axis}") for axis in "xy")
+    return CurveRanges("", x, y, layout.cells_of_run(f"{table}_arrow.arrow_deg")[0].absolute)
+
+
+def names_in(table: str, layout: Layout, values: Values) -> dict[str, str]:
+    """Cells of the names of a polar diagram → what stands in them."""
+    runs = (f"{table}_marks.mark_label", f"{table}_arrow.arrow_deg")
+    keys = [key for run in runs for key in layout.keys_of_run(run)]
+    found = {layout.cells[key].absolute: values.scalars[key] for key in keys}
+    return {at: value if isinstance(value, str) else f"{value:g}°" for at, value in found.items()}
 
 
 def drawn_from(series: Series, layout: Layout) -> Series:

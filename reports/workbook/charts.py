@@ -7,7 +7,14 @@ from functools import cache
 from math import floor, isfinite, log10
 
 from openpyxl.chart import ScatterChart
-from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
+from openpyxl.chart.data_source import (
+    AxDataSource,
+    NumData,
+    NumDataSource,
+    NumRef,
+    NumVal,
+    StrRef,
+)
 from openpyxl.chart.error_bar import ErrorBars
 from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
@@ -17,7 +24,7 @@ from openpyxl.chart.series import SeriesLabel, XYSeries
 from openpyxl.chart.shapes import GraphicalProperties
 from openpyxl.chart.text import RichText, Text
 from openpyxl.chart.title import Title
-from openpyxl.drawing.line import LineProperties
+from openpyxl.drawing.line import LineEndProperties, LineProperties
 from openpyxl.drawing.text import (
     CharacterProperties,
     Paragraph,
@@ -32,9 +39,13 @@ from reports.workbook.chapters import contents_for, is_smooth_sheet
 from reports.workbook.chart_ranges import (
     CurveRanges,
     Drawn,
+    arrow,
     drawn_series,
     limits,
+    live_marks,
+    live_table,
     marks,
+    names_in,
     rays,
     symbol_of,
 )
@@ -49,6 +60,7 @@ _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _PARTS = 5  # of a half axis of a polar diagram, at most
+_RED = "C00000"
 COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
 
 
@@ -77,7 +89,11 @@ def make_chart(
         for line in rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
     if spec.kind == "polar":
-        for mark in marks(spec, layout, values):
+        table = live_table(spec, layout)
+        if table:
+            chart.series.append(_arrow(len(chart.series), arrow(table, layout)))
+        points = live_marks(table, curves[0], layout) if table else marks(spec, layout, values)
+        for mark in points:
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, (layout, values), oblong)
@@ -88,11 +104,25 @@ def make_chart(
 def _ray(number: int, line: CurveRanges) -> XYSeries:
     """Return a thick line for the worn depth, with the number of its ray at the circle."""
     series = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
-    label = DataLabel(idx=1, dLblPos="t", showSerName=True)
-    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
-    series.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
-    series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
+    series.dLbls = _end_label("t")
     return series
+
+
+def _arrow(number: int, line: CurveRanges) -> XYSeries:
+    """Return an arrow with its name at the head."""
+    look = LineProperties(w=_LINE, solidFill=_RED, tailEnd=LineEndProperties(type="triangle"))
+    series = _curve(number, line, look)
+    series.dLbls = _end_label("t")
+    return series
+
+
+def _end_label(place: str) -> DataLabelList:
+    """Name of a line of two points at its second one."""
+    label = DataLabel(idx=1, dLblPos=place, showSerName=True)
+    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
+    labels = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
+    labels.showLegendKey = labels.showCatName = labels.showPercent = False
+    return labels
 
 
 def _mark(number: int, point: CurveRanges) -> XYSeries:
@@ -138,12 +168,13 @@ def curves_chart(
 def drawing(
     title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
     shape: float = 0.0, downwards: bool = False, unit: bool = False, wide: int = WIDE,
-    limit: float = 0.0, turn: float = 0.0,
+    limit: float = 0.0, step: float = 0.0, turn: float = 0.0,
 ) -> ScatterChart:  # fmt: skip
     """Lines over axes; ``shape`` is the width of the plot over its height at one scale.
 
     ``wide`` is the width of the chart [px], ``limit`` that of both axes where they are alike,
-    ``turn`` the last crank angle where the abscissa is one [deg].
+    ``step`` their division where it is known, ``turn`` the last crank angle where the abscissa is
+    one [deg].
     """
     chart = _empty(title)
     for number, line in enumerate(lines):
@@ -162,7 +193,7 @@ def drawing(
     if downwards:
         chart.y_axis.scaling.orientation = "maxMin"
         chart.x_axis.tickLblPos = "high"
-    _divide_alike(chart, limit)
+    _divide_alike(chart, limit, step)
     _turn(chart, turn)
     if unit:
         for axis in (chart.x_axis, chart.y_axis):
@@ -253,7 +284,10 @@ def _axes(
             h=0.7,
         )
     )
-    if spec.kind == "polar":
+    if table := live_table(spec, layout):
+        step = float(values.scalars[layout.keys_of_run(f"{table}_frame.frame_step")[0]])
+        _divide_alike(chart, 1.0, step)
+    elif spec.kind == "polar":
         _divide_alike(chart, max(map(abs, limits(spec, layout, values))))
     else:  # drawn in a unit square
         for axis in (chart.x_axis, chart.y_axis):
@@ -269,12 +303,13 @@ def _turn(chart: ScatterChart, last: float) -> None:
         chart.x_axis.majorUnit = last / 12
 
 
-def _divide_alike(chart: ScatterChart, limit: float) -> None:
+def _divide_alike(chart: ScatterChart, limit: float, step: float = 0.0) -> None:
     """One division on both axes: from equal limits a program then makes equal ends."""
     if not (limit > 0 and isfinite(limit)):  # nothing yet, or cells still to be filled in
         return
     size = 10.0 ** floor(log10(limit))
-    step = next(part * size for part in (0.2, 0.5, 1.0, 2.0) if limit <= _PARTS * part * size)
+    parts = (part * size for part in (0.2, 0.5, 1.0, 2.0))
+    step = step or next(part for part in parts if limit <= _PARTS * part)
     chart.x_axis.majorUnit = chart.y_axis.majorUnit = step
 
 
@@ -306,7 +341,9 @@ def _series(
 
 def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
     series = XYSeries(idx=number, order=number)
-    if curve.name:
+    if curve.cell:
+        series.tx = SeriesLabel(strRef=StrRef(f=curve.cell))
+    elif curve.name:
         series.tx = SeriesLabel(v=curve.name)
     series.xVal = AxDataSource(numRef=NumRef(f=curve.x))
     series.yVal = NumDataSource(numRef=NumRef(f=curve.y))
@@ -316,7 +353,7 @@ def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
     return series
 
 
-def _dot(size: int, colour: str = "C00000") -> Marker:
+def _dot(size: int, colour: str = _RED) -> Marker:
     return Marker(symbol="circle", size=size, spPr=GraphicalProperties(solidFill=colour))
 
 
@@ -364,9 +401,21 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
             ends = [ranges[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
             for line, depth, edge in zip(rays(spec, layout), *ends, strict=False):
                 ranges[getattr(line, axis)] = [depth, edge]
+    if table := live_table(spec, layout):
+        line = arrow(table, layout)
+        for at, axis in ((line.x, "x"), (line.y, "y")):
+            keys = layout.keys_of_run(f"{table}_arrow.arrow_{axis}")
+            ranges[at] = [float(values.scalars[key]) for key in keys]
     if spec.kind == "polar":
-        for mark in marks(spec, layout, values):
+        points = live_marks(table, path, layout) if table else marks(spec, layout, values)
+        for mark in points:
             row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
             for at, key in ((mark.x, path.x), (mark.y, path.y)):
                 ranges[at] = [ranges[layout.range_of(key)][row]]
     return ranges
+
+
+def names_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, str]:
+    """Cell of each series that is called by one → its text."""
+    table = live_table(spec, layout)
+    return names_in(table, layout, values) if table else {}

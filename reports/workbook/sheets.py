@@ -48,6 +48,8 @@ _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
 _CURVE_STEPS, _HELPER_STEPS = 4000, 99
+# Names of a chart's series are read as they are seen.
+_NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
 
 
@@ -91,6 +93,7 @@ class CacheValues:
     values: dict[str, dict[str, float | str]] = field(default_factory=dict)  # by coordinate
     columns: dict[str, list[FilledColumn | SharedColumn]] = field(default_factory=dict)
     ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
+    names: dict[str, str] = field(default_factory=dict)  # of their series, by the cell
     symbols: dict[str, dict[str, tuple[Runs, bool]]] = field(default_factory=dict)  # and if bold
 
 
@@ -268,7 +271,8 @@ class BlockWriter:
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
-        cell.number_format = styles.excel_format(scalar.quantity, decimals)
+        is_name = scalar.of in _NAMES_OF_SERIES
+        cell.number_format = _DEGREES if is_name else styles.excel_format(scalar.quantity, decimals)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
         """Write a list of scalars: title, symbol, value, unit, source."""
@@ -322,8 +326,9 @@ class BlockWriter:
             if not wide:
                 self.symbol(sheet, at, 1, quantity, styles.HEADER, unit=True)
             first_cell = next(cell for cell in row.cells if cell is not None)
-            formula = self.explained(quantity, first_cell.expr)
-            label.comment = note(quantity, first_cell.source, formula)
+            if sheet.title not in self.layout.model.drawn:
+                formula = self.explained(quantity, first_cell.expr)
+                label.comment = note(quantity, first_cell.source, formula)
             if not wide:
                 raise_row(sheet, at, {quantity.header: NARROW})
             if wide:

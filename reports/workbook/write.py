@@ -24,7 +24,7 @@ from reports.workbook import cockpit, motion, styles
 from reports.workbook.bars import draw_bars
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, contents_for, diagrams_of, heading, ordered
-from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
+from reports.workbook.charts import WIDE, is_blank, make_chart, names_of, pixels, ranges_of
 from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
@@ -190,6 +190,8 @@ def assemble(
     set_widths(inputs, model, layout, writer.values)
     for title in model.sheets:
         _blocks(book[title], model, writer)
+        if title in model.drawn:  # nobody looks at it
+            continue
         set_widths(book[title], model, layout, writer.values)
         notes = [block.note for block in model.blocks if block.sheet == title and block.note]
         if notes:
@@ -350,6 +352,7 @@ def _draw(
         chart.anchor = anchor(sheet, box)
         sheet.add_chart(chart)
         writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
+        writer.caches.names |= names_of(spec, writer.layout, writer.values)
 
 
 def _index(book: Workbook, title: str, contents: Contents) -> int:

@@ -107,3 +107,58 @@ def test_a_book_by_degrees_has_no_such_sheet() -> None:
     fine = build_model(data.model_copy(update={"calculation": calculation}))
     assert CURVES not in formula_cells(workbook_bytes(fine))
     assert sum(map(len, formula_cells(book("yamz-238")).values())) < MAX_CELLS
+
+
+def polar_tables(drawn: Model) -> list[str]:
+    return [key.removesuffix("_frame.frame_x") for key in drawn.grid_runs if "frame_x" in key]
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.3])
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-238", "two-stroke"])
+def test_names_of_a_polar_diagram_keep_apart_after_an_edit(name: str, spread: float) -> None:
+    """Axes hold the curve in whole equal divisions, the arrow shows the greatest load."""
+    data = sample(name)
+    if spread:
+        _, data = changed_everywhere(data, random.Random(name), spread)
+    built = build_model(data)
+    drawn = with_curves(built)
+    values = with_values(drawn, evaluate_model(built))
+    scalars, names, blank = values.scalars, 0, 0
+
+    def run(key: str) -> list:
+        return [scalars[each] for each in drawn.grid_runs[key]]
+
+    assert len(polar_tables(drawn)) >= 2
+    for table in polar_tables(drawn):
+        step, parts = run(f"{table}_frame.frame_step")[0], run(f"{table}_frame.frame_count")[0]
+        frames = [run(f"{table}_frame.frame_{axis}") for axis in "xy"]
+        ends = [(low - 0.06 * parts * step, high + 0.06 * parts * step) for low, high in frames]
+        for axis, (low, high) in zip("xy", ends, strict=True):
+            chart = next(
+                each
+                for each in drawn.charts
+                if each.kind == "polar"
+                and each.series[0].y in drawn.draws
+                and each.series[0].y.startswith(f"{table}.")
+            )
+            key = drawn.draws[getattr(chart.series[0], axis)].split(".")
+            curve = values.columns[key[0]][key[1]]
+            assert low <= curve.min() and curve.max() <= high
+            assert high - low == pytest.approx(parts * step)
+            assert low / step == pytest.approx(round(low / step), abs=1e-6)
+        assert parts <= 14
+        size = np.hypot(*(run(f"{table}_arrow.arrow_{axis}")[1] for axis in "xy"))
+        angle = run(f"{table}_arrow.arrow_deg")[0]
+        columns = [drawn.draws[getattr(chart.series[0], axis)].split(".") for axis in "xy"]
+        loads = np.hypot(*(values.columns[t][c] for t, c in columns))
+        assert size == pytest.approx(loads.max())
+        assert loads[round(angle)] == pytest.approx(size)
+        labels = run(f"{table}_marks.mark_label")
+        spots = list(zip(*(run(f"{table}_marks.mark_{axis}") for axis in "uv"), strict=True))
+        shown = [at for at, label in zip(spots, labels, strict=True) if label != " "]
+        shown.append(tuple(run(f"{table}_arrow.mark_{axis}")[0] for axis in "uv"))
+        for i, one in enumerate(shown):
+            for other in shown[:i]:
+                assert max(abs(a - b) for a, b in zip(one, other, strict=True)) >= 1
+        names, blank = names + len(shown), blank + labels.count(" ")
+    assert names > len(polar_tables(drawn)) and blank > 0

@@ -155,15 +155,18 @@ def _polar_problems(root: etree._Element) -> list[str]:
     if not square or _val(layout, "layoutTarget") != "inner":
         collected.append("the plot area is not square")
     box = [s for s in root.findall(f".//{C}ser") if s.find(f"{C}spPr/{A}ln/{A}noFill") is not None]
-    texts = [formula.text for s in box for formula in s.iterfind(f".//{C}f")]
-    texts = [
-        text for text in texts if ":" in text and len(set(text.rpartition("!")[2].split(":"))) > 1
+    widths = [
+        ends[-1] - ends[0]
+        for s in box
+        for cache in s.iterfind(f".//{C}numCache")
+        if len(ends := [float(value.text) for value in cache.iter(f"{C}v")]) > 1
     ]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
     if math.isclose(shape, shapes[-1], rel_tol=1e-9):
         return collected  # its limits follow from a frame of the plot's shape
-    if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
+    are_fixed = all(limit is not None for limit in limits)
+    if not are_fixed and not math.isclose(widths[-1], widths[-2], rel_tol=1e-4):
         collected.append("the axes may have different limits")
     steps = {_val(axis, "majorUnit") for axis in root.findall(f".//{C}valAx")}
     if len(steps) != 1:  # equal limits end alike where the divisions are the same

@@ -8,6 +8,7 @@ import numpy as np
 from openpyxl.utils import get_column_letter
 
 from kshm.nomenclature.quantity import quantity, roman
+from reports.model.blocks import Grid
 from reports.model.charts import ChartSpec, Series
 from reports.model.evaluation import Values
 from reports.workbook.layout import Layout, column_range, quoted
@@ -67,6 +68,29 @@ def live_marks(table: str, path: Series, layout: Layout) -> list[CurveRanges]:
         CurveRanges("", f"{x}{row}", f"{y}{row}", label.absolute)
         for row, label in zip(rows, labels, strict=True)
     ]
+
+
+def member_names(
+    spec: ChartSpec, layout: Layout, values: Values
+) -> list[tuple[CurveRanges, float]]:
+    """Points of a scheme off its pole by the members that they are, with their ordinates.
+
+    Members in one place share a name.
+    """
+    names: dict[tuple[float, float], list[str]] = {}
+    points: dict[tuple[float, float], CurveRanges] = {}
+    for series in spec.drawn_by("workbook"):
+        grid = next(b for b in layout.model.blocks if b.id == series.y.partition(".")[0])
+        assert isinstance(grid, Grid)
+        label_of = {c.key: label for row in grid.rows
+                    for c, label in zip(row.cells, grid.labels, strict=True) if c}  # fmt: skip
+        for x, y in zip(*map(layout.keys_of_run, (series.x, series.y)), strict=True):
+            at = round(float(values.scalars[x]), 3) + 0.0, round(float(values.scalars[y]), 3) + 0.0
+            if at == (0.0, 0.0) or label_of[y] in names.get(at, ()):
+                continue
+            names.setdefault(at, []).append(label_of[y])
+            points.setdefault(at, CurveRanges("", *(layout.cells[k].absolute for k in (x, y))))
+    return [(replace(points[at], name=", ".join(names[at])), at[1]) for at in points]
 
 
 def arrow(table: str, layout: Layout) -> CurveRanges:

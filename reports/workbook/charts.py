@@ -19,6 +19,7 @@ from openpyxl.chart.error_bar import ErrorBars
 from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
+from openpyxl.chart.legend import LegendEntry
 from openpyxl.chart.marker import Marker
 from openpyxl.chart.series import SeriesLabel, XYSeries
 from openpyxl.chart.shapes import GraphicalProperties
@@ -45,6 +46,7 @@ from reports.workbook.chart_ranges import (
     live_marks,
     live_table,
     marks,
+    member_names,
     names_in,
     rays,
     symbol_of,
@@ -88,6 +90,13 @@ def make_chart(
     if spec.kind == "wear":
         for line in rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
+    if spec.kind == "scheme":
+        for number, (series, _) in enumerate(zip(chart.series, curves, strict=True)):
+            series.spPr = GraphicalProperties(ln=_line_of_scheme(number))
+        for mark, height in member_names(spec, layout, values):
+            named = _mark(len(chart.series), mark)
+            named.dLbls.dLblPos = "t" if height > 0 else "b"
+            chart.series.append(named)
     if spec.kind == "polar":
         table = live_table(spec, layout)
         if table:
@@ -97,8 +106,19 @@ def make_chart(
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, (layout, values), oblong)
-    _legend(chart, visible=not spec.equal_axes and len(curves) > 1)
+    is_told = spec.kind == "scheme" or not spec.equal_axes
+    _legend(chart, visible=is_told and len(curves) > 1)
+    if spec.kind == "scheme" and chart.legend is not None:  # the points are called in place
+        further = range(len(curves), len(chart.series))
+        chart.legend.legendEntry = [LegendEntry(idx=idx, delete=True) for idx in further]
     return chart
+
+
+def _line_of_scheme(number: int) -> LineProperties:
+    """Axes as drawings have them, thin and of dashes and dots; what turns is thick."""
+    if number == 0:
+        return LineProperties(w=_LINE, solidFill=COLOURS[0], prstDash="lgDashDot")
+    return LineProperties(w=_DEEP, solidFill=COLOURS[1], prstDash="solid")
 
 
 def _ray(number: int, line: CurveRanges) -> XYSeries:
@@ -401,6 +421,11 @@ def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list
             ends = [ranges[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
             for line, depth, edge in zip(rays(spec, layout), *ends, strict=False):
                 ranges[getattr(line, axis)] = [depth, edge]
+    if spec.kind == "scheme":
+        for point, _ in member_names(spec, layout, values):
+            for at in (point.x, point.y):
+                cell = next(k for k, c in layout.cells.items() if c.absolute == at)
+                ranges[at] = [float(values.scalars[cell])]
     if table := live_table(spec, layout):
         line = arrow(table, layout)
         for at, axis in ((line.x, "x"), (line.y, "y")):

@@ -8,7 +8,7 @@ defined names; cells of grids are absolute addresses.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -16,7 +16,7 @@ from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
-from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
 from reports.workbook.orders import Grid as AngleGrid
 from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 
@@ -207,6 +207,19 @@ class Layout:
         self.next_row[grid.sheet] = row + len(grid.rows) + 3
 
     # --- addresses --------------------------------------------------------------------
+
+    def last_column(self, blocks: Iterable[Block]) -> int:
+        """Last column of some tables, lists and grids of a sheet."""
+        last = 1
+        for block in blocks:
+            first = self.places[block.id].column
+            if isinstance(block, TableSpec):
+                last = max(last, first + len(block.columns) - 1)
+            elif isinstance(block, ScalarTable):
+                last = max(last, first + SOURCE_COLUMN - 1)
+            else:
+                last = max(last, *(self.cells[cell.key].column for cell in scalars_of(block)))
+        return last
 
     def rows_of(self, table: TableSpec) -> range:
         """Sheet rows of a table's data."""

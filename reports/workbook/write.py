@@ -12,7 +12,7 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
 from reports.model.contents import Contents
 from reports.model.evaluation import Values, evaluate_model
@@ -73,6 +73,8 @@ _TEXT_WIDTH = 110
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
 _REMARK_WIDTH = 115  # of the columns of a list
 _CHARTS_ROW = 4  # of a sheet of diagrams
+_CURVES_WIDTH = 12  # of the columns of a hidden sheet
+_BESIDE = 24  # px: a narrow column between a table and its charts
 
 
 def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
@@ -190,7 +192,8 @@ def assemble(
     set_widths(inputs, model, layout, writer.values)
     for title in model.sheets:
         _blocks(book[title], model, writer)
-        if title in model.drawn:  # nobody looks at it
+        if title in model.drawn:  # nobody looks at it, or one who has shown it
+            book[title].sheet_format.defaultColWidth = _CURVES_WIDTH
             continue
         set_widths(book[title], model, layout, writer.values)
         notes = [block.note for block in model.blocks if block.sheet == title and block.note]
@@ -309,7 +312,8 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
             (blank if empty else specs).append(spec)
         if blank:
             _say_blank(sheet, blank)
-        boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
+        blocks = [block for block in model.blocks if block.sheet == title]
+        boxes = _room(sheet, specs, blocks, writer.layout)
         if boxes is None:
             homeless.setdefault(diagrams_of(chapter_of(title, contents)), []).extend(specs)
         else:
@@ -331,13 +335,19 @@ def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
     _note(sheet, f"{sheet.cell(NOTE_ROW, NOTE_COLUMN).value or ''} {text}".strip())
 
 
-def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:
+def _room(
+    sheet: Worksheet, specs: Sequence[ChartSpec], blocks: Sequence[Block], layout: Layout
+) -> list[Box] | None:
     """Room beside what is written, or below where that is short; None where there is none."""
-    width, height = extent(sheet)
+    height = extent(sheet)[1]
+    # A note above runs on over the charts: they stand beside the tables.
+    columns = range(1, layout.last_column(blocks) + 1)
+    left = _BESIDE + sum(column_px(sheet, i) for i in columns)
     sizes = [pixels(spec) for spec in specs]
-    if not specs or width + GAP + sizes[0][0] <= SCREEN:
+    if not specs or left + sizes[0][0] <= SCREEN:
+        frozen = any(isinstance(block, TableSpec) for block in blocks)
         top = top_of(sheet, FIRST_ROW if frozen else HEADER_ROW)
-        return flow(sizes, width + GAP, top, max(UPRIGHT, width + GAP + WIDE))
+        return flow(sizes, left, top, max(UPRIGHT, left + WIDE))
     tallest = max(size[1] for size in sizes)
     if height + GAP + tallest <= FOLD + tallest // 2:  # their greater halves in sight
         return flow(sizes, GAP, height + GAP, SCREEN)

@@ -321,6 +321,7 @@ def _turn(chart: ScatterChart, last: float) -> None:
     if last:
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
         chart.x_axis.majorUnit = last / 12
+        chart.x_axis.number_format = "0"
 
 
 def _divide_alike(chart: ScatterChart, limit: float, step: float = 0.0) -> None:
@@ -330,7 +331,11 @@ def _divide_alike(chart: ScatterChart, limit: float, step: float = 0.0) -> None:
     size = 10.0 ** floor(log10(limit))
     parts = (part * size for part in (0.2, 0.5, 1.0, 2.0))
     step = step or next(part for part in parts if limit <= _PARTS * part)
-    chart.x_axis.majorUnit = chart.y_axis.majorUnit = step
+    for axis in (chart.x_axis, chart.y_axis):
+        axis.majorUnit = step
+        # As many decimals as the divisions have: Gnumeric takes those of the cells otherwise.
+        decimals = max(0, -floor(log10(step)))
+        axis.number_format = "0." + "0" * decimals if decimals else "0"
 
 
 def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
@@ -394,7 +399,9 @@ def _font(size: int) -> CharacterProperties:
 
 
 def _hidden() -> LineProperties:
-    return LineProperties(w=_LINE, noFill=True)  # without a width Gnumeric draws it
+    line = LineProperties(w=_LINE, noFill=True)
+    line.prstDash = None  # openpyxl calls it solid: then Gnumeric draws it
+    return line
 
 
 def _look(number: int) -> LineProperties:

@@ -117,6 +117,8 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
         line = one.find(f"{C}spPr/{A}ln")
         if line is None or (line.find(f"{A}noFill") is None and line.get("w") not in _LINES):
             yield f"series {index}: the line is not 1.5 pt"
+        elif line.find(f"{A}noFill") is not None and line.find(f"{A}prstDash") is not None:
+            yield f"series {index}: Gnumeric draws its hidden line"
 
 
 def _cache_problems(root: etree._Element) -> list[str]:

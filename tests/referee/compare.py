@@ -15,6 +15,7 @@ from reports.workbook.layout import FIRST_ROW, Layout
 from tools.referees.cells import Book, CellValue, cached_values
 
 TOLERANCE = 1e-9
+TURN = 360.0  # deg
 CURVES = "Кривые"  # the sheet that charts alone are drawn from
 
 
@@ -32,7 +33,9 @@ def differences_from_caches(book: bytes, recalculated: Book) -> list[str]:
         for cell, cached in cells.items():
             value = recalculated[sheet][cell]
             if cell in near and isinstance(value, float):
-                fits = abs(value - cached) <= near[cell]
+                # Of equal greatest loads a turn apart the last digits choose.
+                apart = abs(value - cached)
+                fits = apart <= near[cell] or apart == TURN
             elif isinstance(cached, float):
                 fits = isinstance(value, float) and close(
                     value, cached, min(scale, 1 + abs(cached))

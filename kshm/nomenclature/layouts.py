@@ -128,6 +128,33 @@ _HELPERS = (
     ("throw_line_y", r"y_{\mathrm{к}}", "", "линия колен, y", 3),
     ("bank_line_x", r"x_{\mathrm{р}}", "", "оси рядов, x", 3),
     ("bank_line_y", r"y_{\mathrm{р}}", "", "оси рядов, y", 3),
+    *((f"curve_{side}{of}{rod}", rf"{symbol}_{{\mathrm{{{side}}}{rod}}}", "", f"доля {what}", 5)
+      for side, where in (("a", "слева"), ("b", "справа"))
+      for rod, whose in (("", "левого шатуна"), ("2", "правого шатуна"))
+      for of, symbol, axis in (("c", "c", "вдоль оси"), ("s", "s", "поперёк оси"))
+      for what in (f"силы {whose} колена {where} от шейки, {axis}",)),
+    *((f"curve_{side}{axis}", rf"{axis}_{{\mathrm{{{side}}}}}", "MPa", f"постоянная часть реакции колена {where} от шейки, по оси {axis}", 4)
+      for side, where in (("a", "слева"), ("b", "справа")) for axis in "xy"),
+    ("frame_low", r"a_{\mathrm{н}}", "MPa", "начало кривой или нуль", 3),
+    ("frame_high", r"a_{\mathrm{к}}", "MPa", "конец кривой или нуль", 3),
+    ("frame_parts", r"n_{\mathrm{о}}", "", "делений оси", 0),
+    ("frame_begin", r"a_0", "MPa", "начало оси", 3),
+    ("frame_x", "x", "MPa", "края оси x", 3),
+    ("frame_y", "y", "MPa", "края оси y", 3),
+    ("frame_pad", r"\Delta", "MPa", "запас у края", 3),
+    ("frame_tens", r"10^k", "MPa", "степень десяти", 3),
+    ("frame_step", r"h_{\mathrm{о}}", "MPa", "деление осей", 3),
+    ("frame_count", r"n", "", "делений обеих осей", 0),
+    ("arrow_x", "x", "MPa", "стрелка наибольшей нагрузки, x", 3),
+    ("arrow_y", "y", "MPa", "стрелка наибольшей нагрузки, y", 3),
+    ("arrow_row", "i", "", "строка наибольшей нагрузки", 0),
+    ("arrow_deg", r"\varphi", "deg", "угол наибольшей нагрузки", 0),
+    ("mark_u", "u", "", "надпись: в её ширинах", 2),
+    ("mark_v", "v", "", "надпись: в её высотах", 2),
+    ("mark_near", r"d_1", "", "до ближайшей надписи", 2),
+    ("mark_near2", r"d_2", "", "до ближайшей из следующих", 2),
+    ("mark_near3", r"d_3", "", "до ближайшей из последних", 2),
+    ("mark_label", r"\varphi", "deg", "надпись угла", 0),
     ("sketch", "x", "", "точка схемы", 4),
     ("sketch_axis_x", r"x_{\mathrm{о}}", "", "ось цилиндра, x", 4),
     ("sketch_axis_y", r"y_{\mathrm{о}}", "", "ось цилиндра, y", 4),

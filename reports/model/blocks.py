@@ -69,7 +69,8 @@ class TableSpec:
 
     ``step`` is the distance of the rows of a table on its own grid, None the step of
     the calculation.  ``computed`` gives the columns without formulas that stand in the
-    workbook as values: what no sheet can calculate.
+    workbook as values: what no sheet can calculate.  ``draws`` are the columns of other tables and
+    the runs whose charts are drawn from this one, each with the column or run here.
     """
 
     id: str
@@ -82,6 +83,7 @@ class TableSpec:
     helper: bool = False
     step: float | None = None
     computed: Callable[[InputFile], Columns] | None = None
+    draws: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def row_by_row(self) -> bool:
@@ -214,7 +216,8 @@ class Model:
     ``remarks`` are the lines to stand beside the checks: what is odd about the input, what
     is odd and explained, what is not calculated and why.  ``chapters`` and ``own_nodes``
     are those of own books.  Of a short workbook ``left_out`` are the sheets that it has not,
-    ``folded`` those of which it has what other formulas need.
+    ``folded`` those of which it has what other formulas need, ``drawn`` those that charts alone
+    are drawn from.
     """
 
     input: InputFile
@@ -227,6 +230,7 @@ class Model:
     department: frozenset[str] = frozenset()  # those of them that own books have
     left_out: tuple[str, ...] = ()
     folded: frozenset[str] = frozenset()
+    drawn: frozenset[str] = frozenset()
 
     @cached_property
     def tables(self) -> Mapping[str, TableSpec]:
@@ -278,6 +282,11 @@ class Model:
             if isinstance(block, Grid)
             for row in block.rows
         }
+
+    @cached_property
+    def draws(self) -> Mapping[str, str]:
+        """Columns and runs that charts name → those that they are drawn from."""
+        return {key: drawn for table in self.tables.values() for key, drawn in table.draws}
 
     @cached_property
     def grid_rows(self) -> Mapping[str, GridRow]:

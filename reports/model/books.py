@@ -61,7 +61,7 @@ _TEXT_LINES = ("heading", "formula", "show", "insert", "pick", "mend")
 _HEADS = {
     "text": (r"(?P<title>.+)", "text ЗАГОЛОВОК"),
     "chapter": (r".+ [0-9A-F]{6}(?: smooth)?", "chapter НАЗВАНИЕ ЦВЕТ"),
-    "place": (r"(?:before|chain|after) \d+(?: alone)?", "place after 150"),
+    "place": (r"(?:before|chain|after|drawn) \d+(?: alone)?", "place after 150"),
     "sheet": (r"(?P<title>.+?)(?: in .+ \d+(?: full)?: .+)?",
               "sheet НАЗВАНИЕ in ГЛАВА НОМЕР: ЗАГОЛОВОК"),
     "list": (r'(?P<id>\w+)(?P<verdicts> verdicts(?: "(?P<good>.*)" "(?P<bad>.*)")?)?'
@@ -115,6 +115,7 @@ class _Open:
     notes: list[str] = field(default_factory=list)
     members: list[tuple[str, list[Scalar]]] = field(default_factory=list)
     last: tuple[str, ...] = ()
+    draws: list[tuple[str, str]] = field(default_factory=list)
     lines: list[TextLine] = field(default_factory=list)
 
 
@@ -221,6 +222,8 @@ class _BookReader:
             block.members.append((tail, []))
         elif block.word == "grid" and word == "last":
             block.last = tuple(tail.split())
+        elif word == "draws" and block.word == "table":
+            block.draws += self._draws(block, tail)
         elif word == "extremes" and block.word in ("list", "table"):
             self._extremes(block, tail)
         elif block.word == "allowed":
@@ -253,6 +256,14 @@ class _BookReader:
         scalars = extreme_scalars(table, column, name, source or "")
         self._placed(*(each.key for each in scalars))
         block.scalars += scalars
+
+    def _draws(self, block: _Open, tail: str) -> list[tuple[str, str]]:
+        """``draws KEY for TABLE.COLUMN …``: those charts are drawn from this table."""
+        match = re.fullmatch(r"(\w+(?:\.\w+)?) for (\w+\.\w+(?: \w+\.\w+)*)", tail)
+        if match is None:
+            raise self._fault(f"«draws {tail}» не разобрано", "пишите draws КЛЮЧ for ТАБЛИЦА.КЛЮЧ")
+        key = match[1] if "." in match[1] else f"{block.about['id']}.{match[1]}"
+        return [(each, key) for each in match[2].split()]
 
     def _check(self, block: _Open, tail: str) -> tuple[Scalar, Scalar]:
         """``check KEY [of VALUE_KEY] = value | test of value | title [| source]``."""
@@ -364,6 +375,7 @@ class _BookReader:
             tuple(block.columns), rows,
             note=note, helper="helper" in options, step=step,
             computed=partial(solved_columns, attributes["id"]) if "computed" in options else None,
+            draws=tuple(block.draws),
         )  # fmt: skip
 
     def _fault(self, problem: str, hint: str = "", fragment: str = "") -> BookError:

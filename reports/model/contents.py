@@ -9,7 +9,7 @@ from functools import lru_cache
 from reports.model.book_text import Shelf, house_shelf
 from reports.shared.errors import BookError
 
-_PLACE = re.compile(r"^place (before|chain|after) (\d+)( alone)?$", re.MULTILINE)
+_PLACE = re.compile(r"^place (before|chain|after|drawn) (\d+)( alone)?$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)
 _SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+)( full)?: (.+)$", re.MULTILINE)
 MOST_TITLE = 28  # of a sheet: the number of a regime may follow
@@ -52,7 +52,7 @@ def contents_of(shelf: Shelf | None = None) -> Contents:
         for name, text in texts.items()
         for part, order, alone in _PLACE.findall(text)
     ]
-    parts: dict[str, list[str]] = {"before": [], "chain": [], "after": []}
+    parts: dict[str, list[str]] = {"before": [], "chain": [], "after": [], "drawn": []}
     for part, _, name, _ in sorted(positions):
         parts[part].append(name)
     whole = "\n".join(texts.values())

@@ -205,6 +205,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
         "strokes": FLYWHEEL_STROKES,
         "disc_share": FLYWHEEL_DISC_SHARE,
     },
+    "fine": lambda _: {"exact": METHODS["exact"]},
     "gas": _rounded,
     "cycle": _cycle,
     "cycle_results": _cycle,

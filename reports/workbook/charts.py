@@ -7,17 +7,25 @@ from functools import cache
 from math import floor, isfinite, log10
 
 from openpyxl.chart import ScatterChart
-from openpyxl.chart.data_source import AxDataSource, NumData, NumDataSource, NumRef, NumVal
+from openpyxl.chart.data_source import (
+    AxDataSource,
+    NumData,
+    NumDataSource,
+    NumRef,
+    NumVal,
+    StrRef,
+)
 from openpyxl.chart.error_bar import ErrorBars
 from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
+from openpyxl.chart.legend import LegendEntry
 from openpyxl.chart.marker import Marker
 from openpyxl.chart.series import SeriesLabel, XYSeries
 from openpyxl.chart.shapes import GraphicalProperties
 from openpyxl.chart.text import RichText, Text
 from openpyxl.chart.title import Title
-from openpyxl.drawing.line import LineProperties
+from openpyxl.drawing.line import LineEndProperties, LineProperties
 from openpyxl.drawing.text import (
     CharacterProperties,
     Paragraph,
@@ -25,12 +33,24 @@ from openpyxl.drawing.text import (
     RegularTextRun,
 )
 
-from kshm.nomenclature.quantity import quantity
 from reports.model.charts import ChartSpec
 from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
 from reports.workbook.chapters import contents_for, is_smooth_sheet
-from reports.workbook.chart_ranges import CurveRanges, Drawn, limits, marks, rays
+from reports.workbook.chart_ranges import (
+    CurveRanges,
+    Drawn,
+    arrow,
+    drawn_series,
+    limits,
+    live_marks,
+    live_table,
+    marks,
+    member_names,
+    names_in,
+    rays,
+    symbol_of,
+)
 from reports.workbook.layout import FIRST_ROW, Layout
 
 WIDE, HIGH = 408, 272  # px: several beside a table
@@ -42,6 +62,7 @@ _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _PARTS = 5  # of a half axis of a polar diagram, at most
+_RED = "C00000"
 COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
 
 
@@ -61,7 +82,7 @@ def make_chart(
     It comes without numbers: openpyxl takes long for each, see ``ranges_of``.
     """
     chart = _empty(spec.heading)
-    curves = spec.drawn_by("workbook")
+    curves = drawn_series(spec, layout)
     for number, series in enumerate(curves):
         chart.series.append(
             _series(series, number, layout, smooth=is_smooth(spec, layout), stems=spec.stems)
@@ -69,23 +90,59 @@ def make_chart(
     if spec.kind == "wear":
         for line in rays(spec, layout):
             chart.series.append(_ray(len(chart.series), line))
+    if spec.kind == "scheme":
+        for number, (series, _) in enumerate(zip(chart.series, curves, strict=True)):
+            series.spPr = GraphicalProperties(ln=_line_of_scheme(number))
+        for mark, height in member_names(spec, layout, values):
+            named = _mark(len(chart.series), mark)
+            named.dLbls.dLblPos = "t" if height > 0 else "b"
+            chart.series.append(named)
     if spec.kind == "polar":
-        for mark in marks(spec, layout, values):
+        table = live_table(spec, layout)
+        if table:
+            chart.series.append(_arrow(len(chart.series), arrow(table, layout)))
+        points = live_marks(table, curves[0], layout) if table else marks(spec, layout, values)
+        for mark in points:
             chart.series.append(_mark(len(chart.series), mark))
         chart.series.append(_pole(len(chart.series)))
     _axes(chart, spec, (layout, values), oblong)
-    _legend(chart, visible=not spec.equal_axes and len(curves) > 1)
+    is_told = spec.kind == "scheme" or not spec.equal_axes
+    _legend(chart, visible=is_told and len(curves) > 1)
+    if spec.kind == "scheme" and chart.legend is not None:  # the points are called in place
+        further = range(len(curves), len(chart.series))
+        chart.legend.legendEntry = [LegendEntry(idx=idx, delete=True) for idx in further]
     return chart
+
+
+def _line_of_scheme(number: int) -> LineProperties:
+    """Axes as drawings have them, thin and of dashes and dots; what turns is thick."""
+    if number == 0:
+        return LineProperties(w=_LINE, solidFill=COLOURS[0], prstDash="lgDashDot")
+    return LineProperties(w=_DEEP, solidFill=COLOURS[1], prstDash="solid")
 
 
 def _ray(number: int, line: CurveRanges) -> XYSeries:
     """Return a thick line for the worn depth, with the number of its ray at the circle."""
     series = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
-    label = DataLabel(idx=1, dLblPos="t", showSerName=True)
-    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
-    series.dLbls = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
-    series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
+    series.dLbls = _end_label("t")
     return series
+
+
+def _arrow(number: int, line: CurveRanges) -> XYSeries:
+    """Return an arrow with its name at the head."""
+    look = LineProperties(w=_LINE, solidFill=_RED, tailEnd=LineEndProperties(type="triangle"))
+    series = _curve(number, line, look)
+    series.dLbls = _end_label("t")
+    return series
+
+
+def _end_label(place: str) -> DataLabelList:
+    """Name of a line of two points at its second one."""
+    label = DataLabel(idx=1, dLblPos=place, showSerName=True)
+    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
+    labels = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
+    labels.showLegendKey = labels.showCatName = labels.showPercent = False
+    return labels
 
 
 def _mark(number: int, point: CurveRanges) -> XYSeries:
@@ -109,7 +166,7 @@ def _pole(number: int) -> XYSeries:
 def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
     """Whether all curves of a chart are zero; cells still to be filled in are not."""
     ranges = ranges_of(spec, layout, values)
-    ends = [series.y for series in spec.drawn_by("workbook") if not series.invisible]
+    ends = [series.y for series in drawn_series(spec, layout) if not series.invisible]
     return all(abs(y) < _ZERO for key in ends for y in ranges[layout.range_of(key)])
 
 
@@ -131,12 +188,13 @@ def curves_chart(
 def drawing(
     title: str, axes: tuple[str, str], lines: Sequence[Drawn], *,
     shape: float = 0.0, downwards: bool = False, unit: bool = False, wide: int = WIDE,
-    limit: float = 0.0, turn: float = 0.0,
+    limit: float = 0.0, step: float = 0.0, turn: float = 0.0,
 ) -> ScatterChart:  # fmt: skip
     """Lines over axes; ``shape`` is the width of the plot over its height at one scale.
 
     ``wide`` is the width of the chart [px], ``limit`` that of both axes where they are alike,
-    ``turn`` the last crank angle where the abscissa is one [deg].
+    ``step`` their division where it is known, ``turn`` the last crank angle where the abscissa is
+    one [deg].
     """
     chart = _empty(title)
     for number, line in enumerate(lines):
@@ -155,7 +213,7 @@ def drawing(
     if downwards:
         chart.y_axis.scaling.orientation = "maxMin"
         chart.x_axis.tickLblPos = "high"
-    _divide_alike(chart, limit)
+    _divide_alike(chart, limit, step)
     _turn(chart, turn)
     if unit:
         for axis in (chart.x_axis, chart.y_axis):
@@ -246,7 +304,10 @@ def _axes(
             h=0.7,
         )
     )
-    if spec.kind == "polar":
+    if table := live_table(spec, layout):
+        step = float(values.scalars[layout.keys_of_run(f"{table}_frame.frame_step")[0]])
+        _divide_alike(chart, 1.0, step)
+    elif spec.kind == "polar":
         _divide_alike(chart, max(map(abs, limits(spec, layout, values))))
     else:  # drawn in a unit square
         for axis in (chart.x_axis, chart.y_axis):
@@ -260,15 +321,21 @@ def _turn(chart: ScatterChart, last: float) -> None:
     if last:
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = 0, last
         chart.x_axis.majorUnit = last / 12
+        chart.x_axis.number_format = "0"
 
 
-def _divide_alike(chart: ScatterChart, limit: float) -> None:
+def _divide_alike(chart: ScatterChart, limit: float, step: float = 0.0) -> None:
     """One division on both axes: from equal limits a program then makes equal ends."""
     if not (limit > 0 and isfinite(limit)):  # nothing yet, or cells still to be filled in
         return
     size = 10.0 ** floor(log10(limit))
-    step = next(part * size for part in (0.2, 0.5, 1.0, 2.0) if limit <= _PARTS * part * size)
-    chart.x_axis.majorUnit = chart.y_axis.majorUnit = step
+    parts = (part * size for part in (0.2, 0.5, 1.0, 2.0))
+    step = step or next(part for part in parts if limit <= _PARTS * part)
+    for axis in (chart.x_axis, chart.y_axis):
+        axis.majorUnit = step
+        # As many decimals as the divisions have: Gnumeric takes those of the cells otherwise.
+        decimals = max(0, -floor(log10(step)))
+        axis.number_format = "0." + "0" * decimals if decimals else "0"
 
 
 def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
@@ -279,10 +346,7 @@ def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
 def _series(
     series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool
 ) -> XYSeries:
-    node = layout.model.nodes.get(series.y)  # a column; rows of grids are called by quantity
-    row = layout.model.grid_rows.get(series.y)
-    measure = node.quantity if node else row.quantity if row else quantity(series.y.split(".")[1])
-    name = series.name or measure.symbol
+    name = series.name or symbol_of(series.y, layout)
     line = _hidden() if series.invisible or series.point else _look(number)
     ranges = layout.range_of(series.x), layout.range_of(series.y)
     if series.point:
@@ -302,7 +366,9 @@ def _series(
 
 def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
     series = XYSeries(idx=number, order=number)
-    if curve.name:
+    if curve.cell:
+        series.tx = SeriesLabel(strRef=StrRef(f=curve.cell))
+    elif curve.name:
         series.tx = SeriesLabel(v=curve.name)
     series.xVal = AxDataSource(numRef=NumRef(f=curve.x))
     series.yVal = NumDataSource(numRef=NumRef(f=curve.y))
@@ -312,7 +378,7 @@ def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
     return series
 
 
-def _dot(size: int, colour: str = "C00000") -> Marker:
+def _dot(size: int, colour: str = _RED) -> Marker:
     return Marker(symbol="circle", size=size, spPr=GraphicalProperties(solidFill=colour))
 
 
@@ -333,7 +399,9 @@ def _font(size: int) -> CharacterProperties:
 
 
 def _hidden() -> LineProperties:
-    return LineProperties(w=_LINE, noFill=True)  # without a width Gnumeric draws it
+    line = LineProperties(w=_LINE, noFill=True)
+    line.prstDash = None  # openpyxl calls it solid: then Gnumeric draws it
+    return line
 
 
 def _look(number: int) -> LineProperties:
@@ -346,23 +414,40 @@ def _look(number: int) -> LineProperties:
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:
     """Range of each series → its numbers, which the finishing pass puts into the chart."""
     ranges = {}
-    for key in (key for series in spec.drawn_by("workbook") for key in (series.x, series.y)):
+    for key in (key for series in drawn_series(spec, layout) for key in (series.x, series.y)):
         table, column = key.split(".")
         if table in values.columns:
             numbers = values.columns[table][column].astype(float).tolist()
         else:
             numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
         ranges[layout.range_of(key)] = numbers
-    path = spec.drawn_by("workbook")[0]
+    path = drawn_series(spec, layout)[0]
     if spec.kind == "wear":
         circle, wear = (values_of for values_of in spec.drawn_by("workbook")[:2])
         for axis in "xy":
             ends = [ranges[layout.range_of(getattr(series, axis))] for series in (wear, circle)]
             for line, depth, edge in zip(rays(spec, layout), *ends, strict=False):
                 ranges[getattr(line, axis)] = [depth, edge]
+    if spec.kind == "scheme":
+        for point, _ in member_names(spec, layout, values):
+            for at in (point.x, point.y):
+                cell = next(k for k, c in layout.cells.items() if c.absolute == at)
+                ranges[at] = [float(values.scalars[cell])]
+    if table := live_table(spec, layout):
+        line = arrow(table, layout)
+        for at, axis in ((line.x, "x"), (line.y, "y")):
+            keys = layout.keys_of_run(f"{table}_arrow.arrow_{axis}")
+            ranges[at] = [float(values.scalars[key]) for key in keys]
     if spec.kind == "polar":
-        for mark in marks(spec, layout, values):
+        points = live_marks(table, path, layout) if table else marks(spec, layout, values)
+        for mark in points:
             row = int(mark.x.rpartition("$")[2]) - FIRST_ROW
             for at, key in ((mark.x, path.x), (mark.y, path.y)):
                 ranges[at] = [ranges[layout.range_of(key)][row]]
     return ranges
+
+
+def names_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, str]:
+    """Cell of each series that is called by one → its text."""
+    table = live_table(spec, layout)
+    return names_in(table, layout, values) if table else {}

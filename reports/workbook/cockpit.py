@@ -18,7 +18,7 @@ from reports.model.shape import pin_figure
 from reports.tables.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
-from reports.workbook.charts import HIGH, WIDE, make_chart, ranges_of
+from reports.workbook.charts import HIGH, WIDE, make_chart, names_of, ranges_of
 from reports.workbook.key_values import key_values, results_of, worst_pin
 from reports.workbook.layout import (
     HEADER_ROW,
@@ -221,6 +221,7 @@ def _drawn(
         chart.anchor = anchor(sheet, box)
         sheet.add_chart(chart)
         writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
+        writer.caches.names |= names_of(spec, writer.layout, writer.values)
     return boxes
 
 

@@ -8,7 +8,7 @@ defined names; cells of grids are absolute addresses.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -16,7 +16,7 @@ from openpyxl.utils import get_column_letter
 
 from reports.formula.excel import number
 from reports.inputs.fields import Field
-from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec, scalars_of
 from reports.workbook.orders import Grid as AngleGrid
 from reports.workbook.orders import Waves, grid_of, place_of, runs_of, waves_of
 
@@ -47,6 +47,7 @@ _NEXT = "\x02"
 _ABOVE = "\x03"
 # The column of the first row's order; that of the next row stands beside it.
 _BELOW = re.compile("\x05(\\d+)\x05")  # the same for rows
+_DOWN_TO_HERE = re.compile(f":[A-Z]+{_ROW}")
 _WAVE = re.compile("\x04(\\d+)\x04")
 
 
@@ -206,6 +207,19 @@ class Layout:
         self.next_row[grid.sheet] = row + len(grid.rows) + 3
 
     # --- addresses --------------------------------------------------------------------
+
+    def last_column(self, blocks: Iterable[Block]) -> int:
+        """Last column of some tables, lists and grids of a sheet."""
+        last = 1
+        for block in blocks:
+            first = self.places[block.id].column
+            if isinstance(block, TableSpec):
+                last = max(last, first + len(block.columns) - 1)
+            elif isinstance(block, ScalarTable):
+                last = max(last, first + SOURCE_COLUMN - 1)
+            else:
+                last = max(last, *(self.cells[cell.key].column for cell in scalars_of(block)))
+        return last
 
     def rows_of(self, table: TableSpec) -> range:
         """Sheet rows of a table's data."""
@@ -386,6 +400,16 @@ def at_row(formula: str, row: int, *, last: bool = False) -> str:
             lambda match: get_column_letter(int(match[1]) + row - FIRST_ROW), formula
         )
     return formula.replace(_ROW, str(row)).replace(_NEXT, below).replace(_ABOVE, str(row - 1))
+
+
+def can_share(formula: str) -> bool:
+    """Whether one formula serves all rows of a column as spreadsheet programs shift it.
+
+    They share none that names another sheet; what rows above give, LibreOffice then calculates in
+    another order and to other last digits.
+    """
+    marks = any(mark in formula for mark in ("!", _NEXT, _ABOVE, "\x04", "\x05"))
+    return not marks and _DOWN_TO_HERE.search(formula) is None
 
 
 def check_names(layout: Layout) -> None:

@@ -22,9 +22,10 @@ from reports.formula.excel import compile_formula
 from reports.formula.numeric import evaluate
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
+from reports.model.charts import Series
 from reports.model.shape import Shape, cylinder_table_id
 from reports.workbook import styles
-from reports.workbook.chart_ranges import Drawn
+from reports.workbook.chart_ranges import Drawn, drawn_from
 from reports.workbook.charts import HIGH, drawing
 from reports.workbook.layout import NOTE_ROW, Cell, Layout, RowReferences, column_range, quoted
 from reports.workbook.places import GAP, Box, anchor
@@ -39,6 +40,7 @@ _SERVING = {"view_knot", "view_share", "r", "L", "D", "scale", "xa", "ya", "xb",
 _FORCES = {"P": "Ps_MPa", "N": "N_MPa", "S": "S_MPa", "T": "T_MPa", "K": "K_MPa"}
 _TABLES = ("P4_1", "P4_2", "gas", "crankpin")
 _BOX = "crankpin_box.box"  # limits of the pin's diagram
+_FRAME, _STEP = ("crankpin_frame.frame_x", "crankpin_frame.frame_y"), "crankpin_frame.frame_step"
 _POINTS = 54  # row of the first point: below the charts
 _WIDTHS = {"A": 24, "B": 9, "C": 8}
 _LEFT = 287  # px of these columns, beside the charts
@@ -322,13 +324,20 @@ def _charts(
     layout, values = writer.layout, writer.values
 
     def curve(name: str, x: str, y: str) -> Drawn:
-        for at in (x, y):
+        series = drawn_from(Series(x, y, name), layout)
+        for at in (series.x, series.y):
             table, key = at.split(".")
             writer.caches.ranges[layout.range_of(at)] = values.columns[table][key].tolist()
-        return Drawn(name, layout.range_of(x), layout.range_of(y))
+        return Drawn(name, layout.range_of(series.x), layout.range_of(series.y))
 
-    limits = layout.range_of(_BOX)
-    writer.caches.ranges[limits] = [float(values.scalars[k]) for k in layout.keys_of_run(_BOX)]
+    def run(key: str) -> str:
+        numbers = [float(values.scalars[name]) for name in layout.keys_of_run(key)]
+        writer.caches.ranges[layout.range_of(key)] = numbers
+        return layout.range_of(key)
+
+    is_live = _FRAME[0] in layout.model.grid_runs
+    across, up = map(run, _FRAME if is_live else (_BOX, _BOX))
+    step = float(values.scalars[layout.keys_of_run(_STEP)[0]]) if is_live else 0.0
     of = {name: line for name, (line, _, _) in drawn.items()}
     frame = Drawn("рамка", of["рамка"].x, of["рамка"].y, hidden=True)
     turn = float(values.columns["P4_1"]["phi_deg"][-1])
@@ -346,8 +355,8 @@ def _charts(
                 [curve("ΣM", "P4_2.phi_deg", "P4_2.Msum_Nm"), of["момент"]], turn=turn),
         drawing("Нагрузка шатунной шейки 1", ("T, МПа", _ON_PIN.header),
                 [curve("R", "crankpin.T_MPa", "crankpin.Krod_MPa"), of["шейка"],
-                 Drawn("оси", limits, limits, hidden=True)], shape=1.0, downwards=True, wide=WIDE,
-                limit=max(map(abs, writer.caches.ranges[limits]))),
+                 Drawn("оси", across, up, hidden=True)], shape=1.0, downwards=True, wide=WIDE,
+                limit=max(map(abs, writer.caches.ranges[across])), step=step),
         drawing("Звезда кривошипов с носка вала", ("", ""),
                 [of["колена"], of["первое колено"]], shape=1.0, unit=True, wide=WIDE),
     )  # fmt: skip

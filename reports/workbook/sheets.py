@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from math import ceil
+from math import ceil, log10
 from typing import ClassVar
 
 from openpyxl.comments import Comment
@@ -18,7 +18,7 @@ from reports.formula.excel import compile_formula
 from reports.formula.plain import plain
 from reports.formula.tex import input_symbol_tex
 from reports.inputs.fields import Field
-from reports.model.blocks import Grid, Scalar, ScalarTable, TableSpec, scalars_of
+from reports.model.blocks import Column, Grid, Scalar, ScalarTable, TableSpec, scalars_of
 from reports.model.evaluation import Values
 from reports.shared.russian import capital
 from reports.workbook import styles
@@ -35,6 +35,7 @@ from reports.workbook.layout import (
     Layout,
     RowReferences,
     at_row,
+    can_share,
     quoted,
 )
 from reports.workbook.places import raise_row
@@ -43,6 +44,13 @@ from reports.workbook.places import raise_row
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
+_DIGITS = ".14g"  # a spreadsheet shows hardly one more; what follows is noise that takes room
+_NOTHING = 1e-13  # what is left of a zero
+# Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
+# serves others none at all.
+_CURVE_STEPS, _HELPER_STEPS = 4000, 99
+# Names of a chart's series are read as they are seen.
+_NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
 
 
@@ -65,13 +73,28 @@ class FilledColumn:
     cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
 
 
+@dataclass(frozen=True, slots=True)
+class SharedColumn:
+    """Formula cells below one written by openpyxl, all by the formula of the first.
+
+    Their values are text, those of curves of as many digits as a picture needs.
+    """
+
+    index: int
+    first_row: int
+    formula: str
+    numbers: Sequence[str]
+    is_plain: bool = False  # without a look of its own
+
+
 @dataclass
 class CacheValues:
     """What the finishing pass adds to each sheet."""
 
     values: dict[str, dict[str, float | str]] = field(default_factory=dict)  # by coordinate
-    columns: dict[str, list[FilledColumn]] = field(default_factory=dict)
+    columns: dict[str, list[FilledColumn | SharedColumn]] = field(default_factory=dict)
     ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
+    names: dict[str, str] = field(default_factory=dict)  # of their series, by the cell
     symbols: dict[str, dict[str, tuple[Runs, bool]]] = field(default_factory=dict)  # and if bold
 
 
@@ -83,6 +106,7 @@ class BlockWriter:
     values: Values
     caches: CacheValues = field(default_factory=CacheValues)
     tells: ClassVar[bool] = True  # formulas in words: not where they are what is asked
+    shares: bool = True  # one formula to a column where a spreadsheet program would
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str
@@ -115,13 +139,17 @@ class BlockWriter:
         sheet.cell(HEADER_ROW - 1, first_cell.column).style = styles.SUBTITLE
         rows = self.layout.rows_of(table)
         last = rows[-1]
+        shown = {key.rpartition(".")[2] for _, key in table.draws}
         for number, column in enumerate(table.columns, 1):
             index = first_cell.column + number - 1
             self.symbol(sheet, HEADER_ROW, index, column.quantity, styles.HEADER, unit=True)
+            sheet.cell(NUMBER_ROW, index, number).style = styles.NUMBER
+            if table.draws:
+                self._curve(sheet, table, column, index, is_shown=column.key in shown)
+                continue
             header = sheet.cell(HEADER_ROW, index)
             formula = self.explained(column.quantity, column.expr, table.id)
             header.comment = note(column.quantity, column.source, formula)
-            sheet.cell(NUMBER_ROW, index, number).style = styles.NUMBER
             values = self.values.columns[table.id][column.key]
             style = styles.HELPER if column.helper or table.helper else styles.FORMULA
             template = (
@@ -129,6 +157,11 @@ class BlockWriter:
                 if column.expr is not None
                 else None
             )
+            look = (style, styles.excel_format(column.quantity))
+            numbers = values.astype(float).tolist()
+            if self.shares and template is not None and can_share(template):
+                self.shared(sheet, index, template, numbers, look)
+                continue
             texts: list[str | None] = [
                 at_row(template, row, last=row == last)
                 if template is not None
@@ -137,8 +170,29 @@ class BlockWriter:
                 else None
                 for row in rows
             ]
-            look = (style, styles.excel_format(column.quantity))
-            self.column(sheet, index, texts, values.astype(float).tolist(), look)
+            self.column(sheet, index, texts, numbers, look)
+
+    def _curve(
+        self, sheet: Worksheet, table: TableSpec, column: Column, index: int, *, is_shown: bool
+    ) -> None:
+        """A column that charts alone are drawn from: the same formula in all rows, short values."""
+        values = self.values.columns[table.id][column.key].astype(float).tolist()
+        look = (styles.HELPER, styles.excel_format(column.quantity))
+        second = FIRST_ROW + 1
+        if column.expr is None:
+            first, text, template = None, "", self.layout.step_formula(table, second, index)
+        else:
+            text = compile_formula(column.expr, RowReferences(self.layout, table))
+            first, template = at_row(text, FIRST_ROW), at_row(text, second)
+        if not can_share(text):
+            texts = [at_row(text, row) for row in self.layout.rows_of(table)]
+            self.column(sheet, index, texts, values, look)
+            return
+        self.cells(sheet, index, {0: first}, values, look)
+        unit = _step_of(values, _CURVE_STEPS if is_shown else _HELPER_STEPS)
+        numbers = [f"{round(value / unit) * unit:.12g}" for value in values[1:]]
+        shared = SharedColumn(index, second, template, numbers, is_plain=True)
+        self.caches.columns.setdefault(sheet.title, []).append(shared)
 
     def explained(self, quantity: Quantity, text: str | None, table: str = "") -> str:
         """A quantity's formula in the symbols of the book; nothing of a copy or a very long one."""
@@ -179,6 +233,17 @@ class BlockWriter:
         filled = FilledColumn(index, FIRST_ROW + 1, between)
         self.caches.columns.setdefault(sheet.title, []).append(filled)
 
+    def shared(
+        self, sheet: Worksheet, index: int, template: str, values: Sequence[float],
+        look: tuple[str, str],
+    ) -> None:  # fmt: skip
+        """Cells of a column whose rows have one formula: a program reads it once."""
+        self.cells(sheet, index, {0: at_row(template, FIRST_ROW)}, values, look)
+        second = FIRST_ROW + 1
+        numbers = list(map(number_text, values[1:]))
+        column = SharedColumn(index, second, at_row(template, second), numbers)
+        self.caches.columns.setdefault(sheet.title, []).append(column)
+
     def cells(
         self,
         sheet: Worksheet,
@@ -209,7 +274,8 @@ class BlockWriter:
         self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
-        cell.number_format = styles.excel_format(scalar.quantity, decimals)
+        is_name = scalar.of in _NAMES_OF_SERIES
+        cell.number_format = _DEGREES if is_name else styles.excel_format(scalar.quantity, decimals)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:
         """Write a list of scalars: title, symbol, value, unit, source."""
@@ -263,8 +329,9 @@ class BlockWriter:
             if not wide:
                 self.symbol(sheet, at, 1, quantity, styles.HEADER, unit=True)
             first_cell = next(cell for cell in row.cells if cell is not None)
-            formula = self.explained(quantity, first_cell.expr)
-            label.comment = note(quantity, first_cell.source, formula)
+            if sheet.title not in self.layout.model.drawn:
+                formula = self.explained(quantity, first_cell.expr)
+                label.comment = note(quantity, first_cell.source, formula)
             if not wide:
                 raise_row(sheet, at, {quantity.header: NARROW})
             if wide:
@@ -275,6 +342,17 @@ class BlockWriter:
             for scalar in row.cells:
                 if scalar is not None:
                     self.scalar(sheet, scalar, decimals)
+
+
+def number_text(value: float) -> str:
+    """Return a value as a cell saves it."""
+    return f"{value:{_DIGITS}}" if value > _NOTHING or value < -_NOTHING else "0"
+
+
+def _step_of(values: Sequence[float], most: int) -> float:
+    """Return a power of ten that the largest value has up to so many of."""
+    largest = max(map(abs, values))
+    return 10.0 ** ceil(log10(largest / most)) if largest > 0 else 1.0
 
 
 def decimals_in(block: ScalarTable | Grid) -> int:

@@ -67,7 +67,11 @@ class _Texts:
 
 def write_substitutions(book: Workbook, writer: BlockWriter) -> None:
     """Write the lines of all tables of the visible sheets, and what they are joined of."""
-    tables = [table for table in writer.layout.model.tables.values() if _lines_of(table, writer)]
+    tables = [
+        table
+        for table in writer.layout.model.tables.values()
+        if book[table.sheet].sheet_state == "visible" and _lines_of(table, writer)
+    ]
     if not tables:
         return
     hidden = _Texts(book.create_sheet(SHEET), writer)
@@ -156,7 +160,9 @@ def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec) -> None:
     if not texts:
         return
     # With the empty row below: Gnumeric takes one cell for no range.
-    symbols, lines = (column_range(SHEET, c, top, hidden.row) for c in (_LINE_SYMBOL, _LINE))
+    symbols, heads, lines = (
+        column_range(SHEET, c, top, hidden.row) for c in (_LINE_SYMBOL, _HEAD, _LINE)
+    )
     choices = column_range(SHEET, _LINE_SYMBOL, top, hidden.row - 1)
     hidden.row += 1
     start = max(lengths, key=lengths.__getitem__)  # of formulas: no number decides
@@ -167,7 +173,8 @@ def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec) -> None:
     title.alignment = Alignment(horizontal="right", vertical="center")
     _choice(sheet, angle, table.rows[at], angles)
     _choice(sheet, chosen, start, choices)
-    text = f"=INDEX({lines},MATCH({chosen.coordinate},{symbols},0))"
+    row = f"MATCH({chosen.coordinate},{symbols},0)"
+    text = f"=INDEX({heads},{row})&INDEX({lines},{row})"
     writer.formula(sheet, line.row, line.column, text, texts[start])
     sheet.cell(line.row, line.column).style = styles.LINE
 
@@ -240,9 +247,8 @@ def _line(hidden: _Texts, table: TableSpec, column: Column, place: str, at: int)
     value = float(writer.values.columns[table.id][column.key][at])
     number = np.format_float_positional(round(value, decimals) + 0.0, trim="-")
     after = f" {unit}" if unit else ""
-    head_cell = Cell("", hidden.row, _HEAD).coordinate
     operands = [hidden.operands[table.id, name] for name in used]
-    joined = "&".join([head_cell, *_pieces(put_in, [each.cell for each in operands])])
+    joined = "&".join(_pieces(put_in, [each.cell for each in operands]))
     result = f"(ROUND(INDEX({writer.layout.range_of(key)},{place}),{decimals})+0)"
     formula = f'={joined}&" = "&{result}&"{after}"'.replace(f"'{SHEET}'!", "")
     if len(formula) > _MOST_FORMULA:
@@ -250,9 +256,9 @@ def _line(hidden: _Texts, table: TableSpec, column: Column, place: str, at: int)
     hidden.sheet.cell(hidden.row, _LINE_SYMBOL, quantity.symbol).style = styles.TEXT
     hidden.sheet.cell(hidden.row, _HEAD, head).style = styles.TEXT
     said = _MARK.sub(lambda match: operands[int(match[1])].text, put_in)
-    text = f"{head}{said} = {number}{after}"
+    text = f"{said} = {number}{after}"
     hidden.put(_LINE, formula, text)
-    return text
+    return head + text
 
 
 def _pieces(text: str, cells: list[str]) -> Iterator[str]:

@@ -12,18 +12,19 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.model.blocks import Grid, Model, ScalarTable, TableSpec
+from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
 from reports.model.contents import Contents
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.files import temporary_failure
 from reports.shared.gc_pause import uncollected
+from reports.tables.curves import with_curves, with_values
 from reports.tables.verdicts import accepted_checks
 from reports.workbook import cockpit, motion, styles
 from reports.workbook.bars import draw_bars
 from reports.workbook.caches import finish
 from reports.workbook.chapters import chapter_of, contents_for, diagrams_of, heading, ordered
-from reports.workbook.charts import WIDE, is_blank, make_chart, pixels, ranges_of
+from reports.workbook.charts import WIDE, is_blank, make_chart, names_of, pixels, ranges_of
 from reports.workbook.cockpit import write_cockpit
 from reports.workbook.inputs import write_inputs
 from reports.workbook.layout import (
@@ -73,6 +74,8 @@ _TEXT_WIDTH = 110
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
 _REMARK_WIDTH = 115  # of the columns of a list
 _CHARTS_ROW = 4  # of a sheet of diagrams
+_CURVES_WIDTH = 12  # of the columns of a hidden sheet
+_BESIDE = 24  # px: a narrow column between a table and its charts
 
 
 def write_waves(sheet: Worksheet, writer: BlockWriter) -> None:
@@ -142,9 +145,11 @@ def _cell(
 
 def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
     """Return the finished workbook as bytes; the same model gives the same bytes."""
+    values = values or evaluate_model(model)
+    model = with_curves(model)
     layout = Layout.of(model)
     check_names(layout)
-    writer = BlockWriter(layout, values or evaluate_model(model))
+    writer = BlockWriter(layout, with_values(model, values))
     with uncollected():
         book = assemble(model, writer)
         write_texts(book, model)
@@ -188,6 +193,9 @@ def assemble(
     set_widths(inputs, model, layout, writer.values)
     for title in model.sheets:
         _blocks(book[title], model, writer)
+        if title in model.drawn:  # nobody looks at it, or one who has shown it
+            book[title].sheet_format.defaultColWidth = _CURVES_WIDTH
+            continue
         set_widths(book[title], model, layout, writer.values)
         notes = [block.note for block in model.blocks if block.sheet == title and block.note]
         if notes:
@@ -197,8 +205,6 @@ def assemble(
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
-    if writer.tells:
-        write_substitutions(book, writer)
     boxes[INPUT_SHEET] = cockpit.charts_beside(inputs, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):
@@ -208,6 +214,8 @@ def assemble(
         boxes[motion.SHEET] = motion.write_motion(book, model, writer)
         cockpit.write_what_if(book, model, writer)
     _fold(book, model)
+    if writer.tells:
+        write_substitutions(book, writer)
     verdict = write_verdict(book, model, writer)
     visible = [sheet.title for sheet in book.worksheets if sheet.sheet_state == "visible"]
     boxes[CONTENTS_SHEET] = write_cockpit(
@@ -233,11 +241,10 @@ def assemble(
 
 
 def _fold(book: Workbook, model: Model) -> None:
-    """Hide the sheets of a short book that only serve formulas, behind all others."""
-    if not (model.left_out or model.folded):
-        return
+    """Hide the sheets that only serve charts and, of a short book, formulas, behind all others."""
+    waves = {WAVES_SHEET} if model.left_out or model.folded else set()
     for sheet in list(book.worksheets):
-        if sheet.title in {WAVES_SHEET, *model.folded}:
+        if sheet.title in {*waves, *model.folded, *model.drawn}:
             sheet.sheet_state = "hidden"
             book.move_sheet(sheet, len(book.worksheets))
 
@@ -308,7 +315,8 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
             (blank if empty else specs).append(spec)
         if blank:
             _say_blank(sheet, blank)
-        boxes = _room(sheet, specs, frozen=title in {t.sheet for t in model.tables.values()})
+        blocks = [block for block in model.blocks if block.sheet == title]
+        boxes = _room(sheet, specs, blocks, writer.layout)
         if boxes is None:
             homeless.setdefault(diagrams_of(chapter_of(title, contents)), []).extend(specs)
         else:
@@ -330,13 +338,19 @@ def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
     _note(sheet, f"{sheet.cell(NOTE_ROW, NOTE_COLUMN).value or ''} {text}".strip())
 
 
-def _room(sheet: Worksheet, specs: Sequence[ChartSpec], *, frozen: bool) -> list[Box] | None:
+def _room(
+    sheet: Worksheet, specs: Sequence[ChartSpec], blocks: Sequence[Block], layout: Layout
+) -> list[Box] | None:
     """Room beside what is written, or below where that is short; None where there is none."""
-    width, height = extent(sheet)
+    height = extent(sheet)[1]
+    # A note above runs on over the charts: they stand beside the tables.
+    columns = range(1, layout.last_column(blocks) + 1)
+    left = _BESIDE + sum(column_px(sheet, i) for i in columns)
     sizes = [pixels(spec) for spec in specs]
-    if not specs or width + GAP + sizes[0][0] <= SCREEN:
+    if not specs or left + sizes[0][0] <= SCREEN:
+        frozen = any(isinstance(block, TableSpec) for block in blocks)
         top = top_of(sheet, FIRST_ROW if frozen else HEADER_ROW)
-        return flow(sizes, width + GAP, top, max(UPRIGHT, width + GAP + WIDE))
+        return flow(sizes, left, top, max(UPRIGHT, left + WIDE))
     tallest = max(size[1] for size in sizes)
     if height + GAP + tallest <= FOLD + tallest // 2:  # their greater halves in sight
         return flow(sizes, GAP, height + GAP, SCREEN)
@@ -351,6 +365,7 @@ def _draw(
         chart.anchor = anchor(sheet, box)
         sheet.add_chart(chart)
         writer.caches.ranges |= ranges_of(spec, writer.layout, writer.values)
+        writer.caches.names |= names_of(spec, writer.layout, writer.values)
 
 
 def _index(book: Workbook, title: str, contents: Contents) -> int:

@@ -74,6 +74,9 @@ def as_excel(book: bytes) -> bytes:
     return stream.getvalue()
 
 
+_OURS = 10_000  # formulas that the book shares itself are numbered below
+
+
 def _written(root: etree._Element) -> bytes:
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", standalone=True)
 
@@ -107,7 +110,7 @@ def _excel_sheet(data: bytes, values: dict, strings: list[str], styles: int) -> 
             etree.SubElement(cell, f"{MAIN}v").text = (
                 value if isinstance(value, str) else repr(value)
             )
-        if formula.get("t") == "array":  # stays with its cell
+        if formula.get("t") in ("array", "shared"):  # stay with their cells
             continue
         try:
             key = (letters, pattern(formula.text, int(row), column_number(letters)))
@@ -121,7 +124,7 @@ def _excel_sheet(data: bytes, values: dict, strings: list[str], styles: int) -> 
         for index, (_, cell) in enumerate(cells):
             formula = cell.find(f"{MAIN}f")
             formula.set("t", "shared")
-            formula.set("si", str(number))
+            formula.set("si", str(_OURS + number))
             if index:
                 formula.text = None
             else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import random
+import zipfile
 from collections.abc import Callable
 from functools import lru_cache
 from math import cos, radians
@@ -36,6 +37,19 @@ def asked() -> list[float]:
     """A column that is asked."""
     values = evaluate_model(classroom.assignment().model)
     return [float(v) for v in values.columns["P4_1"]["T_MPa"]]
+
+
+def test_a_work_book_has_no_curves_by_degrees() -> None:
+    """Its charts are drawn from the student's own cells: blank before these are filled in."""
+    book = classroom.handout()
+    titles = load_workbook(io.BytesIO(book)).sheetnames
+    assert "П4.1" in titles and "Кривые" not in titles
+    with zipfile.ZipFile(io.BytesIO(book)) as archive:
+        charts = [archive.read(n).decode() for n in archive.namelist() if "charts/chart" in n]
+    drawn = [chart for chart in charts if "'П4.1'!" in chart]
+    assert drawn and not any("Кривые" in chart for chart in charts)
+    for chart in drawn:  # angles are given, what is asked is not
+        assert "<v>" not in chart.split("<yVal>")[1].split("</yVal>")[0]
 
 
 def planted(plant: Callable[[Workbook], None]) -> bytes:

@@ -17,7 +17,7 @@ from reports.workbook.read import load_workbook_input
 from tests.conftest import missing
 from tests.cover import ALL
 from tests.referee.changes import Change, with_values, without_charts
-from tests.referee.compare import errors_in, same_text
+from tests.referee.compare import errors_in, near_enough, same_text
 from tests.workbook.made import MOVING, coarse, coarse_book, coarse_model, drawn
 from tools.referees.by_gnumeric import COMMAND, Gnumeric
 from tools.referees.by_hyperformula import PACKAGE, HyperFormula
@@ -58,9 +58,10 @@ def differing(book: bytes, actual: Book) -> list[str]:
     return [
         f"{sheet}!{at}: {value!r}, {actual[sheet][at]!r}"
         for sheet, cells in cached_values(book).items()
+        for near in [near_enough(sheet, cells)]
         for at, value in cells.items()
         if not (
-            abs(value - actual[sheet][at]) <= _NEAR * max(1, abs(value))
+            abs(value - actual[sheet][at]) <= near.get(at, _NEAR * max(1, abs(value)))
             if isinstance(value, float)
             else same_text(value, actual[sheet][at])
         )

@@ -158,9 +158,10 @@ def _cells(root: etree._Element) -> Iterator[str]:
     """Runs of cells down a column that are alike."""
     ns = root.nsmap[None]
     columns: dict[str, list[tuple[int, str]]] = {}
+    shared: dict[str, str] = {}
     for cell in root.iter(f"{{{ns}}}c"):
         match = re.fullmatch(r"([A-Z]+)(\d+)", cell.get("r"))
-        text = _content(cell, ns, int(match[2]))
+        text = _content(cell, ns, int(match[2]), shared)
         columns.setdefault(match[1], []).append((int(match[2]), text))
     for column, cells in columns.items():
         start = before = 0
@@ -175,11 +176,14 @@ def _cells(root: etree._Element) -> Iterator[str]:
             last = text
 
 
-def _content(cell: etree._Element, ns: str, row: int) -> str:
+def _content(cell: etree._Element, ns: str, row: int, shared: dict[str, str]) -> str:
     style = f"s{cell.get('s')}"
-    formula = cell.findtext(f"{{{ns}}}f")
+    formula = cell.find(f"{{{ns}}}f")
     if formula is not None:
-        return f"{style} {cell.get('t')} ={relative(formula, row)}"
+        key, text = formula.get("si"), relative(formula.text or "", row)
+        if key is not None:  # the others have the formula of the first
+            text = shared.setdefault(key, text)
+        return f"{style} {cell.get('t')} ={text}"
     text = "".join(piece.text or "" for piece in cell.iter(f"{{{ns}}}t"))
     value = cell.findtext(f"{{{ns}}}v")
     return f"{style} {text!r}" if value is None else f"{style} {value}"

@@ -31,6 +31,7 @@ VOLATILE = {"CELL", "INDIRECT", "INFO", "NOW", "OFFSET", "RAND", "RANDBETWEEN", 
 OF_RANGES = {
     "AVERAGE", "COUNT", "COUNTIF", "INDEX", "MATCH", "MAX", "MIN", "SUM", "SUMPRODUCT",
 }  # fmt: skip
+FINE = 200  # points of a curve that is saved by its shape
 LONGEST = 200  # characters of a formula that a person reads
 _GUARD = re.compile(r"\b0\.0{6,}1\b|\b9999\b|\bMAX\(1,ABS\(")
 _LINES = ("19050", "57150")  # EMU: 1.5 pt, and 4.5 pt for worn depths
@@ -116,6 +117,8 @@ def _series_problems(root: etree._Element) -> Iterator[str]:
         line = one.find(f"{C}spPr/{A}ln")
         if line is None or (line.find(f"{A}noFill") is None and line.get("w") not in _LINES):
             yield f"series {index}: the line is not 1.5 pt"
+        elif line.find(f"{A}noFill") is not None and line.find(f"{A}prstDash") is not None:
+            yield f"series {index}: Gnumeric draws its hidden line"
 
 
 def _cache_problems(root: etree._Element) -> list[str]:
@@ -125,7 +128,12 @@ def _cache_problems(root: etree._Element) -> list[str]:
         points = [point.text for point in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
         count = reference.find(f"{C}numCache/{C}ptCount")
         least = 2 if len(set(where.rpartition("!")[2].split(":"))) > 1 else 1
-        if count is None or not len(points) == int(count.get("val")) >= least:
+        # Of a fine curve the rows between which it is straight, its ends among them.
+        rows = [int(point.get("idx")) for point in reference.iterfind(f"{C}numCache/{C}pt")]
+        whole = int(count.get("val")) if count is not None else 0
+        thinned = whole > FINE and _val(root.find(f"{C}chart"), "dispBlanksAs") == "span"
+        filled = thinned and len(rows) >= whole / 10 and rows[0] == 0 and rows[-1] == whole - 1
+        if not (filled or len(points) == whole) or whole < least:
             collected.append(f"{where}: the cache is not filled")
         elif not all(_is_number(text) for text in points):
             collected.append(f"{where}: the cache holds no number")
@@ -149,15 +157,18 @@ def _polar_problems(root: etree._Element) -> list[str]:
     if not square or _val(layout, "layoutTarget") != "inner":
         collected.append("the plot area is not square")
     box = [s for s in root.findall(f".//{C}ser") if s.find(f"{C}spPr/{A}ln/{A}noFill") is not None]
-    texts = [formula.text for s in box for formula in s.iterfind(f".//{C}f")]
-    texts = [
-        text for text in texts if ":" in text and len(set(text.rpartition("!")[2].split(":"))) > 1
+    widths = [
+        ends[-1] - ends[0]
+        for s in box
+        for cache in s.iterfind(f".//{C}numCache")
+        if len(ends := [float(value.text) for value in cache.iter(f"{C}v")]) > 1
     ]
     limits = [axis.find(f"{C}scaling/{C}max") for axis in root.findall(f".//{C}valAx")]
     # Equal limits are fixed, or a corner series spans the same range on both axes.
     if math.isclose(shape, shapes[-1], rel_tol=1e-9):
         return collected  # its limits follow from a frame of the plot's shape
-    if not all(limit is not None for limit in limits) and texts[-1] != texts[-2]:
+    are_fixed = all(limit is not None for limit in limits)
+    if not are_fixed and not math.isclose(widths[-1], widths[-2], rel_tol=1e-4):
         collected.append("the axes may have different limits")
     steps = {_val(axis, "majorUnit") for axis in root.findall(f".//{C}valAx")}
     if len(steps) != 1:  # equal limits end alike where the divisions are the same
@@ -177,8 +188,10 @@ def formula_problems(cell: etree._Element) -> list[str]:
     if "_xlfn" in text:
         collected.append("newer than Excel 2007")
     # LibreOffice loads array formulas dirty, and the first edit stops there.
-    if formula.attrib:
-        collected.append(f"array or shared formula {dict(formula.attrib)}")
+    if formula.get("t") not in (None, "shared"):
+        collected.append(f"array formula {dict(formula.attrib)}")
+    if formula.get("t") == "shared" and "!" in text:  # Excel shares none with another sheet
+        collected.append("a shared formula names another sheet")
     # Gnumeric lifts a function over a range in array formulas alone.
     if re.search(r"\b(?:SIN|COS)\([^()]*:", text):
         collected.append("a function over a range")

@@ -39,12 +39,13 @@ def test_polar_diagrams_are_square() -> None:
     assert len(squares) == MOVING // 2 + sum(s.kind != "line" for s in drawn(model()))
 
 
+CURVES = "'Кривые'!"
 AREA = re.compile(r"('(?:[^']|'')+'|[^',!(]+)!([$A-Z\d:]+)")
 
 
 def test_points_of_charts_are_those_of_the_cells() -> None:
     """Caches of curves, marks and rays, of six digits, against the values of their cells."""
-    opened, compared = coarse_opened("gots-diesel"), 0
+    opened, compared, saved = coarse_opened("gots-diesel"), 0, dict[str, int]()
     for name, text in parts("xl/charts/chart", coarse=True).items():
         for reference in etree.fromstring(text).iterfind(f".//{C}numRef"):
             where = reference.findtext(f"{C}f") or ""
@@ -54,9 +55,18 @@ def test_points_of_charts_are_those_of_the_cells() -> None:
                 rows = actual if isinstance(actual, tuple) else ((actual,),)
                 cells += [cell.value for row in rows for cell in row]
             points = [float(p.text) for p in reference.iterfind(f"{C}numCache/{C}pt/{C}v")]
-            assert points == pytest.approx(cells, rel=5.1e-6, abs=1e-12), (name, where)
+            rows = [int(p.get("idx")) for p in reference.iterfind(f"{C}numCache/{C}pt")]
+            noise = 1e-12
+            if CURVES in where:  # as many digits as a picture needs
+                noise = max(map(abs, points)) / 700 if len(cells) > 1 else 0.006
+                saved |= {where: len(rows)} if len(cells) > 1 else {}
+            else:
+                assert len(rows) == len(cells), where
+            cells = [cells[row] for row in rows]
+            assert points == pytest.approx(cells, rel=5.1e-6, abs=noise), (name, where)
             compared += len(points)
     assert compared > 2000
+    assert len(saved) > 20 and 73 <= max(saved.values()) < 500
 
 
 def _set(path: str, **attributes: str):

@@ -16,6 +16,7 @@ from kshm.nomenclature.symbols import LOWER, UPPER, symbol_runs
 from reports.inputs.fields import to_mapping
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Model, ScalarTable
+from reports.tables.curves import with_curves
 from reports.tables.registry import build_model
 from reports.workbook import cockpit, motion
 from reports.workbook.caches import sheet_parts
@@ -52,7 +53,8 @@ def test_the_workbook_keeps_the_rules(name: str, tmp_path: Path) -> None:
         assert len(charts) == len(drawn(model)) + MOVING
         collected = {part: chart_problems(etree.fromstring(archive.read(part))) for part in charts}
         assert {part: problems for part, problems in collected.items() if problems} == {}
-        known, indexed, shown = constants(model) | COMPILED, symbols(model), set()
+        whole = with_curves(model)
+        known, indexed, shown = constants(whole) | COMPILED, symbols(whole), set()
         for title, part in sheet_parts(archive).items():
             root = etree.fromstring(archive.read(part))
             for text, runs in pieces(root):

@@ -19,6 +19,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Model, TableSpec, nodes_in
 from reports.new.generate import generate_engine
 from reports.shared.errors import SymbolError
+from reports.tables.curves import with_curves
 from reports.tables.registry import build_model
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.conftest import sample, sample_names
@@ -42,7 +43,7 @@ ENGINES = {
 
 @cache
 def model_of(name: str) -> Model:
-    return build_model(ENGINES[name]())
+    return with_curves(build_model(ENGINES[name]()))
 
 
 @cache

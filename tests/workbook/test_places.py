@@ -8,6 +8,7 @@ import math
 
 import matplotlib
 import pytest
+from lxml import etree
 from openpyxl import Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 from PIL import ImageFont
@@ -30,7 +31,8 @@ from reports.workbook.sheets import BlockWriter
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.cover import charts, quantities, samples_with
-from tests.workbook.made import coarse_model, coarse_opened
+from tests.workbook.lint import A, C
+from tests.workbook.made import coarse_model, coarse_opened, parts
 
 _EMU = 9525
 
@@ -129,6 +131,7 @@ def test_every_number_has_room_in_its_column(name: str) -> None:
     tight = [
         f"{sheet.title}!{cell.coordinate}: {cell.value}"
         for sheet in book.worksheets
+        if sheet.sheet_state == "visible"
         for row in sheet.iter_rows()
         for cell in row
         if isinstance(cell.value, float)
@@ -265,3 +268,37 @@ def test_lists_beside_a_table_stand_one_below_the_other(name: str) -> None:
         assert len(set(rows)) == len(rows)
         met += len(lists) > 1
     assert met
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-238", "d-240"])
+def test_charts_stand_a_narrow_column_beside_their_tables(name: str) -> None:
+    """However far a note above runs on."""
+    layout, model, seen = Layout.of(coarse_model(name)), coarse_model(name), 0
+    book = coarse_opened(name)
+    for title in {table.sheet for table in model.tables.values()}:
+        boxes = boxes_of(book[title])
+        if not boxes or boxes[0].y > FOLD // 2:
+            continue
+        blocks = [block for block in model.blocks if block.sheet == title]
+        edge = sum(column_px(book[title], i) for i in range(1, layout.last_column(blocks) + 1))
+        assert 0 < min(box.x for box in boxes) - edge <= 30, title
+        seen += 1
+    assert seen > 5
+
+
+def test_every_throw_of_two_rods_has_its_charts() -> None:
+    charted = {chart.sheet for chart in coarse_model("yamz-238").charts}
+    assert {f"Колено {i}" for i in range(1, 5)} | {"Цилиндры"} <= charted
+
+
+def test_a_scheme_names_its_rows_and_throws() -> None:
+    """Cranks apart from axes by dash and colour, all named, the lines told below."""
+    drawn = parts("xl/charts/chart", "yamz-238", coarse=True).values()
+    drawings = [etree.fromstring(data) for data in drawn]
+    (scheme,) = [c for c in drawings if "Схема двигателя" in "".join(c.itertext())]
+    names = [v.text for v in scheme.iterfind(f".//{C}ser/{C}tx/{C}v")]
+    assert names[:2] == ["оси рядов", "колена"]
+    assert {"цилиндры 1–4", "цилиндры 5–8", "колено 1", "колено 4"} <= set(names)
+    dashes = [d.get("val") for d in scheme.iterfind(f".//{C}ser/{C}spPr/{A}ln/{A}prstDash")]
+    assert dashes[:2] == ["lgDashDot", "solid"]
+    assert scheme.find(f".//{C}legend") is not None

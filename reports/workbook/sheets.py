@@ -106,7 +106,7 @@ class BlockWriter:
     values: Values
     caches: CacheValues = field(default_factory=CacheValues)
     tells: ClassVar[bool] = True  # formulas in words: not where they are what is asked
-    shares: bool = True  # one formula to a column where a spreadsheet program would
+    shares: ClassVar[bool] = True  # one formula to a column where a spreadsheet program would
 
     def formula(
         self, sheet: Worksheet, row: int, column: int, text: str, value: float | str

@@ -16,13 +16,14 @@ from openpyxl.packaging.custom import StringProperty
 from openpyxl.workbook.defined_name import DefinedName
 
 from reports.grading.issuing.assignment import Assignment, assignment_of
-from reports.grading.issuing.handout import check_for_leaks, handout_bytes, leaks_of
+from reports.grading.issuing.handout import check_for_leaks, fill_cells, handout_bytes, leaks_of
 from reports.grading.issuing.rubric import rubric_of
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.evaluation import evaluate_model
 from reports.shared.errors import InputError
 from reports.tables.registry import build_model
+from reports.workbook.layout import Layout
 from tests.conftest import sample
 from tests.cover import examples
 from tests.grading import classroom
@@ -37,6 +38,18 @@ def asked() -> list[float]:
     """A column that is asked."""
     values = evaluate_model(classroom.assignment().model)
     return [float(v) for v in values.columns["P4_1"]["T_MPa"]]
+
+
+def test_what_is_asked_is_empty() -> None:
+    """Formulas too: a column that is shared with the cell above would stand there unseen."""
+    assignment = classroom.assignment()
+    book, layout = load_workbook(io.BytesIO(classroom.handout())), Layout.of(assignment.model)
+    asked_cells = [cell for block in assignment.fill
+                   for node, cells in fill_cells(block, layout).items()
+                   if node in assignment.fill_nodes for cell in cells]  # fmt: skip
+    filled = [cell for cell in asked_cells
+              if book[cell.sheet].cell(cell.row, cell.column).value is not None]  # fmt: skip
+    assert len(asked_cells) > 500 and filled == []
 
 
 def test_a_work_book_has_no_curves_by_degrees() -> None:

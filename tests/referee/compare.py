@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from string import ascii_uppercase
 
 import numpy as np
 
@@ -71,7 +72,14 @@ def near_enough(sheet: str, cells: Mapping[str, CellValue]) -> dict[str, float]:
     """
     if sheet != CURVES:
         return {}
-    numbers = {cell: value for cell, value in cells.items() if isinstance(value, float)}
+    last = FIRST_ROW
+    while f"A{last + 1}" in cells:  # below the curves all digits are saved
+        last += 1
+    numbers = {
+        cell: value
+        for cell, value in cells.items()
+        if isinstance(value, float) and int(cell.lstrip(ascii_uppercase)) <= last
+    }
     largest: dict[str, float] = {}
     for cell, value in numbers.items():
         letters = cell.rstrip("0123456789")

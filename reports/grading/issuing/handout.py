@@ -76,7 +76,7 @@ class _HandoutWriter(BlockWriter):
 
     live: frozenset[Cell] = frozenset()
     tells: ClassVar[bool] = False
-    shares: bool = False  # cells of a column differ: numbers, formulas, nothing
+    shares: ClassVar[bool] = False  # cells of a column differ: numbers, formulas, nothing
 
     def column(
         self,

@@ -18,7 +18,7 @@ from reports.tables.registry import stand_ins
 
 def with_curves(model: Model) -> Model:
     """Return a model with the tables that its charts are drawn from; as it is where its own do."""
-    if model.input.calculation.step_deg <= FINE_STEP:
+    if not model.charts or model.input.calculation.step_deg <= FINE_STEP:
         return model
     names = contents_of(shelf_of(model.input.books)).parts["drawn"]
     part = books(Scope(model.input), names)

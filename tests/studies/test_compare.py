@@ -258,7 +258,7 @@ def test_each_engine_has_its_own_decimals_and_no_change_is_told_in_millions_of_p
     moment = Row("", "M_max", "М", "", quantity("M_max"), (17.26, 881857.0, 16.0), (2, -3, 2))
     (line,) = results_block(("А", "Б", "В"), [moment]).rows
     texts = [str(cell).replace("\u00a0", " ") for cell in line[1:]]
-    assert texts == ["17,26", "881 900<br>(× 51 100)", "16,00<br>(−7,3 %)"]
+    assert texts == ["17,26", "881 857<br>(× 51 100)", "16,00<br>(−7,3 %)"]
 
 
 def test_nothing_is_concluded_where_an_engine_has_no_value():

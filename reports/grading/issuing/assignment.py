@@ -31,7 +31,7 @@ _COPY, _PICKS = 0.3, ("element", "col_last")
 _SHARED = ("graph", "items", "points", "blocks", "fill_nodes", "states", "given_nodes",
            "live_nodes")  # fmt: skip
 NUMBER, LIVE, HIDDEN = "number", "live", "hidden"
-_PHASE = "phase_deg"
+_PHASE, _CHECKS = "phase_deg", ("check", "check_value")
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,11 +120,11 @@ class Assignment:
 
     def _is_idle(self, node: str, readers: Sequence[str]) -> bool:
         """Tell whether a helper column feeds no graded value."""
-        if readers and all(map(self._is_fixed, readers)):
+        checks = {key for key, scalar in self.model.scalars.items() if scalar.of in _CHECKS}
+        if readers and all(n in checks or self._is_fixed(n) for n in readers):
             return True
-        return all(
-            "." in n and self.graph.expression(n) is None for n in self.graph.ancestors(node)
-        )
+        before = self.graph.ancestors(node)
+        return all("." in n and self.graph.expression(n) is None for n in before)
 
     @cached_property
     def points(self) -> Mapping[str, float]:

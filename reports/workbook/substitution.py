@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import count, islice
 
@@ -67,20 +67,21 @@ class _Texts:
 
 def write_substitutions(book: Workbook, writer: BlockWriter) -> None:
     """Write the lines of all tables of the visible sheets, and what they are joined of."""
-    tables = [
-        table
+    told = {
+        table.id: columns
         for table in writer.layout.model.tables.values()
-        if book[table.sheet].sheet_state == "visible" and _lines_of(table, writer)
-    ]
-    if not tables:
+        if book[table.sheet].sheet_state == "visible" and (columns := _lines_of(table, writer))
+    }
+    if not told:
         return
     hidden = _Texts(book.create_sheet(SHEET), writer)
     for column, width in zip("ABCDEF", _WIDTHS, strict=True):
         hidden.sheet.column_dimensions[column].width = width
     head = heading(SHEET, contents_for(writer.layout.model))
     styles.as_text(hidden.sheet.cell(TITLE_ROW, 1, head)).style = styles.TITLE
-    for table in tables:
-        _table(book[table.sheet], hidden, table)
+    for name, columns in told.items():
+        table = writer.layout.model.tables[name]
+        _table(book[table.sheet], hidden, table, columns)
     hidden.sheet.sheet_state = "hidden"
 
 
@@ -137,9 +138,9 @@ def _single(name: str, writer: BlockWriter) -> object:
     return writer.values.scalars.get(name, field_of.value if field_of is not None else None)
 
 
-def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec) -> None:
+def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec, columns: Sequence[Column]) -> None:
     """Write the texts of one table and its line."""
-    writer, columns = hidden.writer, _lines_of(table, hidden.writer)
+    writer = hidden.writer
     at = round((len(table.rows) - 1) * _START) or 1
     places = _beside_title(sheet)
     label, angle, chosen, line = (Cell(sheet.title, TITLE_ROW, column) for column in places)

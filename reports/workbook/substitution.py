@@ -115,11 +115,8 @@ def _is_told(column: Column, table: TableSpec, writer: BlockWriter) -> bool:
             return False
     used = names(column.expr)
     known = all(_is_number(name, table, writer) for name in used)
-    return (
-        bool(used)
-        and known
-        and len(writer.explained(column.quantity, column.expr, table.id)) in (range(1, _MOST_LINE))
-    )
+    said = writer.explained(column.quantity, column.expr, table.id)
+    return bool(used) and known and 0 < len(said) < _MOST_LINE
 
 
 def _is_number(name: str, table: TableSpec, writer: BlockWriter) -> bool:

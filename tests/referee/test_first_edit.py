@@ -63,7 +63,7 @@ def unlike(book: Book, other: Book) -> Counter[str]:
         for sheet, cells in book.items()
         if sheet != CURVES  # saved with the digits of a picture
         for cell, value in cells.items()
-        if not same(value, other[sheet].get(cell))
+        if not same(value, other[sheet].get(cell), sheet, cell)
     )
 
 
@@ -103,11 +103,11 @@ def at(rows: list[list[float | str]], coordinate: str) -> float | str | None:
     return rows[row - 1][index] if row <= len(rows) and index < len(rows[0]) else None
 
 
-def same(value: float | str, other: float | str | None) -> bool:
+def same(value: float | str, other: float | str | None, sheet: str, cell: str) -> bool:
     """Whether two cells tell one value."""
     if isinstance(value, float) and isinstance(other, float):
         return close(value, other, 1 + abs(value))
-    return same_text(value, other)
+    return same_text(value, other, sheet, cell)
 
 
 def stale(wanted: Book, collected: dict[str, list[list[float | str]]]) -> tuple[int, list[str]]:
@@ -117,7 +117,7 @@ def stale(wanted: Book, collected: dict[str, list[list[float | str]]]) -> tuple[
         for cell, value in cells.items():
             compared += 1
             other = at(collected[sheet], cell)
-            if not same(value, other):
+            if not same(value, other, sheet, cell):
                 wrong.append(f"{sheet}!{cell}: {value!r}, LibreOffice {other!r}")
     return compared, wrong
 

@@ -63,7 +63,7 @@ def differing(book: bytes, actual: Book) -> list[str]:
         if not (
             abs(value - actual[sheet][at]) <= near.get(at, _NEAR * max(1, abs(value)))
             if isinstance(value, float)
-            else same_text(value, actual[sheet][at])
+            else same_text(value, actual[sheet][at], sheet, at)
         )
     ]
 

@@ -65,7 +65,10 @@ def _honest(class_: DrawnClass) -> Iterator[Figure]:
 def _mistakes(class_: DrawnClass) -> Iterator[Figure]:
     """Mistakes not paid, and causes told."""
     caught = message = wanted = 0
-    for number, (node, text, words) in enumerate(manners.MISTAKES, 1):
+    asked = class_.formulas(1, {})
+    mistakes = [mistake for mistake in manners.MISTAKES if mistake[0] in asked]
+    for i, (node, text, words) in enumerate(mistakes):
+        number = i % COUNT + 1
         lines = class_.result(number, class_.book(number, {node: text}))["items"]
         item = node if "." in node else next(i["id"] for i in lines if i["id"].endswith(f".{node}"))
         line = next(line for line in lines if line["id"] == item)
@@ -74,7 +77,7 @@ def _mistakes(class_: DrawnClass) -> Iterator[Figure]:
         message += bool(words) and words in line["cause"]
         if words not in line["cause"] or line["points"] >= _PAID * line["of"]:
             print("  причина:", class_.base, node, text, "→", line["verdict"], line["cause"])
-    note = f"{caught} из {len(manners.MISTAKES)}; причина названа: {message} из {wanted}"
+    note = f"{caught} из {len(mistakes)}; причина названа: {message} из {wanted}"
     yield Figure(f"{class_.base}: ошибок найдено", caught, "", note)
 
 

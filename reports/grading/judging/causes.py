@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from reports.formula.numeric import evaluate_tree
 from reports.formula.parse import names, parse
 from reports.grading.issuing.assignment import Item
+from reports.grading.judging.few_rows import moved, row_indices, rows_text, slips
 from reports.grading.judging.foreign import OtherVariant, Variants
 from reports.grading.judging.judgement import (
     Array,
@@ -25,12 +26,19 @@ from reports.grading.judging.judgement import (
     values_of,
 )
 from reports.grading.judging.literal_tables import literals, typed_numbers
-from reports.grading.judging.mistakes import OPPOSITE, ROOTLESS, mistakes, signs, symbol_of
+from reports.grading.judging.mistakes import (
+    OPPOSITE,
+    ROOTLESS,
+    Changes,
+    exchanges,
+    mistakes,
+    signs,
+    symbol_of,
+)
 from reports.grading.judging.response import FormulaResponse
 from reports.grading.judging.spelling import squares_a_cosine, squares_a_minus
 from reports.grading.reading.student import StudentBook, known_values
 from reports.inputs.sections.input_file import METHODS
-from reports.model.blocks import TableSpec
 from reports.model.evaluation import Evaluation
 from reports.shared.errors import FormulaError
 from reports.shared.russian import fixed, short, uncapital
@@ -39,7 +47,6 @@ _FACTORS = (10.0, 60.0, 100.0, 1000.0, 1e4, 1e5, 1e6, 1e9)
 _EXACT = "exact"  # in the key of a column by the exact formula
 _VARIED = 4  # different values of a column that tells anything
 Change = Callable[[ast.expr], Any]
-_LEAST = 3  # values of an item that one of them is told distance from
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +184,7 @@ class Causes:
         yield from self.variants.words(judgement, fits)
         yield from self._typed_in(item, scene, fits)
         yield from fitting(self._last())
+        yield from fitting(self._changed_formulas(item, exchanges))
 
     def _holds_elsewhere(
         self, item: Item, change: Callable[[Scene], Array | None], rows: Sequence[int]
@@ -248,7 +256,7 @@ class Causes:
             yield from self._inputs(item)
         yield "результат в градусах вместо радиан", lambda s: np.degrees(s.right)
         yield "результат в радианах вместо градусов", lambda s: np.radians(s.right)
-        yield from self._changed_formulas(item)
+        yield from self._changed_formulas(item, mistakes)
         if len(scene.right) > 3 and item.is_column:
             yield "значения сдвинуты на одну строку вниз", lambda s: moved(s.right, s.values, 1)
             yield "значения сдвинуты на одну строку вверх", lambda s: moved(s.right, s.values, -1)
@@ -264,10 +272,9 @@ class Causes:
 
     # --- the formula itself -------------------------------------------------------------
 
-    def _changed_formulas(self, item: Item) -> Iterator[Attempt]:
-        for words, change in mistakes(
-            self._tree(item.nodes[0]), item.block, self.student.assignment.model
-        ):
+    def _changed_formulas(self, item: Item, changes: Changes) -> Iterator[Attempt]:
+        tree, model = self._tree(item.nodes[0]), self.student.assignment.model
+        for words, change in changes(tree, item.block, model):
             yield words, partial(self._changed, item, change)
 
     def _changed(self, item: Item, change: Change, scene: Scene) -> Array | None:
@@ -453,46 +460,3 @@ def _is_place(item: Item) -> bool:
     """Whether a result is the number of a journal, a mass, a cylinder."""
     has_parts = item.quantity.unit or item.quantity.digits.decimals
     return len(item.nodes) == 1 and not item.is_column and not has_parts
-
-
-# --- rows ----------------------------------------------------------------------------------------
-
-
-def moved(right: Array, values: Array, by: int) -> Array:
-    """Right values moved by a row; the row without a right value is the student's own."""
-    shifted = np.roll(right, by)
-    shifted[0 if by > 0 else -1] = values[0 if by > 0 else -1]
-    return shifted
-
-
-def row_indices(table: TableSpec, other: TableSpec) -> NDArray[np.intp] | None:
-    """For each row of a table the row of another table with the same angle."""
-    if table.rows == other.rows:
-        return np.arange(len(table.rows))
-    rows = {angle: i for i, angle in enumerate(other.rows)}
-    if any(angle not in rows for angle in table.rows):
-        return None
-    return np.array([rows[angle] for angle in table.rows])
-
-
-def slips(judgement: Judgement, good: NDArray[np.bool_]) -> list[int]:
-    """Return wrong rows where they are few and all others are right; ``good`` are right numbers."""
-    rows = list(judgement.rows)
-    ready = set(judgement.typed)
-    wrong = [i for i in rows if np.isfinite(judgement.values[i]) and not (i in ready and good[i])]
-    few = len(good) >= _LEAST and 0 < len(rows) <= len(good) / 2
-    return rows if few and wrong == rows else []
-
-
-def rows_text(judgement: Judgement, rows: list[int], cause: str) -> str:
-    """Cause of a few wrong rows in words."""
-    column, count = judgement.item.is_column, len(judgement.values)
-    if len(rows) == 1:
-        which = f"неверна одна строка из {count}" if column else f"неверно одно из {count} значений"
-    else:
-        kind = "строк" if column else "значений"
-        which = f"неверно {kind}: {len(rows)} из {count}"
-    if not cause:
-        ready = set(rows) <= set(judgement.typed)
-        cause = "вместо формулы вписано число" if ready else "сравните формулу с соседними"
-    return f"{which}, остальные верны: {cause}"

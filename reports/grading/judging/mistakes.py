@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import combinations
 
 from reports.formula.parse import SCALE_FUNCTIONS, SHIFTS, is_known_function, names, parse
 from reports.formula.plain import plain
@@ -12,6 +13,7 @@ from reports.grading.judging.rewriting import (
     ArcTangent,
     Divided,
     DoubleAngle,
+    Exchanged,
     Flipped,
     HalfAngle,
     LowerPower,
@@ -41,7 +43,7 @@ from reports.grading.judging.rewriting import (
     without_brackets,
     without_radians,
 )
-from reports.model.blocks import Model, TableSpec
+from reports.model.blocks import Model, TableSpec, scalars_of
 from reports.model.evaluation import node_of
 from reports.shared.russian import short, uncapital
 
@@ -83,6 +85,7 @@ _DIVISORS = (2, 4)
 _SIGNS, _PRODUCTS = 3, 4  # of a formula, in which it may divide instead
 ROOTLESS = "значение под корнем: корень не извлечён"
 Mistake = tuple[str, Callable[[ast.expr], ast.AST]]
+Changes = Callable[[ast.expr, str, Model], Iterator[Mistake]]
 _POWERS = {2.0: "квадрат", 3.0: "куб"}
 # How people call the functions of the language; what is not here is called as in Excel.
 _CALLED = {"col_max": "max", "col_min": "min", "col_mean": "среднее", "col_sum": "Σ", "total": "Σ",
@@ -145,6 +148,37 @@ def signs(tree: ast.expr, block: str, model: Model) -> list[str]:
     """Words on the sign of each summand of a formula but the first of a sum."""
     terms = second_operands(tree)[:_SIGNS]
     return [f"знак слагаемого {_plain(term, block, model)}" for term in terms]
+
+
+def exchanges(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
+    """Tell two quantities of a unit taken for each other, or one that the list has elsewhere."""
+    used = names(ast.unparse(tree))
+    units = {name: _unit(name, block, model) for name in sorted(used)}
+    measured = [name for name, unit in units.items() if unit]
+    for one, other in combinations(measured, 2):
+        if units[one] == units[other]:
+            symbols = [symbol_of(name, block, model) for name in (one, other)]
+            yield f"{symbols[0]} и {symbols[1]} переставлены", Exchanged(one, other).visit
+    beside = {name: _unit(name, block, model) for name in sorted(_beside(block, model) - used)}
+    for one in measured:
+        for other, unit in beside.items():
+            if unit == units[one]:
+                words = f"{symbol_of(other, block, model)} вместо {symbol_of(one, block, model)}"
+                yield words, Renamed(one, other).visit
+
+
+def _beside(block: str, model: Model) -> frozenset[str]:
+    """Return single values that formulas of a list take."""
+    scalars = [s for b in model.blocks if b.id == block for s in scalars_of(b)]
+    return frozenset().union(*(names(scalar.expr) for scalar in scalars))
+
+
+def _unit(name: str, block: str, model: Model) -> str:
+    """Return the unit of a name of a formula, empty where it is none."""
+    node = model.nodes.get(node_of(name, block, model))
+    if node is not None:
+        return node.quantity.unit_label
+    return model.fields[name].unit if name in model.fields else ""
 
 
 def _is_text(name: str, block: str, model: Model) -> bool:

@@ -54,10 +54,15 @@ def numbers(tree: ast.expr) -> list[float]:
     literals = []
     for node in ast.walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
-            for side in (node.left, node.right):
+            for side in (*_picked(node.left), *_picked(node.right)):
                 if isinstance(side, ast.Constant) and isinstance(side.value, (int, float)):
                     literals.append(float(side.value))
     return sorted(set(literals) - {1.0})
+
+
+def _picked(side: ast.expr) -> tuple[ast.expr, ...]:
+    """Return what a condition may pick, or the side itself."""
+    return (side.body, side.orelse) if isinstance(side, ast.IfExp) else (side,)
 
 
 def without_brackets(text: str, tree: ast.expr) -> ast.AST:
@@ -364,6 +369,15 @@ class WithoutNumber(ast.NodeTransformer):
                     return other
         return node
 
+    def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
+        """Pick one for the number."""
+        self.generic_visit(node)
+        branches = (
+            ast.Constant(1) if isinstance(side, ast.Constant) and side.value == self.value else side
+            for side in _picked(node)
+        )
+        return ast.IfExp(node.test, *branches)
+
 
 def without_radians(tree: ast.expr) -> ast.expr:
     """Degrees where radians are wanted."""
@@ -410,6 +424,17 @@ class Renamed(ast.NodeTransformer):
     def visit_Name(self, node: ast.Name) -> ast.AST:
         """Tell what is taken."""
         return parse(self.new) if node.id == self.old else node
+
+
+class Exchanged(ast.NodeTransformer):
+    """Takes two names for each other."""
+
+    def __init__(self, one: str, other: str) -> None:
+        self.names = {one: other, other: one}
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """Tell what is taken."""
+        return ast.Name(self.names.get(node.id, node.id))
 
 
 class Flipped(ast.NodeTransformer):

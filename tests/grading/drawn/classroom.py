@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import random
 import subprocess
 import sys
@@ -30,22 +31,45 @@ from tests.grading.drawn import manners
 from tests.grading.fill import filled_cells, solved_formulas
 from tests.grading.real.desk import Desk
 from tests.grading.real.typed import typed
+from tests.manual.pages import DOCS, blocks
 
+
+@dataclass(frozen=True)
+class Base:
+    """An engine of ``kshm new``, ranges of its variants and chapters of its students' books."""
+
+    options: tuple[str, ...]
+    bores: tuple[float, float]
+    rods: tuple[float, float]
+    fill: tuple[str, ...] = ()
+    own: str = ""
+
+
+_FAN = "fan.book"
 BASES = {
-    "V8": ("--cylinders=8", "--layout=v", "--fuel=petrol", "--power=210", "--speed=5600",
-           "--bore=94", "--stroke=86"),
-    "one cylinder, two strokes": ("--cylinders=1", "--strokes=2", "--fuel=petrol", "--power=9",
-                                  "--speed=6000", "--bore=54", "--stroke=54"),
+    "V8": Base(("--cylinders=8", "--layout=v", "--fuel=petrol", "--power=210", "--speed=5600",
+                "--bore=94", "--stroke=86"), (92, 96), (150, 157)),
+    "one cylinder, two strokes": Base(
+        ("--cylinders=1", "--strokes=2", "--fuel=petrol", "--power=9", "--speed=6000",
+         "--bore=54", "--stroke=54"), (53, 55), (101, 107)),
+    "V6 with strength and a fan": Base(
+        ("--cylinders=6", "--layout=v", "--fuel=diesel", "--power=176", "--speed=2100",
+         "--bore=130", "--stroke=140", "--strength"), (128, 132), (262, 268),
+        ("strength_piston", "strength_pin", "fan"), _FAN),
+    "two strokes with strength and a fan": Base(
+        ("--cylinders=1", "--strokes=2", "--fuel=petrol", "--power=9", "--speed=6000",
+         "--bore=54", "--stroke=54", "--strength"), (53, 55), (101, 107),
+        ("strength_piston", "strength_pin", "fan"), _FAN),
 }  # fmt: skip
 _RANGES = """
 [variants]
 "geometry.bore_mm" = {{ min = {0}, max = {1}, step = 0.25 }}
 "geometry.rod_length_mm" = {{ min = {2}, max = {3}, step = 0.5 }}
 """
-_SPANS = {"V8": (92, 96, 150, 157), "one cylinder, two strokes": (53, 55, 101, 107)}
+_FILL = ("geometry", "masses", "P3_1", "P3_2", "P4_1")
 _RUBRIC = """
 [work]
-fill = ["geometry", "masses", "P3_1", "P3_2", "P4_1"]
+fill = {fill}
 [credit]
 typed = 0.0
 """
@@ -70,13 +94,19 @@ class DrawnClass:
     def register(self) -> Register:
         """The register of the class; its books are made when they are handed in."""
         path = self.folder / "base.toml"
-        command = [sys.executable, "-m", "reports", "new", *BASES[self.base], "-o", str(path)]
+        base = BASES[self.base]
+        command = [sys.executable, "-m", "reports", "new", *base.options, "-o", str(path)]
         subprocess.run(command, check=True, capture_output=True)
         text = path.read_text(encoding="utf-8")
         text += "\n[calculation]\nstep_deg = 30\n" if "[calculation]" not in text else ""
-        path.write_text(text + _RANGES.format(*_SPANS[self.base]), encoding="utf-8")
+        if base.own:
+            (self.folder / base.own).write_text(own_chapter(), encoding="utf-8")
+            text = text.replace("[report]", f'[report]\nbooks = ["{base.own}"]', 1)
+        path.write_text(text + _RANGES.format(*base.bores, *base.rods), encoding="utf-8")
         (self.folder / "group.csv").write_text(roster_text(self.count), encoding="utf-8")
-        (self.folder / "rubric.toml").write_text(_RUBRIC, encoding="utf-8")
+        fill = [*_FILL, *base.fill]
+        rubric = _RUBRIC.format(fill=json.dumps(fill))
+        (self.folder / "rubric.toml").write_text(rubric, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(issuing.Handouts, "__call__", lambda *given: b"")
             return issue(path, self.folder / "group.csv", self.folder / "issued", seed=11,
@@ -169,6 +199,12 @@ class Drawn:
     def named(self, rings: Sequence[Ring], *, held: bool) -> set[int]:
         """Students whom some rings name."""
         return {work.number or 0 for ring in rings if ring.held or not held for work in ring.works}
+
+
+def own_chapter() -> str:
+    """The book of the manual's page about own chapters."""
+    (book,) = blocks(DOCS / "own-chapter.md", "book")
+    return book
 
 
 def with_helpers(data: bytes, helpers: Sequence[str]) -> bytes:

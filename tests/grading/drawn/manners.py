@@ -55,6 +55,16 @@ FORMS: dict[str, tuple[str, ...]] = {
                    f"=D{{r}}*(COS({P})-SIN({P})*TAN(J{{r}}))", f"=D{{r}}*COS({P})-E{{r}}*SIN({P})"),
     "P4_1.M_Nm": ("=G{r}*1000000*F_piston*r_crank", "=G{r}*10^6*F_piston*S_stroke/2",
                   "=G{r}*1000*V_h/2"),
+    "st_groove_mm": ("=geometry_bore_mm-2*(st_ring_radial_mm+strength_ring_play_mm)",
+                     "=geometry_bore_mm-2*st_ring_radial_mm-2*strength_ring_play_mm"),
+    "st_land_MPa": ("=SQRT(st_land_bend_MPa^2+4*st_land_shear_MPa^2)",
+                    "=(st_land_bend_MPa^2+(2*st_land_shear_MPa)^2)^0.5"),
+    "st_q1_MPa": ("=st_N_max_N/(st_skirt_mm*geometry_bore_mm)",
+                  "=st_N_max_N/st_skirt_mm/geometry_bore_mm"),
+    "st_alpha": ("=st_pin_bore_mm/st_pin_mm", "=1/(st_pin_mm/st_pin_bore_mm)"),
+    "power_fan": ("=fan_flow_share*M_e*omega/1000",
+                  "=fan_flow_share*M_e*PI()*regime_speed_rpm/30000"),
+    "tip_fan": ("=omega*1.2*fan_blade_mm/2000", "=PI()*fan_blade_mm/1000*1.2*regime_speed_rpm/60"),
 }  # fmt: skip
 
 Manner = Callable[[str], str]
@@ -154,7 +164,30 @@ MISTAKES: tuple[tuple[str, str, str], ...] = (
     ("P3_2.beta_rad", f"=ATAN(lam*SIN({P}))", "ATAN вместо ASIN"),
     ("P4_1.Pj_MPa", "=-m_r*K{r}/F_piston/1000000", "масса mr вместо mj"),
     ("P4_1.T_MPa", f"=D{{r}}*SIN({P}-J{{r}})/COS(J{{r}})", "знак слагаемого β"),
+    ("st_groove_mm", "=geometry_bore_mm-st_ring_radial_mm-strength_ring_play_mm", "число 2"),
+    ("st_press_MPa", "=st_Pz_N/st_groove_cm2", "в 100 раз"),
+    ("st_land_MPa", "=SQRT(st_land_bend_MPa^2+st_land_shear_MPa^2)", "число 4"),
+    ("st_land_MPa", "=st_land_bend_MPa^2+4*st_land_shear_MPa^2", "корень"),
+    ("st_land_bend_MPa", "=0.0045*st_pz_MPa*geometry_bore_mm/st_land_mm", "не возведена в степень"),
+    ("st_land_shear_MPa", "=0.0314*st_pz_MPa*st_land_mm/geometry_bore_mm", "переставлены"),
+    ("st_q1_MPa", "=st_N_max_N/(st_height_mm*geometry_bore_mm)", "значение величины q2"),
+    ("st_alpha", "=st_pin_mm/st_pin_bore_mm", "обратн"),
+    ("st_pin_shear_MPa", "=0.85*st_pin_N*(1-st_alpha+st_alpha^2)/((1-st_alpha^4)*st_pin_mm^2)",
+     "знак"),
+    ("st_pin_shear_MPa", "=0.85*st_pin_N*(1+st_alpha+st_alpha^2)/((1-st_alpha^4)*st_pin_mm)",
+     "в квадрат"),
+    ("st_pin_shear_MPa", "=st_pin_N*(1+st_alpha+st_alpha^2)/((1-st_alpha^4)*st_pin_mm^2)", "0,85"),
+    ("st_pin_eye_MPa", "=st_pin_N/(st_pin_mm*st_pin_length_mm)", "вместо"),
+    ("st_pin_eye_MPa", "=st_pin_N/st_pin_mm*st_eye_length_mm", ""),
+    ("power_fan", "=fan_flow_share*M_e*omega", "в 1000 раз"),
+    ("power_fan", "=M_e*omega/1000", "пропущен множитель"),
+    ("power_fan", "=fan_flow_share*M_e*regime_speed_rpm/1000", "вместо"),
+    ("tip_fan", "=omega*fan_blade_mm/2000", "1,2"),
+    ("tip_fan", "=omega*1.2*fan_blade_mm/1000", "вдвое больше"),
 )  # fmt: skip
+
+_OF_PARTS = ("st_", "power_fan", "tip_fan")  # which other bases have not
+_EVERYWHERE = tuple(mistake for mistake in MISTAKES if not mistake[0].startswith(_OF_PARTS))
 
 # Ten cheats in four columns: ``{v}`` is the right number of the row.
 CHEATS: tuple[str, ...] = (
@@ -186,7 +219,7 @@ def honest(chance: random.Random, manner: int) -> Formulas:
     for node, forms in FORMS.items():
         weights = [6, *([4 / (len(forms) - 1)] * (len(forms) - 1))]
         texts[node] = rest(angle(chance.choices(forms, weights)[0]))
-    for node, text, _ in chance.sample(MISTAKES, chance.choice((0, 0, 1, 1, 2, 3))):
+    for node, text, _ in chance.sample(_EVERYWHERE, chance.choice((0, 0, 1, 1, 2, 3))):
         texts[node] = rest(angle(text))
     return texts
 

@@ -19,12 +19,17 @@ from unittest import mock
 from reports.grading.batch import pool
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
+from reports.grading.judging import verdicts
+from reports.grading.judging.marking import Marker
+from reports.grading.pages.pages import student_page
 from reports.grading.reading import restoring
+from reports.grading.reading.submissions import Submission
 from reports.recalculation.formulas import Formula as Read
 from reports.recalculation.formulas import formula_of
 from reports.recalculation.read import read_grid
 from reports.recalculation.sheets import Forms
 from reports.shared import workers as room
+from reports.shared.gc_pause import uncollected
 from reports.shared.resources import samples_dir
 from reports.workbook.layout import Cell, Layout
 from tests.bench._figure import Figure, costs, interleaved, median, ratio
@@ -53,6 +58,7 @@ def figures() -> Iterator[Figure]:
         yield _copied(folder)
         books = LibreOffice().converted(_filled(folder, register))
         yield from _forms(books)
+        yield from _marking(folder, register, books)
         few, many = _graded(folder, books, FEW), _graded(folder, books, MANY)
         for count, cost in ((FEW, few), (MANY, many)):
             yield from costs(f"проверка {count} книг, процессов {workers}, с их запуском", cost)
@@ -101,6 +107,31 @@ def _forms(books: list[bytes]) -> Iterator[Figure]:
     known, anew = (median(times[word]) / len(books) for word in ("known", "anew"))
     yield Figure("чтение работы, листы разобраны заново", anew, "с")
     yield Figure("чтение работы, формы листов известны", known, "с", f"{anew / known:.1f} раза")
+
+
+def _marking(folder: Path, register: Register, books: list[bytes]) -> Iterator[Figure]:
+    """What it saves that right items are taken at once, garbage later."""
+    marker = Marker(register)
+    names = [folder / "issued" / book.folder / book.file for book in register.books]
+    works = [Submission(path.name, path, None, None) for path in names]
+
+    def marked() -> None:
+        for work, book in zip(works, books, strict=True):
+            student_page(marker.mark(work, book), register.rubric)
+
+    def paused() -> None:
+        with uncollected():
+            marked()
+
+    def each_item() -> None:
+        with uncollected(), mock.patch.object(verdicts, "proven", lambda evidence: None):
+            marked()
+
+    times = interleaved({"here": paused, "items": each_item, "collected": marked})
+    now = f"вместо {median(times['here']) / len(books):.3f} с"
+    for word, name in (("items", "по каждой строке правила"),
+                       ("collected", "сборщик мусора не ждёт")):  # fmt: skip
+        yield Figure(f"проверка в памяти, {name}", ratio(times, word, "here"), "раз", now)
 
 
 def _own_formulas(register: Register) -> Iterator[Figure]:

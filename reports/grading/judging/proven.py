@@ -55,18 +55,9 @@ class Signatures:
 
     def _is_known(self, area: Area) -> bool:
         """Whether all cells of a rectangle hold what was issued, or answers."""
-        is_known = self._areas_known.get(area)
-        if is_known is None:
-            columns = range(area.first_column, area.last_column + 1)
-            taken = (self._held.get((area.sheet, column), []) for column in columns)
-            covered_all = all(rows and covered(area.first_row, area.last_row, rows)
-                        for rows in taken)  # fmt: skip
-            is_known = self._areas_known[area] = covered_all
-        return is_known
-
-    @cached_property
-    def _areas_known(self) -> dict[Area, bool]:
-        return {}
+        columns = range(area.first_column, area.last_column + 1)
+        taken = (self._held.get((area.sheet, column), []) for column in columns)
+        return all(rows and covered(area.first_row, area.last_row, rows) for rows in taken)
 
     @cached_property
     def _held(self) -> dict[tuple[str, int], list[tuple[int, int, Location]]]:

@@ -28,6 +28,6 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401
 
     if name not in __all__:
         raise AttributeError(f"module 'reports' has no attribute '{name}'")
-    found = getattr(import_module(_HOMES.get(name, "reports.api")), name)
-    globals()[name] = found
-    return found
+    member = getattr(import_module(_HOMES.get(name, "reports.api")), name)
+    globals()[name] = member
+    return member

@@ -35,8 +35,8 @@ _NUMBERED = "*"  # every member of a list
 class FileSource(Source):
     """The checked input that an engine was read from."""
 
-    def __init__(self, model: InputFile, name: str, cycle: CycleRun | None, made: Engine) -> None:
-        self.model, self.name, self.cycle, self._made = model, name, cycle, made
+    def __init__(self, model: InputFile, name: str, cycle: CycleRun | None, engine: Engine) -> None:
+        self.model, self.name, self.cycle, self._made = model, name, cycle, engine
 
     def has_made(self, engine: Engine) -> bool:
         """Tell whether an engine is as it was read."""
@@ -110,11 +110,11 @@ class FileSource(Source):
                 columns.append(column)
         revisions = Revisions(to_mapping(self.model), self.name, paths)
 
-        def made(row: Sequence[Any]) -> Engine:
+        def engine_of(row: Sequence[Any]) -> Engine:
             engine, cycle = revisions.engine([row[column] for column in columns])
             return _with_source(engine, revisions.revised, self.name, cycle)
 
-        return made
+        return engine_of
 
 
 def _with_source(engine: Engine, model: InputFile, name: str, cycle: CycleRun | None) -> Engine:

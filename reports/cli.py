@@ -81,13 +81,13 @@ class _Russian(RussianGroup):
         except KeyboardInterrupt:
             raise click.Abort from None
         except Exception as error:
-            from reports.shared.interrupt import asked
+            from reports.shared.interrupt import stopped
 
             if isinstance(error, OSError) and without_reader(error):
                 raise Unread from error
             # A library that calls back, as one that builds a schema, may tell of the signal by an
             # error of its own.
-            if asked():
+            if stopped():
                 raise click.Abort from None
             raise
 

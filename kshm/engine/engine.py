@@ -337,8 +337,10 @@ class Engine:
         """
         named = {**(changes or {}), **more}
         refuse((not named, "name something to change"))
-        made: Engine = engine_maker(self, list(named))([as_scalar(each) for each in named.values()])
-        return made
+        engine: Engine = engine_maker(self, list(named))(
+            [as_scalar(each) for each in named.values()]
+        )
+        return engine
 
     @property
     def is_in_line(self) -> bool:

@@ -105,13 +105,13 @@ def engine_maker(engine: Any, names: Sequence[str]) -> MakeEngine:  # noqa: ANN4
     others = {at: find(engine, name) for at, name in enumerate(names) if at not in keys}
     make = source.rows(list(keys.values())) if source is not None and keys else None
 
-    def made(row: Sequence[Any]) -> Any:  # noqa: ANN401
+    def engine_of(row: Sequence[Any]) -> Any:  # noqa: ANN401
         revised = engine if make is None else make([row[at] for at in keys])
         for at, each in others.items():
             revised = each.put(revised, row[at])
         return revised
 
-    return made
+    return engine_of
 
 
 def _members(part: Any, step: str) -> list[tuple[Any, Any]]:  # noqa: ANN401
@@ -140,11 +140,11 @@ def _with(part: Any, path: Sequence[str], value: Any) -> Any:  # noqa: ANN401
 
 def _paths(part: Any, home: str = "", depth: int = 3) -> list[str]:  # noqa: ANN401
     """Return the paths of the numbers of an engine, few levels deep."""
-    found = []
+    paths = []
     for field in fields(part):
         each, name = getattr(part, field.name), f"{home}{field.name}"
         if is_dataclass(each) and depth:
-            found += _paths(each, f"{name}.", depth - 1)
+            paths += _paths(each, f"{name}.", depth - 1)
         elif isinstance(each, float | int):
-            found.append(name)
-    return found
+            paths.append(name)
+    return paths

@@ -184,8 +184,8 @@ class _Proposal:
         states = zip(_STATES, (self.reactions(0.0), now, self.reactions(self.share)), strict=True)
         scalars = Scalars()
         for key, load in states:
-            for part, found in _PARTS:
-                each = found(load)
+            for part, part_of in _PARTS:
+                each = part_of(load)
                 scalars |= {f"cw_{key}_{part}{j}_kN": float(one) for j, one in enumerate(each, 1)}
                 if part == "mean":
                     scalars[f"cw_{key}_sum_kN"] = float(each.sum())

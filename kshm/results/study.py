@@ -275,10 +275,10 @@ def in_order(
     """
     check_kind("jobs", jobs, int)
     refuse((jobs < 1, f"jobs: must be 1 or more, not {jobs}"))
-    told = _Told(len(rows), progress)
+    progressed = _Told(len(rows), progress)
     for part in _solved(study, _chunks(rows, study.size), jobs):
         yield part
-        told.step(len(part.rows))
+        progressed.step(len(part.rows))
 
 
 def _solved(study: Study, chunks: Iterator[list[Row]], jobs: int) -> Iterator[Solved]:

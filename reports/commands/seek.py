@@ -55,18 +55,20 @@ def optimise(
     aims = [aim for aim in (least, most, reach) if aim is not None]
     if len(aims) != 1:
         raise InputError(Problem("", "нужен один из ключей --least, --most и --reach"))
-    axes, found = _found(source, vary, least, most, reach)
+    axes, solution = _found(source, vary, least, most, reach)
     for axis in axes:
         unit = f" {axis.unit}" if axis.unit else ""
-        value = number_text(float(f"{found.values[axis.key]:.8g}"))
+        value = number_text(float(f"{solution.values[axis.key]:.8g}"))
         title = "" if "*" in axis.key else f" ({axis.title})"
         click.echo(f"{axis.key} = {value}{unit}{title}")
     name = aims[0].partition("=")[0]
-    click.echo(f"{name} = {number_text(float(f'{found.result:.8g}'))}; решено: {found.solved}")
+    click.echo(
+        f"{name} = {number_text(float(f'{solution.result:.8g}'))}; решено: {solution.solved}"
+    )
     if target is not None:
         from reports.api import dump
 
-        write_text(target, dump(found.engine))
+        write_text(target, dump(solution.engine))
         tell_written(target)
         tell_next("build", target)
     return DONE

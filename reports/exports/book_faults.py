@@ -73,7 +73,7 @@ def repeated(reading: Own) -> Iterator[BookError]:
     """Names that stand for two things, which no workbook tells apart."""
     seen: dict[str, str] = {field.name.casefold(): field.name for field in reading.model.inputs}
     ids: set[str] = set()
-    told: set[tuple[BookLine, str]] = set()  # the value and the verdict of a check are one
+    named: set[tuple[BookLine, str]] = set()  # the value and the verdict of a check are one
     for block in reading.model.blocks:
         if block.id in ids:
             yield reading.fault(reading.places.line_of(block.id), f"блок «{block.id}» есть дважды",
@@ -81,10 +81,10 @@ def repeated(reading: Own) -> Iterator[BookError]:
         ids.add(block.id)
         for key, _ in nodes_in(block):
             line = reading.places.nodes.get(key)
-            if (line, short_of(key)) in told:
+            if (line, short_of(key)) in named:
                 continue
             if key.casefold() in seen and line is not None:
-                told.add((line, short_of(key)))
+                named.add((line, short_of(key)))
                 name, other = short_of(key), short_of(seen[key.casefold()])
                 problem = f"имя проверки «{name}» занято" if name != key else f"имя «{key}» занято"
                 more = f" («{other}»)" if other != name else ""

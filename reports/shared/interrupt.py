@@ -82,7 +82,7 @@ def _again(number: int, main: int) -> None:
             _thread.interrupt_main(signal.Signals(number))
 
 
-def asked() -> bool:
+def stopped() -> bool:
     """Whether a stop signal has come in this block."""
     return _state["stopped"]
 
@@ -94,7 +94,7 @@ def ever() -> bool:
 
 def check() -> None:
     """Raise ``Stopped`` for a signal that was swallowed."""
-    if asked():
+    if stopped():
         raise Stopped
 
 

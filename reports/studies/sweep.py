@@ -24,7 +24,7 @@ from reports.inputs.units import number_text
 from reports.shared.background import processors
 from reports.shared.errors import KshmError, OutputError, SystemPartMissing
 from reports.shared.files import atomic_path, reason, refuse_own
-from reports.shared.interrupt import asked
+from reports.shared.interrupt import stopped
 from reports.shared.parallel_map import in_order
 from reports.shared.progress import Progress
 from reports.studies.journal import Journal, Making
@@ -210,7 +210,7 @@ def sweep(
             study.run(out, progress)
     except BaseException as error:
         journal.close(done=False)
-        if journal.rows and (isinstance(error, KeyboardInterrupt) or asked()):
+        if journal.rows and (isinstance(error, KeyboardInterrupt) or stopped()):
             hint = "продолжит та же команда с ключом --resume"
             click.echo(f"сделано {journal.rows} из {plan.count}; {hint}", err=True)
         raise

@@ -87,49 +87,49 @@ def write(bands: Bands, engine: Engine, quantities: Sequence[str], target: Path)
     """
     source = engine.source
     chosen = choose(solve_batch([engine]), quantities, source.cycle if source else None)
-    told = Described(bands, chosen, engine)
+    study = Described(bands, chosen, engine)
     kind = target.suffix.lower()
     if kind == ".xlsx":
-        write_bytes(target, _book(told))
+        write_bytes(target, _book(study))
     elif kind == ".html":
-        write_text(target, _page(told))
+        write_text(target, _page(study))
     else:
-        write_text(target, _csv(told))
+        write_text(target, _csv(study))
 
 
-def _csv(told: Described) -> str:
+def _csv(study: Described) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    inputs = list(told.bands.tolerances)
+    inputs = list(study.bands.tolerances)
     writer.writerow(["name", "base", "q025", "q50", "q975", "min", "max", "first", *inputs])
-    for band in told.bands.bands:
+    for band in study.bands.bands:
         numbers = (band.base, band.low, band.middle, band.high, band.least, band.greatest)
         ranks = (band.ranks[name] for name in inputs)
         writer.writerow([band.name, *map(repr, numbers), band.first, *map(repr, ranks)])
     return stream.getvalue()
 
 
-def _book(told: Described) -> bytes:
+def _book(study: Described) -> bytes:
     book = new_book()
     sheet = _sheet(book.create_sheet("Разброс"), _TITLE, _HEADS, _WIDTHS)
-    for row, band in zip(told.rows(), told.bands.bands, strict=True):
+    for row, band in zip(study.rows(), study.bands.bands, strict=True):
         sheet.append(row)
         for cell in sheet[sheet.max_row][2:8]:
-            cell.number_format = f"{format_of(band.name, told.chosen)}"
+            cell.number_format = f"{format_of(band.name, study.chosen)}"
         sheet.cell(sheet.max_row, len(_HEADS)).number_format = "0.00"
     lay(sheet, rows="3:3")
-    inputs = list(told.bands.tolerances)
-    heads = ("Величина", *map(told.input, inputs))
+    inputs = list(study.bands.tolerances)
+    heads = ("Величина", *map(study.input, inputs))
     sheet = _sheet(book.create_sheet("Влияние"), "Ранговая корреляция с допусками", heads,
                    (60, *[22] * len(inputs)))  # fmt: skip
-    sheet.append(["Допуск ±", *told.bands.tolerances.values()])
-    for band in told.bands.bands:
-        sheet.append([told.titled(band)[0], *(band.ranks[name] for name in inputs)])
+    sheet.append(["Допуск ±", *study.bands.tolerances.values()])
+    for band in study.bands.bands:
+        sheet.append([study.titled(band)[0], *(band.ranks[name] for name in inputs)])
     for cells in sheet.iter_rows(min_row=5, min_col=2):
         for cell in cells:
             cell.number_format = "0.00"
     lay(sheet, rows="3:3")
-    frame = told.bands.samples
+    frame = study.bands.samples
     heads = tuple(map(str, frame.columns))
     sheet = _sheet(book.create_sheet("Выборка"), "Выборка", heads, [18] * len(heads))
     for line in frame.itertuples(index=False):
@@ -150,25 +150,25 @@ def _sheet(
     return sheet
 
 
-def _page(told: Described) -> str:
+def _page(study: Described) -> str:
     from reports.document.page.render import environment
 
     numbering = Draft()
-    bands = told.bands
+    bands = study.bands
     inputs = table_block(
         [TableColumn("Величина", 3, text=True), TableColumn("Допуск ±", 1)],
-        [[told.input(name), short(half)] for name, half in bands.tolerances.items()],
+        [[study.input(name), short(half)] for name, half in bands.tolerances.items()],
     )
     columns = [TableColumn("Величина", 2.6, text=True), *(TableColumn(text, 1) for text in
                ("Номинал", "2,5 %", "50 %", "97,5 %")), TableColumn("Главный допуск", 2, text=True),
                TableColumn("Ранговая ρ", 1)]  # fmt: skip
     rows = []
     for band in bands.bands:
-        title, unit = told.titled(band)
+        title, unit = study.titled(band)
         numbers = (band.base, band.low, band.middle, band.high)
         rank = fixed(band.ranks.get(band.first, 0.0), 2)
         named = f"{title}, {unit}" if unit else title
-        rows.append([named, *map(_number, numbers), told.input(band.first), rank])
+        rows.append([named, *map(_number, numbers), study.input(band.first), rank])
     first = numbering.section(1, "Допуски")
     tables = [(first, NumberedBlock(inputs, numbering.place("table", "inputs"),
                                     "Допуски исходных данных"))]  # fmt: skip
@@ -177,7 +177,7 @@ def _page(told: Described) -> str:
                                          numbering.place("table", "bands"),
                                          "Результаты в пределах допусков")))  # fmt: skip
     drawn = numbering.section(1, "Диаграмма")
-    figure = NumberedBlock(Markup(bands_figure(told)), numbering.place("figure", "bands"),
+    figure = NumberedBlock(Markup(bands_figure(study)), numbering.place("figure", "bands"),
                            "Пределы 95 % результатов, в процентах от номинала")  # fmt: skip
     count = len(bands.samples)
     words = (
@@ -185,8 +185,8 @@ def _page(told: Described) -> str:
         f"допуска (латинский гиперкуб). Между 2,5 % и 97,5 % лежат 95{NBSP}% двигателей."
     )
     page = environment(media="screen").get_template("tolerance/page.html.j2").render(
-        doc=DocumentInfo(_TITLE, subject=told.engine.name), title=_TITLE, engine=told.engine.name,
-        words=words, tables=tables, drawn=drawn, figure=figure, sentences=list(_sentences(told)),
+        doc=DocumentInfo(_TITLE, subject=study.engine.name), title=_TITLE, engine=study.engine.name,
+        words=words, tables=tables, drawn=drawn, figure=figure, sentences=list(_sentences(study)),
     )  # fmt: skip
     return spaces_inside(page)
 
@@ -195,24 +195,24 @@ def _number(value: float) -> str:
     return short(float(f"{value:.5g}"))
 
 
-def _sentences(told: Described) -> Iterator[str]:
+def _sentences(study: Described) -> Iterator[str]:
     """Yield what the figures say: the widest band and its cause, engines without a result."""
-    wide = [band for band in told.bands.bands if band.base]
+    wide = [band for band in study.bands.bands if band.base]
     if wide:
         band = max(wide, key=lambda each: (each.high - each.low) / abs(each.base))
         percent = 50 * (band.high - band.low) / abs(band.base)
         yield (
-            f"Больше всех меняется величина «{told.titled(band)[0].lower()}»: "
+            f"Больше всех меняется величина «{study.titled(band)[0].lower()}»: "
             f"±{fixed(percent, 1)}{NBSP}% от номинала; сильнее всего на неё влияет величина "
-            f"«{uncapital(told.input(band.first))}»."
+            f"«{uncapital(study.input(band.first))}»."
         )
-    if told.bands.failed:
-        yield f"Двигателей, которые не проходят проверку: {told.bands.failed}; в разброс не вошли."
+    if study.bands.failed:
+        yield f"Двигателей, которые не проходят проверку: {study.bands.failed}; в разброс не вошли."
 
 
-def bands_figure(told: Described) -> str:
+def bands_figure(study: Described) -> str:
     """Return the bands in per cent of the base, one below the other, as SVG."""
-    shown = [band for band in told.bands.bands if band.base][:_MOST_BARS]
+    shown = [band for band in study.bands.bands if band.base][:_MOST_BARS]
     spans = [
         (100 * (band.low / band.base - 1), 100 * (band.high / band.base - 1)) for band in shown
     ]
@@ -237,5 +237,5 @@ def bands_figure(told: Described) -> str:
         sheet.shape(box, _BAR, LineStyle(0.7), 2)
         mark = across(100 * (band.middle / band.base - 1))
         sheet.line([(mark, y - 5), (mark, y + 5)], _LINE, 3)
-        sheet.text((_LEFT - 8, y), symbol_of(band.name, told.chosen), 9.5, align=1.0)
+        sheet.text((_LEFT - 8, y), symbol_of(band.name, study.chosen), 9.5, align=1.0)
     return sheet.svg()

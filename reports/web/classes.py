@@ -261,7 +261,7 @@ class Classes(Queue):
 
     async def _ask(self, request: Request) -> None:
         """Take a student's request for another look at one column of an open page."""
-        own, data = self._own(request).told, await body(request)
+        own, data = self._own(request).content, await body(request)
         name, number = self.signer.loads(request.path_params["link"])
         if not own["open"]:
             raise HTTPException(409, "страница проверки ещё не открыта")

@@ -315,7 +315,7 @@ async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -
         yield path
 
 
-async def asked(request: Request, function: Callable[..., Data], *keys: str) -> Response | Data:
+async def answer(request: Request, function: Callable[..., Data], *keys: str) -> Response | Data:
     """Return handler that asks a worker with values of these keys, or the whole body."""
     data = await body(request)
     try:
@@ -344,7 +344,7 @@ class Shown:
     is taken; a book is tried by the register of the folder ``tries``.
     """
 
-    told: Data
+    content: Data
     gives: Mapping[str, Path]
     takes: Mapping[str, Path] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
@@ -356,7 +356,7 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
     """Doors of things that ``find`` finds; HTTPException where there is no such file."""
 
     async def data(request: Request) -> Data:
-        return find(request).told
+        return find(request).content
 
     async def given(request: Request) -> Response:
         thing, word = find(request), request.path_params["file"]

@@ -97,17 +97,17 @@ class _SheetText:
         for (row, column), value in values.items():
             by_row.setdefault(row, {})[column] = value
         parts, at, last = [], 0, 0
-        for found in _ROW.finditer(inside):
-            last = int(_attribute(found[2], "r") or last + 1)
-            parts.append(inside[at : found.start()])
+        for match in _ROW.finditer(inside):
+            last = int(_attribute(match[2], "r") or last + 1)
+            parts.append(inside[at : match.start()])
             early = sorted(row for row in by_row if row < last)
             parts += [self._row(prefix, f' r="{row}"', "", row, by_row.pop(row)) for row in early]
             cells = by_row.pop(last, None)
             parts.append(
-                found[0] if cells is None
-                else self._row(found[1], found[2], found[3] or "", last, cells)
+                match[0] if cells is None
+                else self._row(match[1], match[2], match[3] or "", last, cells)
             )  # fmt: skip
-            at = found.end()
+            at = match.end()
         parts.append(inside[at:])
         parts += [self._row(prefix, f' r="{row}"', "", row, by_row[row]) for row in sorted(by_row)]
         rows = "".join(parts)

@@ -103,8 +103,8 @@ def names_in(table: str, layout: Layout, values: Values) -> dict[str, str]:
     """Cells of the names of a polar diagram → what stands in them."""
     runs = (f"{table}_marks.mark_label", f"{table}_arrow.arrow_deg")
     keys = [key for run in runs for key in layout.keys_of_run(run)]
-    found = {layout.cells[key].absolute: values.scalars[key] for key in keys}
-    return {at: value if isinstance(value, str) else f"{value:g}°" for at, value in found.items()}
+    scalars = {layout.cells[key].absolute: values.scalars[key] for key in keys}
+    return {at: value if isinstance(value, str) else f"{value:g}°" for at, value in scalars.items()}
 
 
 def drawn_from(series: Series, layout: Layout) -> Series:

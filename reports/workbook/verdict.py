@@ -308,11 +308,11 @@ def _first(
     writer: BlockWriter, more: str = "", now: tuple[int, str] = (0, _UNKNOWN),
 ) -> None:  # fmt: skip
     """Name the line that ``match`` finds, if any; its number stands in a folded cell."""
-    place, words = columns
+    letter, words = columns
     formula = f"={match}"
-    writer.formula(sheet, row, column_index_from_string(place), formula, float(now[0]))
-    sheet[f"{place}{row}"].style = styles.HELPER
-    text = f'=IF({place}{row}=0,"{_UNKNOWN}",INDEX({titles},{place}{row}){more})'
+    writer.formula(sheet, row, column_index_from_string(letter), formula, float(now[0]))
+    sheet[f"{letter}{row}"].style = styles.HELPER
+    text = f'=IF({letter}{row}=0,"{_UNKNOWN}",INDEX({titles},{letter}{row}){more})'
     writer.formula(sheet, row, column_index_from_string(words), text, now[1])
     sheet[f"{words}{row}"].style = styles.LINE
 

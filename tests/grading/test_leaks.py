@@ -153,7 +153,7 @@ def test_answers_in_the_cache_of_a_chart_are_found():
         return data[:at] + plain.encode() + data[at:]
 
     actual = leaks_of(rewritten(classroom.handout(), change), classroom.assignment())
-    assert any("chart1" in leak.place for leak in actual)
+    assert any("chart1" in leak.part for leak in actual)
 
 
 def test_saved_values_of_given_formulas_are_found():

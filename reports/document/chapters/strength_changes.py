@@ -85,16 +85,16 @@ def changed(engine: Engine, stresses: tuple[UsualStress, ...], allowed: float) -
     case = Case(whole, solve_batch([whole]), 0)
     limits = tuple(_limits(stresses, allowed))
     before = _values(case)
-    found, failed = case, set[str]()
+    revised, failed = case, set[str]()
     for _ in range(_ROUNDS):
         for limit in limits:
-            if limit.key not in failed and not limit.holds(_values(found)):
-                mended = _mended(found, limit)
+            if limit.key not in failed and not limit.holds(_values(revised)):
+                mended = _mended(revised, limit)
                 failed |= {limit.key} if mended is None else set()
-                found = mended or found
-    after = _values(found)
+                revised = mended or revised
+    after = _values(revised)
     left = tuple(limit.key for limit in limits if not limit.holds(after))
-    sizes = ((key, _size(whole, key), _size(found.engine, key)) for key in _names())
+    sizes = ((key, _size(whole, key), _size(revised.engine, key)) for key in _names())
     changes = tuple(Change(*each) for each in sizes if abs(each[2] / each[1] - 1) > _SPARE)
     return ChangedSizes(changes, before, after, left)
 

@@ -168,7 +168,7 @@ def _rendered(
             pdf_tags=True,  # alternative texts stand in the tags
             pdf_identifier=identifier or _identifier(html),
             attachments=[_attachment(item) for item in attachments],
-            finisher=lambda _, made: finish(made),
+            finisher=lambda _, written: finish(written),
         )
     return pdf, len(document.pages)
 

@@ -397,9 +397,9 @@ def applied(result: dict[str, Any], decisions: Sequence[Decision]) -> dict[str, 
             line["points"] = _award(entry).of(base, line["of"] if line["block"] == PART else whole)
             line["decision"] = asdict(entry)
             settled.add(entry.item)
-            asked = line.get("request")
-            if asked and asked["seen"] != mark_of(line["decision"]):
-                asked["answered"] = True
+            request = line.get("request")
+            if request and request["seen"] != mark_of(line["decision"]):
+                request["answered"] = True
     if decided_result["status"] == "graded":
         rescored(decided_result)
     whole = next((entry for entry in entries if entry.item == WHOLE), None)

@@ -276,7 +276,7 @@ class Leak:
     """An asked item and where its values stand."""
 
     item: str
-    place: str
+    part: str
     count: int
 
 
@@ -288,7 +288,7 @@ def check_for_leaks(book: bytes, assignment: Assignment, source: str) -> None:
     """
     leaks = leaks_of(book, assignment)
     if leaks:
-        problem = "; ".join(f"{leak.item} — {leak.place}" for leak in leaks[:6])
+        problem = "; ".join(f"{leak.item} — {leak.part}" for leak in leaks[:6])
         more = f" и ещё {len(leaks) - 6}" if len(leaks) > 6 else ""
         items = (leak.item.partition(" ")[0] for leak in leaks)
         names = ", ".join(f'"{item}"' for item in dict.fromkeys(items))
@@ -378,7 +378,7 @@ def _of_columns(
             chance = size * len(given) / 9000
             if count >= max(_FEWEST, chance + 5 * sqrt(chance) + 2, 0.5 * size):
                 leaks.append(Leak(item, part, count))
-    return sorted(leaks, key=lambda leak: (leak.item, leak.place))
+    return sorted(leaks, key=lambda leak: (leak.item, leak.part))
 
 
 def _of_scalars(

@@ -83,8 +83,8 @@ def words_of_all(tries: Sequence[Work], limit: int) -> str:
     if not graded:
         return ""
     rights = ", ".join(str(_right(work)) for work in graded)
-    asked = sum(entry.of > 0 and entry.block != PART for entry in graded[-1].items)
-    text = f"попыток {len(tries)} из {limit}, верно столбцов: {rights} из {asked}"
+    columns = sum(entry.of > 0 and entry.block != PART for entry in graded[-1].items)
+    text = f"попыток {len(tries)} из {limit}, верно столбцов: {rights} из {columns}"
     probes = probed(graded)
     return f"{text}; подбор значений: {', '.join(probes[:_NAMED])}" if probes else text
 

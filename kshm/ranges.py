@@ -56,6 +56,11 @@ PART_SHARES: dict[str, tuple[str, Span, Span]] = {
     "cap_length": ("crankpin", (0.45, 0.95), (0.45, 0.95)),
     "shell": ("crankpin", (0.03, 0.05), (0.03, 0.05)),
 }
+# What boost changes: boosted petrol engines have no ranges of these.
+_BOOST_CHANGES = frozenset({
+    "charge.gamma", "charge.t_a", "charge.eta_v", "compression.p_c", "compression.t_c",
+    "combustion.p_z", "expansion.p_b", "indicated.p_i",
+})  # fmt: skip
 
 
 def hull(spans: Iterable[Span]) -> Span:
@@ -207,11 +212,6 @@ RANGES: dict[str, Ranges] = {
     "st_bush_in_MPa": _all((0, 150)),
     "st_cap_MPa": _all((0, 300)),
 }  # fmt: skip
-# What boost changes: boosted petrol engines have no ranges of these.
-_BOOST_CHANGES = frozenset({
-    "charge.gamma", "charge.t_a", "charge.eta_v", "compression.p_c", "compression.t_c",
-    "combustion.p_z", "expansion.p_b", "indicated.p_i",
-})  # fmt: skip
 
 
 def cycle_ranges(kind: str, *, boosted: bool) -> Iterator[tuple[str, Span, str]]:

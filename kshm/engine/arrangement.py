@@ -13,6 +13,8 @@ from functools import cache
 
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse, takes_kinds
 
+MOST_GAP = 2.0  # between two firings, over the mean: twins at 180° have 1.5
+
 
 @dataclass(frozen=True, slots=True)
 class Cylinder:
@@ -61,7 +63,6 @@ class ArticulatedRod:
 
 
 Arrangement = tuple[Cylinder, ...]
-MOST_GAP = 2.0  # between two firings, over the mean: twins at 180° have 1.5
 
 
 def firing_gap(offsets: Sequence[float], period: float) -> tuple[float, float]:

@@ -20,6 +20,20 @@ _MOST = 3.0  # times the size, or its third part
 _ROUNDS = 4
 _SPARE = 1e-6
 _SMALL, _COARSE, _FINE = 1e-3, 1e-4, 1e-6  # m: sizes to tenths of a millimetre, fits to 1 µm
+# Sizes that mend a value, those to be tried first; with «-» it is to be smaller.
+_SIZES = {
+    "st_crown_MPa": ("crown",), "st_press_MPa": ("head_wall",), "st_pull_MPa": ("head_wall",),
+    "st_land_MPa": ("land",), "st_q1_MPa": ("skirt",), "st_q2_MPa": ("height",),
+    "st_ring_MPa": ("-ring_gap",), "st_ring_work_MPa": ("-ring_gap",),
+    "st_pin_eye_MPa": ("pin", "eye_length"), "st_pin_boss_MPa": ("pin", "pin_length"),
+    "st_pin_bend_MPa": ("-pin_bore", "pin"), "st_pin_shear_MPa": ("-pin_bore", "pin"),
+    "st_oval_mm": ("-pin_bore", "pin"), "st_oval_in0_MPa": ("-pin_bore", "pin"),
+    "st_bush_in_MPa": ("-bush_fit", "eye_outer"), "st_cap_MPa": ("cap_length", "bolts_apart"),
+    "st_eye_top_n": ("eye_outer",), "st_eye_n": ("eye_outer",),
+    "st_shank_nx": ("shank",), "st_shank_ny": ("shank",), "st_bolt_n": ("bolt",),
+    "st_web_n": ("web_width",),
+}  # fmt: skip
+_SHANK = ("shank_height", "shank_width", "shank_web", "shank_flange")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,22 +72,6 @@ class _Limit:
         if self.safety:
             return value >= self.limit * (1 - _SPARE)
         return abs(value) <= self.limit * (1 + _SPARE)
-
-
-# Sizes that mend a value, those to be tried first; with «-» it is to be smaller.
-_SIZES = {
-    "st_crown_MPa": ("crown",), "st_press_MPa": ("head_wall",), "st_pull_MPa": ("head_wall",),
-    "st_land_MPa": ("land",), "st_q1_MPa": ("skirt",), "st_q2_MPa": ("height",),
-    "st_ring_MPa": ("-ring_gap",), "st_ring_work_MPa": ("-ring_gap",),
-    "st_pin_eye_MPa": ("pin", "eye_length"), "st_pin_boss_MPa": ("pin", "pin_length"),
-    "st_pin_bend_MPa": ("-pin_bore", "pin"), "st_pin_shear_MPa": ("-pin_bore", "pin"),
-    "st_oval_mm": ("-pin_bore", "pin"), "st_oval_in0_MPa": ("-pin_bore", "pin"),
-    "st_bush_in_MPa": ("-bush_fit", "eye_outer"), "st_cap_MPa": ("cap_length", "bolts_apart"),
-    "st_eye_top_n": ("eye_outer",), "st_eye_n": ("eye_outer",),
-    "st_shank_nx": ("shank",), "st_shank_ny": ("shank",), "st_bolt_n": ("bolt",),
-    "st_web_n": ("web_width",),
-}  # fmt: skip
-_SHANK = ("shank_height", "shank_width", "shank_web", "shank_flange")
 
 
 def changed(engine: Engine, stresses: tuple[UsualStress, ...], allowed: float) -> ChangedSizes:

@@ -30,6 +30,7 @@ _WORDS = {
     "diesel": ("дизел", "diesel"),
     "petrol": ("бензин", "искров", "карбюратор", "petrol", "gasoline"),
 }
+_RATIO = "compression_ratio", "geometry.compression_ratio", "", "ε"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +107,6 @@ def _cycle(key: str, words: str, low: float, high: float, unit: str = "", kind: 
     return Band(f"cycle.{key}", "", words, low, high, unit=unit, kind=kind)
 
 
-_RATIO = "compression_ratio", "geometry.compression_ratio", "", "ε"
 DIESEL = _doubtful(*_RATIO, "diesel")
 BANDS: tuple[Band, ...] = (
     *(_doubtful("pin", f"crankshaft.{key}", "D", "d_шш/D") for key in PIN_DIAMETERS),

@@ -22,7 +22,7 @@ from reports.inputs.fields import to_mapping
 from reports.model.blocks import Model
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 
 ALL = os.environ.get("KSHM_ALL") == "1"
 QUICK = os.environ.get("KSHM_QUICK") == "1" and not ALL
@@ -94,7 +94,7 @@ def choices(model: Model) -> set[tuple]:
 @cache
 def model_of(name: str) -> Model:
     """A sample, or a layout of ``tests.layouts`` by its name."""
-    return build_model(sample(name) if name in sample_names() else made(name, step_deg=30))
+    return build_model(sample(name) if name in sample_names() else layout_input(name, step_deg=30))
 
 
 @cache

@@ -160,7 +160,7 @@ MAKERS = {
 }  # fmt: skip
 
 
-def made(name: str, **calculation: object) -> InputFile:
+def layout_input(name: str, **calculation: object) -> InputFile:
     """The checked input of a layout."""
     raw = MAKERS[name](copy.deepcopy(to_mapping(sample("gots-diesel"))))
     raw["calculation"] |= calculation

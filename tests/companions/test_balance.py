@@ -16,7 +16,7 @@ from kshm.mechanics import balance, dimensionless, kinematics
 from kshm.mechanics.masses import point_masses
 from reports.inputs.to_si.engine import to_engine
 from tests.kshm.engines import basic_engines
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 from tests.textbook.book import solution
 
 PITCH = 0.1
@@ -257,7 +257,7 @@ ORDERS = (1, 2, 4, 6, 8, 10, 12)
 
 @pytest.mark.parametrize("name", NAMES)
 def test_orders_add_up_to_the_inertia_forces_of_all_pistons(name: str) -> None:
-    engine = to_engine(made(name))
+    engine = to_engine(layout_input(name))
     assert balance.is_balanced_by_orders(engine)
     phi = np.radians(np.arange(0.0, 360.0, 7.0))
     r, lam = np.array(engine.geometry.crank_radius), np.array(engine.geometry.lam)
@@ -285,7 +285,7 @@ def test_orders_add_up_to_the_inertia_forces_of_all_pistons(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_rotating_masses_stand_where_the_throws_and_pins_are(name: str) -> None:
-    engine = to_engine(made(name))
+    engine = to_engine(layout_input(name))
     _, m_2 = point_masses(engine.masses, engine.geometry.rod_length)
     unit = engine.geometry.crank_radius * engine.omega**2
     direct = 0j
@@ -304,7 +304,7 @@ def test_rotating_masses_stand_where_the_throws_and_pins_are(name: str) -> None:
 
 def test_a_v_of_90_degrees_is_balanced_in_the_first_order_by_counterweights() -> None:
     """The resultant of a pair turns with the crank: masses m_j opposite it take it away."""
-    engine = to_engine(made("two_stroke_v"))
+    engine = to_engine(layout_input("two_stroke_v"))
     actual = balance.cylinders_of(engine)
     force, _ = balance.reciprocating(engine, actual, 1)
     against = balance.turning_parts(force)[1]
@@ -317,13 +317,13 @@ def test_a_v_of_90_degrees_is_balanced_in_the_first_order_by_counterweights() ->
 
 def test_offset_and_articulated_engines_have_no_series() -> None:
     for name in ("offset", "articulated"):
-        assert not balance.is_balanced_by_orders(to_engine(made(name)))
+        assert not balance.is_balanced_by_orders(to_engine(layout_input(name)))
     assert set(NAMES) <= set(MAKERS)
 
 
 @pytest.mark.parametrize("name", ["four", "v_six", "split", "opposed_four"])
 def test_the_own_firing_order_is_among_those_of_the_shaft(name: str) -> None:
-    engine = to_engine(made(name))
+    engine = to_engine(layout_input(name))
     table = firing_orders.offsets_table(firing_orders.dead_centres(engine))
     own = np.mod(engine.firing_offsets, 4 * np.pi)
     first = np.mod(own - own[0], 4 * np.pi)
@@ -336,4 +336,4 @@ def test_the_own_firing_order_is_among_those_of_the_shaft(name: str) -> None:
 
 def test_a_two_stroke_engine_has_no_choice_of_orders() -> None:
     with pytest.raises(ValueError, match="two-stroke"):
-        firing_orders.rank_firing_orders(to_engine(made("two_stroke")))
+        firing_orders.rank_firing_orders(to_engine(layout_input("two_stroke")))

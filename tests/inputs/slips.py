@@ -66,7 +66,7 @@ def plain(path):
     return ".".join(part for part in path if isinstance(part, str))
 
 
-def told(raw):
+def remarks_of(raw):
     """The lines of everything that is said of a mapping, errors or warnings."""
     try:
         return [problem.line() for problem in load_mapping(raw, source="f").warnings]

@@ -15,7 +15,7 @@ from reports.new.scale_engine import alternative
 from reports.shared.errors import InputError
 from reports.workbook.read import load_workbook_input
 from tests.conftest import sample
-from tests.inputs.slips import told
+from tests.inputs.slips import remarks_of
 from tests.layouts import MAKERS, articulated, in_line_four, v_six
 
 
@@ -192,9 +192,9 @@ def with_pin(name: str | tuple, times: float) -> tuple[dict, float]:
 
 @pytest.mark.parametrize("name", V, ids=str)
 def test_a_length_under_one_rod_is_told_with_the_whole_one(name):
-    assert told(made(name)) == []
+    assert remarks_of(made(name)) == []
     raw, whole = with_pin(name, 0.5)
-    (line,) = told(raw)
+    (line,) = remarks_of(raw)
     assert line.startswith("f: crankshaft.pin_length_mm: шатунов на шейке рядом 2, и каждому ")
     assert line.endswith(MEANT + f"{whole:g}".replace(".", ","))
 
@@ -203,20 +203,20 @@ def test_one_length_of_a_list_is_told():
     raw = made("yamz-236")
     del raw["crankshaft"]["pin_length_mm"]
     raw["crankshaft"]["pin_lengths_mm"] = [84.0, 42.0, 84.0]
-    (line,) = told(raw)
+    (line,) = remarks_of(raw)
     assert line.startswith("f: crankshaft.pin_lengths_mm[2]: шатунов на шейке рядом 2")
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "vw-1600", "ecoboost-10", "d-240"])
 def test_a_pin_of_one_rod_is_not_taken_for_a_half(name):
     raw, _ = with_pin(name, 0.7)
-    assert not [line for line in told(raw) if MEANT in line]
+    assert not [line for line in remarks_of(raw) if MEANT in line]
 
 
 def test_an_articulated_rod_takes_none_of_the_pin():
     raw = articulated(made("gots-diesel"))
     raw["crankshaft"]["pin_length_mm"] = 19.0
-    assert not [line for line in told(raw) if "pin_length" in line]
+    assert not [line for line in remarks_of(raw) if "pin_length" in line]
 
 
 def test_an_old_workbook_that_is_edited_is_told(tmp_path):
@@ -263,13 +263,13 @@ def test_both_halves_of_a_split_pin_need_room():
     with pytest.raises(InputError, match=f"половина шейки длиной .* {NO_ROOM}"):
         load_mapping(raw, source="f")
     shaft["pin_length_mm"] = whole / 2
-    assert told(raw) == []
+    assert remarks_of(raw) == []
 
 
 def test_a_refused_pin_does_not_hide_what_else_is_odd():
     raw = made("gots-diesel")
     raw["crankshaft"]["arms"][0] |= {"l2_mm": 3.0, "l5_mm": 3.0}
-    lines = told(raw)
+    lines = remarks_of(raw)
     assert NO_ROOM + "6 мм" in lines[0]
     assert any("arms[1].l2_mm: l_2/D" in line for line in lines)
 

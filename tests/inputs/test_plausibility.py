@@ -27,7 +27,7 @@ from tests.inputs.slips import (
     path_of,
     plain,
     random_engine,
-    told,
+    remarks_of,
 )
 
 # What a factor of ten leaves possible, and why.
@@ -64,12 +64,12 @@ def engine(request):
 
 
 def test_every_factor_of_ten_is_named(engine):
-    before = set(told(engine))
+    before = set(remarks_of(engine))
     for path, value in numbers(engine):
         for factor in FACTORS:
             if plain(path) in TOLERABLE:
                 continue
-            collected = set(told(changed(engine, (path, value * factor)))) - before
+            collected = set(remarks_of(changed(engine, (path, value * factor)))) - before
             assert collected, f"{plain(path)} × {factor} is not named"
             assert any(f"f: {path[0]}" in line for line in collected) or plain(path) in ELSEWHERE, (
                 collected
@@ -83,7 +83,7 @@ def test_every_throw_of_a_given_train_is_named(place, factor):
     keys = ["inertia_kg_m2", *(["stiffness_nm_rad"] if place < 7 else [])]
     for key in keys:
         path = ("torsion", "masses", place, key)
-        actual = told(changed(raw, (path, factor * at(raw, path))))
+        actual = remarks_of(changed(raw, (path, factor * at(raw, path))))
         assert any(f"torsion.masses[{place + 1}].{key}" in line for line in actual), (key, actual)
 
 
@@ -100,10 +100,10 @@ def test_every_throw_of_a_train_that_is_given_in_lists_is_named(name, factor):
     }  # fmt: skip
     if len(inertias) == 1:
         del raw["torsion"]["throws_nm_rad"]
-    assert not [line for line in told(raw) if "torsion" in line]
+    assert not [line for line in remarks_of(raw) if "torsion" in line]
     for key, given in list(raw["torsion"].items()):
         path = ("torsion", key, 0) if isinstance(given, list) else ("torsion", key)
-        actual = told(changed(raw, (path, factor * at(raw, path))))
+        actual = remarks_of(changed(raw, (path, factor * at(raw, path))))
         assert any(f"torsion.{key}" in line for line in actual), (key, actual)
 
 
@@ -128,13 +128,13 @@ def test_a_factor_of_ten_is_named_of_what_no_sample_gives():
     raw = sample("d-240-bearings")
     for section, keys in FURTHER.items():
         raw[section] = raw.get(section, {}) | keys
-    assert told(raw) == []
+    assert remarks_of(raw) == []
     silent = [
         (section, key, factor)
         for section, keys in FURTHER.items()
         for key, value in keys.items()
         for factor in (10, 0.1)
-        if not told(changed(raw, ((section, key), value * factor)))
+        if not remarks_of(changed(raw, ((section, key), value * factor)))
     ]
     assert silent == []
 
@@ -142,17 +142,17 @@ def test_a_factor_of_ten_is_named_of_what_no_sample_gives():
 def test_heating_by_hundreds_of_kelvin_is_named():
     raw = sample("cycle-petrol")
     path = ("cycle", "charge_heating_k")
-    assert told(changed(raw, (path, 10 * at(raw, path))))
+    assert remarks_of(changed(raw, (path, 10 * at(raw, path))))
 
 
 def test_swapped_keys_are_named(engine):
-    before = set(told(engine))
+    before = set(remarks_of(engine))
     for one, other in SWAPPED:
         first, second = at(engine, path_of(one)), at(engine, path_of(other))
         if first is None or second is None or abs(first - second) < 0.05 * max(first, second):
             continue
         swapped = changed(engine, (path_of(one), second), (path_of(other), first))
-        assert set(told(swapped)) - before, (one, other)
+        assert set(remarks_of(swapped)) - before, (one, other)
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "ecoboost-10", "two-stroke", "yamz-236"])
@@ -163,7 +163,7 @@ def test_a_stroke_for_a_radius_is_named(name):
         geometry["crank_radius_mm"] = geometry.pop("stroke_mm")
     else:
         geometry["crank_radius_mm"] *= 2
-    assert any("geometry" in where for where in told(raw))
+    assert any("geometry" in where for where in remarks_of(raw))
 
 
 NAMED = {
@@ -180,7 +180,7 @@ NAMED = {
 @pytest.mark.parametrize("case", NAMED)
 def test_the_key_itself_is_named(case, raw):
     (key, value), where = NAMED[case]
-    actual = told(changed(raw, (path_of(key), value)))
+    actual = remarks_of(changed(raw, (path_of(key), value)))
     assert any(where in position for position in actual), actual
 
 
@@ -193,7 +193,7 @@ def test_a_wrong_bore_is_one_line(raw):
 def test_poor_use_of_heat_is_named():
     raw = sample("cycle-turbo-diesel")
     raw["cycle"]["xi_b"] = 0.5
-    assert any("xi_b" in where or "cycle" in where for where in told(raw))
+    assert any("xi_b" in where or "cycle" in where for where in remarks_of(raw))
 
 
 @pytest.mark.parametrize("factor", [10, 100, 0.1])
@@ -202,10 +202,10 @@ def test_a_lone_point_of_a_diagram_is_named(raw, factor):
             480: 0.7, 510: 0.45, 540: 0.28}  # fmt: skip
     points = [[float(angle), near.get(angle, 0.11)] for angle in range(0, 721, 30)]
     raw["gas"] = {"source": "table", "points": points}
-    assert not any("points" in where for where in told(raw))
+    assert not any("points" in where for where in remarks_of(raw))
     for index in range(1, len(points) - 1):
         slipped = changed(raw, (("gas", "points", index, 1), points[index][1] * factor))
-        assert any("points" in where for where in told(slipped)), index
+        assert any("points" in where for where in remarks_of(slipped)), index
 
 
 @pytest.mark.parametrize("name", list_samples())
@@ -215,7 +215,7 @@ def test_samples_are_not_odd(name):
 
 @pytest.mark.parametrize("seed", range(examples(20, 40)))
 def test_random_engines_are_not_odd(seed):
-    assert told(random_engine(seed)) == []
+    assert remarks_of(random_engine(seed)) == []
 
 
 # Pressures that differ as much between engines as a slip of the comma makes them.
@@ -243,8 +243,8 @@ def test_what_does_not_fit_the_arms_is_told(changes, said):
         for key in path[:-1]:
             part = part[key]
         part[path[-1]] = value
-    assert said not in "".join(told(plain_sample()))
-    assert said in "".join(told(raw))
+    assert said not in "".join(remarks_of(plain_sample()))
+    assert said in "".join(remarks_of(raw))
 
 
 @pytest.mark.parametrize(
@@ -259,7 +259,7 @@ def test_cylinders_that_overlap_are_told(name, distance):
             for key in arms:
                 arms[key] *= wanted / distance
         words = f"между их осями по плечам колен {number_text(round(wanted, 2))} мм, а диаметр"
-        assert any(words in line for line in told(raw)) == said
+        assert any(words in line for line in remarks_of(raw)) == said
 
 
 def plain_sample():
@@ -297,12 +297,13 @@ def factors(path: tuple[str | int, ...]) -> tuple[float, ...]:
 
 def silent(raw: dict) -> list[tuple[str, float]]:
     raw.pop("report", None)
-    before = set(told(raw))
+    before = set(remarks_of(raw))
     return [
         (plain(path), factor)
         for path, value in numbers(raw)
         for factor in factors(path)
-        if plain(path) not in FREE and not set(told(changed(raw, (path, value * factor)))) - before
+        if plain(path) not in FREE
+        and not set(remarks_of(changed(raw, (path, value * factor)))) - before
     ]
 
 
@@ -338,7 +339,7 @@ def test_the_compression_ratio_of_a_diesel_is_told(name, ratio):
             continue  # neither its name nor ρ says what it burns
         if unnamed:
             raw["engine"]["name"] = "Мой двигатель"
-        lines = told(changed(raw, (DIESEL_RATIO, ratio)))
+        lines = remarks_of(changed(raw, (DIESEL_RATIO, ratio)))
         assert any("geometry.compression_ratio: ε = " in line for line in lines)
         assert any("о котором говорит ρ" in line for line in lines) == unnamed
 
@@ -347,7 +348,7 @@ def test_the_compression_ratio_of_a_diesel_is_told(name, ratio):
 def test_a_petrol_engine_by_its_name_is_none(name):
     raw = tomllib.loads((samples_dir() / "ecoboost-10.toml").read_text("utf-8"))
     raw["engine"]["name"] = name
-    assert told(raw) == []
+    assert remarks_of(raw) == []
     raw["engine"]["name"] = "Мой двигатель"
-    (line,) = told(raw)
+    (line,) = remarks_of(raw)
     assert "ε = 10 необычно для дизеля, о котором говорит ρ = 1,3" in line

@@ -17,7 +17,7 @@ from reports.inputs.solve_input import GridError, grid_errors, grid_remark, writ
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from tests.conftest import sample
-from tests.layouts import made
+from tests.layouts import layout_input
 
 
 def stepped(name, step):
@@ -58,7 +58,9 @@ def test_a_fine_grid_has_nothing_to_tell():
 
 
 def test_rounding_noise_of_zero_is_no_difference():
-    assert all(abs(e.coarse) + abs(e.fine) > 1e-9 for e in grid_errors(made("opposed_four")))
+    assert all(
+        abs(e.coarse) + abs(e.fine) > 1e-9 for e in grid_errors(layout_input("opposed_four"))
+    )
 
 
 _GRID = (

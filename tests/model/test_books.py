@@ -20,7 +20,7 @@ from reports.tables.contexts import book_part
 from reports.tables.registry import build_model
 from reports.workbook.chapters import place_of
 from tests.conftest import sample, sample_names
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 
 PAGE = Path(__file__).parents[2] / "docs" / "books.md"
 EXAMPLES = re.findall(r"```book\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
@@ -146,7 +146,7 @@ def test_books_of_the_house_name_what_there_is(name: str):
 
 def test_every_sheet_of_every_layout_has_its_place():
     for name in (*sample_names(), *MAKERS):
-        model = build_model(sample(name) if name in sample_names() else made(name))
+        model = build_model(sample(name) if name in sample_names() else layout_input(name))
         assert all(place_of(sheet) for sheet in model.sheets)
     with pytest.raises(LookupError):
         place_of("Ничей лист")

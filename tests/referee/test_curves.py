@@ -17,7 +17,7 @@ from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 from tests.referee.changes import changed_everywhere, type_into, without_charts
 from tests.referee.compare import CURVES, TOLERANCE
 from tests.workbook.made import book, model
@@ -26,7 +26,7 @@ from tools.referees.cells import Book, cached_values, formula_cells
 
 ENGINES = {
     **{name: (lambda name=name: sample(name)) for name in sample_names()},
-    **{f"layout {name}": (lambda name=name: made(name, method="exact")) for name in MAKERS},
+    **{f"layout {name}": (lambda name=name: layout_input(name, method="exact")) for name in MAKERS},
 }
 
 

@@ -22,7 +22,7 @@ from reports.workbook.write import workbook_bytes
 from tests.cover import ALL, engines_with, formulas, operations, quantities, samples_with
 from tests.grading.forms import rewritten
 from tests.layouts import MAKERS as LAYOUTS
-from tests.layouts import made
+from tests.layouts import layout_input
 from tests.referee.changes import Change, changed_everywhere, free_fields, type_into, without_charts
 from tests.referee.compare import differences_from_caches, differences_from_solver, errors_in
 from tests.workbook.made import book as own_book
@@ -87,7 +87,7 @@ def coarse_of(name: str) -> tuple[Model, bytes]:
 
 @lru_cache(maxsize=4)
 def _layout(name: str) -> tuple[Model, bytes]:
-    model = build_model(made(name, step_deg=30))
+    model = build_model(layout_input(name, step_deg=30))
     return model, workbook_bytes(replace(model, charts=()))  # no formula stands in charts
 
 

@@ -20,7 +20,7 @@ from reports.sheet.cell import CellArea, balance
 from reports.sheet.write import MARGINS, SIZES, STAMP_HEIGHT, STAMP_WIDTH, cells, title_block
 from tests.conftest import sample
 from tests.cover import chapters, charts, samples_with, sparse
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 from tests.sheet.sheet_samples import drawn, terms, terms_of
 
 # Those that every engine has: others stand in chapters of their own.
@@ -81,7 +81,7 @@ def test_everything_at_once():
 
 @pytest.mark.parametrize("name", sparse(MAKERS))
 def test_every_layout_has_a_sheet(name):
-    assert faults(terms_of(made(name, step_deg=30))) == []
+    assert faults(terms_of(layout_input(name, step_deg=30))) == []
 
 
 def test_a_sample_in_the_legend_shows_how_its_line_is_broken():

@@ -38,7 +38,7 @@ DIESEL = PETROL | {
 ENGINES = {"petrol": (PETROL, 9.5), "diesel": (DIESEL, 18.0)}
 
 
-def made(gas: dict[str, Any], ratio: float = 18.0, step: int = 5) -> InputFile:
+def diagram_input(gas: dict[str, Any], ratio: float = 18.0, step: int = 5) -> InputFile:
     raw = to_mapping(sample("gots-diesel"))
     raw["geometry"]["compression_ratio"] = ratio
     raw["calculation"]["step_deg"] = step
@@ -56,21 +56,23 @@ def points_of(data: InputFile, every: int) -> list[list[float]]:
 @pytest.mark.parametrize("kind", ENGINES)
 def test_rounded_statements_agree(kind: str, method: str) -> None:
     gas, ratio = ENGINES[kind]
-    raw = to_mapping(made(gas, ratio))
+    raw = to_mapping(diagram_input(gas, ratio))
     raw["calculation"]["method"] = method
     assert_agree(load_mapping(raw, source="gas").model)
 
 
 @pytest.mark.parametrize("interpolation", ["linear", "monotone"])
 def test_points_statements_agree(interpolation: str) -> None:
-    points = points_of(made(PETROL, 9.5), 3)
-    assert_agree(made({"source": "table", "interpolation": interpolation, "points": points}))
+    points = points_of(diagram_input(PETROL, 9.5), 3)
+    assert_agree(
+        diagram_input({"source": "table", "interpolation": interpolation, "points": points})
+    )
 
 
 @pytest.mark.parametrize("kind", ENGINES)
 def test_the_diagram_has_the_points_of_figure_22_and_no_overshoot(kind: str) -> None:
     gas, ratio = ENGINES[kind]
-    data = made(gas, ratio, step=1)
+    data = diagram_input(gas, ratio, step=1)
     solution = solve(*engine_and_cycle(data))
     phi, p = solution.columns["gas"]["phi_deg"], solution.columns["gas"]["p_MPa"]
     s = solution.scalars
@@ -93,7 +95,7 @@ def test_no_corner_but_at_top_dead_centre() -> None:
 
     from kshm.mechanics.gas import engine_pressure
 
-    engine = to_engine(made(PETROL, 9.5))
+    engine = to_engine(diagram_input(PETROL, 9.5))
     gas = engine.gas
     fine = np.radians(np.arange(0, 720.05, 0.1))
     slope = np.diff(engine_pressure(replace(engine, name="fine"), fine)) / np.diff(fine)
@@ -117,7 +119,7 @@ def test_smooth_points_meet_every_point_and_never_leave_their_neighbours() -> No
 
 
 def test_mean_indicated_pressure_is_the_area_over_the_swept_volume() -> None:
-    solution = solve(*engine_and_cycle(made(DIESEL, step=1)))
+    solution = solve(*engine_and_cycle(diagram_input(DIESEL, step=1)))
     gas, s = solution.columns["gas"], solution.scalars
     area = np.trapezoid(gas["p_MPa"], gas["volume_dm3"])
     assert s["p_i_area"] == pytest.approx(area / s["V_h"], rel=1e-12)
@@ -129,9 +131,9 @@ def test_mean_indicated_pressure_is_the_area_over_the_swept_volume() -> None:
 def test_recalculated_workbook_agrees_and_reads_back(case: str, tmp_path: Path) -> None:
     gas = DIESEL
     if case == "points":
-        points = points_of(made(PETROL, 9.5), 3)
+        points = points_of(diagram_input(PETROL, 9.5), 3)
         gas = {"source": "table", "interpolation": "monotone", "points": points}
-    data = made(gas, step=30)
+    data = diagram_input(gas, step=30)
     model = build_model(data)
     book = workbook_bytes(model)
     (result,) = Formualizer().recalculate([book])
@@ -174,7 +176,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 def test_what_cannot_be_joined_is_refused(case: str) -> None:
     changes, message = REFUSED[case]
     with pytest.raises(InputError) as caught:
-        made(PETROL | changes, 9.5)
+        diagram_input(PETROL | changes, 9.5)
     (line,) = caught.value.lines()
     assert line.removeprefix("gas.toml: ").startswith(message)
 
@@ -204,7 +206,7 @@ def table(points: list[list[float]], delimiter: str, *, turn: float = 0.0, comma
 
 
 def test_files_of_every_shape_give_the_same_points(tmp_path: Path) -> None:
-    points = points_of(made(DIESEL), 1)[:-1]
+    points = points_of(diagram_input(DIESEL), 1)[:-1]
     expected = [[round(a, 6), p] for a, p in points]
     shapes = {
         "csv": (table(points, ",", head="phi,p"), ""),
@@ -225,7 +227,7 @@ def test_files_of_every_shape_give_the_same_points(tmp_path: Path) -> None:
 
 
 def test_a_file_that_begins_within_the_cycle_is_closed(tmp_path: Path) -> None:
-    points = [[a + 2.5, p] for a, p in points_of(made(DIESEL), 1)[:-1]]
+    points = [[a + 2.5, p] for a, p in points_of(diagram_input(DIESEL), 1)[:-1]]
     gas = load_toml(written(tmp_path, table(points, ","))).model.gas
     assert gas.points[0][0] == 0
     assert gas.points[-1] == (720, gas.points[0][1])
@@ -264,16 +266,16 @@ def test_a_file_elsewhere_is_refused(tmp_path: Path) -> None:
 
 
 def test_values_of_the_points_stand_in_the_sheet() -> None:
-    values = evaluate_model(build_model(made(PETROL, 9.5))).scalars
+    values = evaluate_model(build_model(diagram_input(PETROL, 9.5))).scalars
     assert [values[f"node_deg{n}"] for n in (1, 4, 5, 6, 9, 11)] == [0, 345, 360, 372, 540, 720]
 
 
 @pytest.mark.libreoffice
 def test_libreoffice_agrees(libreoffice: LibreOffice) -> None:
     """MATCH and INDEX in a row and in a column mean the same to the other referee."""
-    points = points_of(made(PETROL, 9.5), 3)
+    points = points_of(diagram_input(PETROL, 9.5), 3)
     smooth = {"source": "table", "interpolation": "monotone", "points": points}
-    models = [build_model(made(gas, step=30)) for gas in (DIESEL, smooth)]
+    models = [build_model(diagram_input(gas, step=30)) for gas in (DIESEL, smooth)]
     books = [workbook_bytes(model) for model in models]
     results = libreoffice.recalculate(books)
     for model, book, result in zip(models, books, results, strict=True):

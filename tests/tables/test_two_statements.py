@@ -17,7 +17,7 @@ from reports.new.generate import file_text, generate_engine
 from reports.tables.registry import build_model
 from tests.conftest import sample, sample_names
 from tests.cover import ALL, sparse
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 
 
 def results_of(model: Model) -> set[str]:
@@ -150,7 +150,7 @@ def test_journals_without_load(cylinders: int, layout: str) -> None:
 def test_every_layout(name: str, method: str) -> None:
     """All tables of every layout, and none without its counterpart."""
     step, rays = (5, 12) if method == "exact" else (10, 18)
-    data = made(name, method=method, step_deg=step, wear_rays=rays)
+    data = layout_input(name, method=method, step_deg=step, wear_rays=rays)
     model, solution = assert_agree(data)
     assert set(solution.columns) - {"P4_3"} == results_of(model)
     for table in results_of(model):

@@ -28,7 +28,7 @@ from lxml import etree
 from reports.tables.registry import build_model
 from reports.workbook.caches import sheet_parts
 from reports.workbook.write import workbook_bytes
-from tests.layouts import made
+from tests.layouts import layout_input
 
 FOLDER = Path(__file__).parent / "golden"
 # Small layouts on the coarsest grid that between them have every kind of sheet and chart.
@@ -54,7 +54,7 @@ _LIMIT, _PARTS = 40, 12  # lines of a difference and parts that are shown
 @lru_cache(maxsize=4)
 def book(name: str) -> bytes:
     """A workbook on the coarse grid."""
-    return workbook_bytes(build_model(made(name, step_deg=STEP, **BOOKS[name])))
+    return workbook_bytes(build_model(layout_input(name, step_deg=STEP, **BOOKS[name])))
 
 
 def describe(data: bytes) -> dict[str, list[str]]:

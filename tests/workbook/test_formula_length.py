@@ -24,7 +24,7 @@ from reports.tables.registry import build_model
 from reports.workbook.layout import Layout, RowReferences, at_row
 from tests.conftest import sample, sample_names
 from tests.cover import sparse
-from tests.layouts import MAKERS, made
+from tests.layouts import MAKERS, layout_input
 from tests.new.test_generate import TWELVE
 from tests.workbook.lint import LONGEST
 
@@ -36,7 +36,7 @@ def generated(cylinders: int, layout: str, strokes: int, kind: str) -> InputFile
 
 ENGINES = {
     **{name: (lambda name=name: sample(name)) for name in sample_names()},
-    **{f"layout {name}": (lambda name=name: made(name, method="exact")) for name in MAKERS},
+    **{f"layout {name}": (lambda name=name: layout_input(name, method="exact")) for name in MAKERS},
     **{" ".join(map(str, e)): (lambda e=e: generated(*e)) for e in TWELVE},
 }
 

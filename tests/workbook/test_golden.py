@@ -13,7 +13,7 @@ from openpyxl import load_workbook
 from reports.inputs.fields import to_mapping
 from reports.workbook.caches import sheet_parts
 from reports.workbook.read import load_workbook_input
-from tests.layouts import made
+from tests.layouts import layout_input
 from tests.workbook import golden
 from tests.workbook.lint import LITERAL
 from tools.referees.by_libreoffice import LibreOffice
@@ -123,5 +123,5 @@ def test_saved_by_libreoffice_nothing_is_lost(tmp_path: Path, libreoffice: Libre
     assert [(key, text, after[key]) for key, text in before.items() if text != after[key]] == []
     path = tmp_path / "saved.xlsx"
     path.write_bytes(saved)
-    expected = made(NAME, step_deg=golden.STEP)
+    expected = layout_input(NAME, step_deg=golden.STEP)
     assert to_mapping(load_workbook_input(path).model) == to_mapping(expected)

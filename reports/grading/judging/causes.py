@@ -27,8 +27,10 @@ from reports.grading.judging.judgement import (
 )
 from reports.grading.judging.literal_tables import literals, typed_numbers
 from reports.grading.judging.mistakes import (
+    MIXED,
     OPPOSITE,
     ROOTLESS,
+    TAKEN_SPEEDS,
     Changes,
     exchanges,
     mistakes,
@@ -269,6 +271,9 @@ class Causes:
             for more, words in ((factor, "больше"), (1 / factor, "меньше")):
                 yield f"результат {times} {words} правильного", partial(_times, more)
         yield "получена обратная величина", lambda s: _inverse(s.right)
+        for one, other in TAKEN_SPEEDS:
+            words = next(words for *pair, words in MIXED if pair == [one, other])
+            yield words, partial(_in_place, one, other)
 
     # --- the formula itself -------------------------------------------------------------
 
@@ -429,6 +434,11 @@ class Causes:
 def _times(factor: float, scene: Scene) -> Array:
     """Return the right values times a factor."""
     return scene.right * factor
+
+
+def _in_place(one: str, other: str, scene: Scene) -> Array:
+    """Return the right values with another quantity for one that they are proportional to."""
+    return scene.right * float(scene.run.value(other)) / float(scene.run.value(one))
 
 
 def _one(name: str, scene: Scene) -> Array:

@@ -36,11 +36,11 @@ from reports.grading.judging.rewriting import (
     exponent_of,
     factors,
     is_power,
+    loose,
     numbers,
     otherwise,
     second_operands,
     summands,
-    without_brackets,
     without_radians,
 )
 from reports.model.blocks import Model, TableSpec, scalars_of
@@ -70,8 +70,8 @@ MIXED = (
     ("st_omega_max", "omega", "угловая скорость ω вместо наибольшей ωmax"),
     ("L_rod", "L_rod + r_crank", "r + L вместо длины шатуна L"),
 )
-
-
+# In formulas of other forms than the book's too.
+TAKEN_SPEEDS = (("omega", "regime_speed_rpm"), ("regime_speed_rpm", "omega"))
 OPPOSITE = "обратный знак"
 
 
@@ -204,7 +204,8 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
         words = _plain(parse(text), block, model)
         yield f"пропущен множитель ({words})", WithoutFactor(text).visit
         yield f"({words}) в квадрате, а надо в первой степени", Squared(text).visit
-        yield f"нет скобок вокруг {words}", partial(without_brackets, text)
+        for other in loose(tree, text):
+            yield f"нет скобок вокруг {words}", partial(_replaced, other)
     for number, dropped in enumerate(summands(tree)):
         words = f"пропущено слагаемое {_plain(dropped, block, model)}"
         yield words, WithoutSummand(number).changed
@@ -226,6 +227,10 @@ def _shorter(tree: ast.expr, block: str, model: Model) -> Iterator[Mistake]:
     yield "скобка не возведена в степень", WithoutPowers().visit
     for more, words in ((True, "больше"), (False, "меньше")):
         yield f"показатель степени на единицу {words}", OtherExponent(more=more).visit
+
+
+def _replaced(other: ast.expr, tree: ast.expr) -> ast.AST:
+    return other
 
 
 def symbol_of(name: str, block: str, model: Model) -> str:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from typing import ClassVar, TypeGuard
 
-from reports.formula.parse import parse
+from reports.formula.parse import SCALE_FUNCTIONS, parse
 
+_MOST_FACTORS = 3  # round a sum, of which each may be on either side
 LEAST = 2  # exponent, below which there is no power
 
 
@@ -65,9 +67,34 @@ def _picked(side: ast.expr) -> tuple[ast.expr, ...]:
     return (side.body, side.orelse) if isinstance(side, ast.IfExp) else (side,)
 
 
-def without_brackets(text: str, tree: ast.expr) -> ast.AST:
-    """Return a formula written without the brackets round a sum: its neighbours take one side."""
-    return ast.parse(ast.unparse(tree).replace(f"({text})", text, 1), mode="eval").body
+def loose(tree: ast.expr, text: str) -> Iterator[ast.expr]:
+    """Yield a formula without the brackets round a sum, its factors on either side of it.
+
+    As it stands first; of a product people write the factors in any order.
+    """
+    yield parse(ast.unparse(tree).replace(f"({text})", text, 1))
+    parts = _product(tree)
+    others = [part for part in parts if ast.unparse(part) != text]
+    if len(others) != len(parts) - 1 or len(others) > _MOST_FACTORS:
+        return
+    for right in range(2 ** len(others)):
+        before = [part for at, part in enumerate(others) if not right >> at & 1]
+        after = [part for at, part in enumerate(others) if right >> at & 1]
+        yield parse("*".join([*_bracketed(before), text, *_bracketed(after)]))
+
+
+def _product(tree: ast.expr) -> list[ast.expr]:
+    """Return the factors of a formula that is a product."""
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Mult):
+        return [*_product(tree.left), *_product(tree.right)]
+    called = tree.func.id if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) else ""
+    if isinstance(tree, ast.Call) and called in SCALE_FUNCTIONS:
+        return [parse(f"{called}(1)"), *_product(tree.args[0])]
+    return [tree]
+
+
+def _bracketed(parts: list[ast.expr]) -> list[str]:
+    return [f"({ast.unparse(part)})" for part in parts]
 
 
 def second_operands(tree: ast.AST) -> list[ast.expr]:

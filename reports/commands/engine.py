@@ -194,10 +194,12 @@ def check(source: Path, as_json: bool) -> int:
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
         if as_json:
-            from reports.exports.own_books import failed_own_checks
+            from reports.exports.own_books import failed_engine_checks
             from reports.inputs.solve_input import power_problems
 
-            failed = (Problem("", each.line()) for each in failed_own_checks(loaded.model))
+            failed = (
+                Problem("", each.line()) for each in failed_engine_checks(loaded.model, every=True)
+            )
             warnings = (*warnings, *power_problems(loaded.model), *failed)
     except InputError as error:
         if not as_json:
@@ -220,7 +222,7 @@ def check(source: Path, as_json: bool) -> int:
         return BAD if problems else (LOOK if warnings else DONE)
     tell(loaded, source)
     click.echo(f"{source}: ошибок нет")
-    odd = tell_solved(loaded)
+    odd = tell_solved(loaded, every=True)
     tell_next("build", source)
     return LOOK if warnings or odd else DONE
 

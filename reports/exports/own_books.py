@@ -17,12 +17,12 @@ from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
 from reports.model.book_text import BookPlaces, Shelf, shelf_of
 from reports.model.contents import contents_of
-from reports.model.evaluation import Evaluation, Values
+from reports.model.evaluation import Evaluation
 from reports.model.shape import Scope
 from reports.shared.errors import BookError, InputError, Problem
 from reports.tables.contexts import book_part
 from reports.tables.registry import kept_model
-from reports.tables.verdicts import Failed, checks_of, failed_checks
+from reports.tables.verdicts import Failed, checks_of, failed_of
 
 _MOST_TOLD = 20
 # Each kind is asked for where the kinds before have no fault.
@@ -94,16 +94,14 @@ def _checks_of(model: InputFile) -> set[str]:
     return set(checks_of(kept_model(model), department=True))
 
 
-def failed_own_checks(model: InputFile) -> list[Failed]:
-    """Return checks of own books that an engine does not pass and does not explain."""
-    if not model.books:
+def failed_engine_checks(model: InputFile, *, every: bool) -> list[Failed]:
+    """Return checks that an engine does not pass and does not explain.
+
+    Those of own books, and with ``every`` those of the program.
+    """
+    if not model.books and not every:
         return []
-    built = kept_model(model)
-    run, names = Evaluation(built), checks_of(built, department=True)
-    scalars = {key: run.value(key) for name, verdict in names.items()
-               for key in (f"value_{name}", verdict.key)}  # fmt: skip
-    failed = failed_checks(built, Values(scalars, {}), department=True)
-    return [each for each in failed if not each.reason]
+    return failed_of(kept_model(model), department=not every)
 
 
 @dataclass(frozen=True, slots=True)

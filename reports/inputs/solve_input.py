@@ -34,6 +34,7 @@ _STEP = ("calculation", "step_deg")
 _PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSection()}
 _MEND_FILM = "проверьте зазоры, вязкость и температуру масла, ширину"
 _MEND_KW = "задайте размеры вместе с мощностью (kshm new --power --bore …) или исправьте давления"
+POWER = "power"  # the check of it
 MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
 MOST_GRID_ERROR = 2.0  # difference that is told [%]
@@ -93,7 +94,7 @@ def power_problems(model: InputFile) -> tuple[Problem, ...]:
     problems = []
     for number, regime in enumerate(regimes, 1):
         stated = regime.indicated_power_kw
-        error, check = ("T_error", "power")
+        error, check = "T_error", POWER
         if number > 1:
             error, check = (regime_key(key, number) for key in (error, check))
         percent = float(scalars.get(error, 0.0))

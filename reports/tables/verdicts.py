@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from kshm.ranges import side_of
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import NO, YES, Block, Held, Model, Scalar, ScalarTable, scalars_of
-from reports.model.evaluation import Values
+from reports.model.evaluation import Evaluation, Values
 from reports.shared.russian import fixed, uncapital
 from reports.shared.standing import Standing
 
@@ -19,12 +19,18 @@ _PREFIX, _ALLOWED = "check_", "allowed_"
 class JudgedValue:
     """A value of the tables and where it stands; ``key`` is that of its verdict."""
 
+    sheet: str
     block: str
     held: Held
     key: str
-    title: str
+    scalar: Scalar
     value: float
     standing: Standing
+
+    @property
+    def title(self) -> str:
+        """What it is, with its usual span."""
+        return self.scalar.label
 
     @property
     def name(self) -> str:
@@ -50,7 +56,7 @@ def _judged(block: ScalarTable, scalars: Mapping[str, float | str]) -> Iterator[
         if said in words:
             value = float(scalars[scalar.key])
             where = Standing.INSIDE if said == words[0] else _outside(value, scalar.usual)
-            yield JudgedValue(block.id, held, verdict.key, scalar.label, value, where)
+            yield JudgedValue(block.sheet, block.id, held, verdict.key, scalar, value, where)
 
 
 def _outside(value: float, usual: tuple[float, float] | None) -> Standing:
@@ -61,16 +67,22 @@ def _outside(value: float, usual: tuple[float, float] | None) -> Standing:
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """A check that did not pass; ``reason`` is the input's own, empty if it gives none."""
+    """A check that did not pass.
+
+    ``reason`` is the input's own, empty if it gives none; ``counted`` are the values that a
+    check counts.
+    """
 
     key: str
     title: str
     value: str
     reason: str
+    counted: tuple[str, ...] = ()
 
     def line(self) -> str:
         """Return the one-line message."""
         text = f"не выполнена проверка «{self.title}»: получено {self.value}"
+        text += f" ({'; '.join(self.counted)})" if self.counted else ""
         if self.reason:
             return f"{text}; причина: {self.reason}"
         return f'{text}; исправьте данные или объясните: [[checks.accepted]], what = "{self.key}"'
@@ -94,13 +106,40 @@ def failed_checks(model: Model, values: Values, *, department: bool = False) -> 
     """Return checks that did not pass, in their order; ``department`` leaves those of own books."""
     reasons = reasons_of(model.input)
     names = {scalar.key for scalar in checks_of(model, department=department).values()}
+    judged = outcomes(model, values.scalars)
     return [
-        Failed(each.name, each.title, check_value(each.value), reasons.get(each.name, ""))
-        for each in outcomes(model, values.scalars)
+        Failed(each.name, each.title, check_value(each.value), reasons.get(each.name, ""),
+               _counted(each, judged))
+        for each in judged
         if each.standing is not Standing.INSIDE
         and each.key in names
         and (each.held is Held.CHECK or each.key in model.department)
-    ]
+    ]  # fmt: skip
+
+
+def _counted(check: JudgedValue, judged: Sequence[JudgedValue]) -> tuple[str, ...]:
+    """Return the values of a sheet beyond what is usual where a check is their number."""
+    beyond = [
+        f"{uncapital(each.scalar.note)} {check_value(each.value)}, обычно {each.scalar.usual_text}"
+        for each in judged
+        if each.held is Held.USUAL and each.sheet == check.sheet and each.scalar.usual
+        and abs(each.value) > each.scalar.usual[1]
+    ]  # fmt: skip
+    return tuple(beyond) if len(beyond) == check.value else ()
+
+
+def failed_of(model: Model, *, department: bool = False) -> list[Failed]:
+    """Return checks that an engine does not pass and does not explain, no more calculated."""
+    run = Evaluation(model)
+    names = {verdict.key for verdict in checks_of(model, department=department).values()}
+    lists = [block for block in model.blocks if isinstance(block, ScalarTable) and block.held]
+    scalars = {
+        scalar.key: run.value(scalar.key)
+        for block in lists if block.held is Held.USUAL or names & {v.key for _, v in block.pairs}
+        for pair in block.pairs for scalar in pair
+    }  # fmt: skip
+    failed = failed_checks(model, Values(scalars, {}), department=department)
+    return [each for each in failed if not each.reason]
 
 
 def weak_values(model: Model, values: Values) -> tuple[str, ...]:
@@ -135,4 +174,4 @@ def reasons_of(model: InputFile) -> dict[str, str]:
 
 def check_value(value: float) -> str:
     """Return what a check found, as it is printed."""
-    return fixed(value, 2 if abs(value) >= 1 else 4)
+    return fixed(value, 0 if value.is_integer() else 2 if abs(value) >= 1 else 4)

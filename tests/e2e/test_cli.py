@@ -287,6 +287,9 @@ def test_a_failed_check_is_told_and_ends_with_one(tmp_path: Path) -> None:
     (line,) = done.stderr.splitlines()
     assert line.startswith("Внимание: не выполнена проверка «Средняя тангенциальная сила")
     assert (tmp_path / "engine.xlsx").is_file()
+    done = kshm("check", source)
+    assert done.returncode == 1
+    assert done.stdout.count("Внимание: ") == 1 and "indicated_power_kw" in done.stdout
 
 
 def test_remarks_stand_in_the_book(tmp_path: Path) -> None:

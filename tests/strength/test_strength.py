@@ -258,6 +258,9 @@ def test_a_weak_part_or_a_large_stress_is_a_failed_check(
     assert ("st_least" in bad, "st_usual" in bad) == (weak, above)
     assert not any(key.startswith("range_") for key in bad)  # each is counted by st_usual
     assert any("Запас прочности" in line for line in weak_values(model, values)) == weak
+    counted = [part for check in failed_checks(model, values) for part in check.counted]
+    assert len(counted) == (terms.value("value_st_usual") if above else 0)
+    assert all("обычно" in part for part in counted)
     least = min(terms.value(key) for key in SAFETIES)
     assert terms.value("value_st_least") == pytest.approx(
         least / model.input.strength.safety_allowed

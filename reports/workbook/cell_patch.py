@@ -97,17 +97,17 @@ class _SheetText:
         for (row, column), value in values.items():
             by_row.setdefault(row, {})[column] = value
         parts, at, last = [], 0, 0
-        for match in _ROW.finditer(inside):
-            last = int(_attribute(match[2], "r") or last + 1)
-            parts.append(inside[at : match.start()])
+        for line in _ROW.finditer(inside):
+            last = int(_attribute(line[2], "r") or last + 1)
+            parts.append(inside[at : line.start()])
             early = sorted(row for row in by_row if row < last)
             parts += [self._row(prefix, f' r="{row}"', "", row, by_row.pop(row)) for row in early]
             cells = by_row.pop(last, None)
             parts.append(
-                match[0] if cells is None
-                else self._row(match[1], match[2], match[3] or "", last, cells)
+                line[0] if cells is None
+                else self._row(line[1], line[2], line[3] or "", last, cells)
             )  # fmt: skip
-            at = match.end()
+            at = line.end()
         parts.append(inside[at:])
         parts += [self._row(prefix, f' r="{row}"', "", row, by_row[row]) for row in sorted(by_row)]
         rows = "".join(parts)

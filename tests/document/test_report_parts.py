@@ -17,6 +17,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.model.evaluation import evaluate_model
 from reports.new.generate import generate_engine
 from reports.shared.errors import SymbolError
+from reports.tables.left_out import unused
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, formulas_of, plain
@@ -96,3 +97,22 @@ def test_a_symbol_stands_for_one_quantity(name: str):
     several = {plain(symbol): sorted(titles) for symbol, titles in meanings.items()
                if len(set(titles.values())) > 1 and plain(symbol) not in SAME}  # fmt: skip
     assert several == {}
+
+
+def test_one_input_has_one_symbol_in_all_sections():
+    """The bore of the main journals stood twice in table 1, once as that of the film."""
+    symbols = defaultdict(set)
+    for name in (*SAMPLES, *NEW, "mwm-6", "d-240-bearings"):
+        given = with_every_part(name)
+        for field in build_model(given).inputs:
+            if field.name not in unused(given):
+                symbols[field.title].add(field.symbol)
+    assert {title: each for title, each in symbols.items() if len(each) > 1} == {}
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_the_share_of_a_web_is_not_told_beside_its_size(name: str):
+    given = with_every_part(name)
+    sizes = [side for arm in given.crankshaft.arms for side in (arm.left_web_mm, arm.right_web_mm)]
+    told = "Отношение толщины щеки к диаметру цилиндра" in plain(bare_page(given))
+    assert told == (not all(sizes) and given.strength.web_thickness_mm is None)

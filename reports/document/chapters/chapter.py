@@ -246,10 +246,11 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
             "title": CHAPTERS.get(template, ""),
+            "told_factors": partial(self._explained, (), "."),
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",
-               "printed_step", "whole", "named", "by_fine", "where", "told_factors")  # fmt: skip
+               "printed_step", "whole", "named", "by_fine", "where")  # fmt: skip
         names |= {name: getattr(self, name) for name in own}
         text = self.environment.get_template(f"report/{template}.html.j2")
         return Markup(text.render(**names | context))
@@ -289,10 +290,6 @@ class Chapter:
         """Return the «где» list under a formula, with the factors that are not explained yet."""
         factors = [WhereItem(power, f"перевод {words}") for power, words in self._factors()]
         return self.writer.where([*self.terms.where(*names), *factors])
-
-    def told_factors(self) -> Markup:
-        """Return the words on factors that wait, where the sentence of their formula ends."""
-        return self._explained((), ".")
 
     def _put_in(self, name: str, at: float | None) -> Iterator[Factor]:
         """Factors of a formula with numbers."""

@@ -28,6 +28,7 @@ _SUM, _PRODUCT, _POWER, _ATOM = 1, 2, 3, 4
 # Constants below this are tolerances of comparisons; a printed formula leaves them out.
 _TOLERANCE = 1e-5
 _WIDEST = 40  # signs of a numerator that still fits a line
+_WHOLE = 6  # digits of the longest number that has no power of ten
 _INVERSE = {"asin", "acos", "atan", "atan2"}
 
 
@@ -94,13 +95,22 @@ def number_tex(value: float, digits: int = 4) -> str:
     if value == 0:
         return "0"
     exponent = math.floor(math.log10(abs(value)))
-    if -3 <= exponent < 6:
+    if -3 <= exponent < _WHOLE:
         decimals = max(0, digits - 1 - exponent)
         text = f"{value:.{decimals}f}"
         text = text.rstrip("0").rstrip(".") if "." in text else text
         return grouped(text).replace(".", "{,}").replace(NBSP, r"\,")
     mantissa = f"{value / 10**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
     return mantissa.replace(".", "{,}") + rf" \cdot 10^{{{exponent}}}"
+
+
+def as_put_in(value: float, digits: int = 4) -> float:
+    """Return the number that :func:`number_tex` writes: a whole part stands whole."""
+    if value == 0:
+        return 0.0
+    exponent = math.floor(math.log10(abs(value)))
+    most = max(digits, exponent + 1) if exponent < _WHOLE else digits
+    return float(f"{value:.{most - 1}e}")
 
 
 def input_symbol_tex(symbol: str) -> str:

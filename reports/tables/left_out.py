@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.model.blocks import Block
 from reports.model.shape import Scope, Shape
@@ -71,4 +73,14 @@ def unused(model: InputFile) -> set[str]:
     for end in ("nose", "rear"):  # no such counterweight: neither its angle nor its arm counts
         if not getattr(model.crankshaft, f"{end}_mass_kg"):
             unused_keys |= {f"crankshaft_{end}_{key}" for key in ("mass_kg", "angle_deg", "arm_mm")}
-    return unused_keys
+    return unused_keys | {f"balance_web_{size}_share" for size in _web_sizes(model)}
+
+
+def _web_sizes(model: InputFile) -> Iterator[str]:
+    """Sizes of the webs that are given as such, so that no share of the bore counts."""
+    arms = model.crankshaft.arms
+    sections = [each for each in (model.torsion, model.strength) if each is not None]
+    for size in ("thickness", "width"):
+        of_arms = size == "thickness" and all(arm.left_web_mm and arm.right_web_mm for arm in arms)
+        if of_arms or any(getattr(each, f"web_{size}_mm") for each in sections):
+            yield size

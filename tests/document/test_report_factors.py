@@ -9,7 +9,7 @@ import pytest
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from tests.conftest import sample
-from tests.document.bare_pages import bare_page
+from tests.document.bare_pages import bare_page, formulas_of
 from tests.document.test_report_sentences import engine
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -59,6 +59,27 @@ def test_no_side_of_a_formula_is_said_twice():
     page = bare_page(full("yamz-236", strength={"kind": "diesel"}))
     sides = (html.unescape(tex).split(" = ") for tex in re.findall(r'data-tex="([^"]*)"', page))
     assert [each for each in sides if any(a == b for a, b in pairwise(each))] == []
+
+
+def late(page):
+    """Words on a number that is not in the formulas of the sentence before them."""
+    for chapter in re.split(r"(?=<h1)", page):
+        for said in re.finditer(r'<p class="flush">Здесь (?:множител|числ).*?</p>', chapter):
+            before = chapter[: said.start()]
+            begins = [m.start() for m in re.finditer("<p>|<h[12]", before)]
+            sentence = " ".join(formulas_of(before[begins[-1] :]))
+            numbers = re.sub(r"<sup>([^<]*)</sup>", r"^{\1}", said[0]).replace("−", "-")
+            for number in _FACTOR.findall(numbers.replace("\xa0", " ")):
+                if number not in sentence:
+                    yield said[0], sentence
+
+
+@pytest.mark.parametrize(
+    "name", ["cycle-turbo-diesel", "cycle-petrol", "cycle-tractor-diesel", "yamz-236", "two-stroke"]
+)
+def test_a_factor_is_explained_at_its_own_formula(name):
+    """1000 turns MJ into kJ, stood under the formula after that of the heat."""
+    assert list(late(bare_page(full(name, strength={"kind": "diesel"}, bearings={})))) == []
 
 
 @pytest.mark.parametrize("name", ["gots-diesel", "ecoboost-10", "two-stroke", "mwm-6"])

@@ -14,10 +14,13 @@ from reports.document.text.terms import Terms
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.inputs.sections.input_file import InputFile
+from reports.model.evaluation import evaluate_model
 from reports.new.generate import generate_engine
 from reports.shared.errors import SymbolError
+from reports.tables.left_out import unused
+from reports.tables.registry import build_model
 from tests.conftest import sample
-from tests.document.bare_pages import bare_page, plain
+from tests.document.bare_pages import bare_page, formulas_of, plain
 from tests.document.test_report_symbols import assert_substitutions_hold
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -27,6 +30,14 @@ SAMPLES = ("gots-diesel", "vaz-2106", "yamz-236", "vw-1600", "two-stroke",
 NEW = {
     "V12": {"cylinders": 12, "layout": "v", "kind": "diesel", "bore_mm": 300.0},
     "one": {"cylinders": 1, "kind": "petrol", "bore_mm": 90.0},
+    # Its greatest force of inertia lies between two printed numbers.
+    "border": {
+        "cylinders": 6,
+        "layout": "v",
+        "kind": "diesel",
+        "bore_mm": 135.4,
+        "speed_rpm": 5410.0,
+    },
     "opposed": {"cylinders": 4, "layout": "opposed", "kind": "petrol"},
 }
 SAME = {"m1/mш"}  # one share, which the masses and the estimate of a rod ask for
@@ -43,6 +54,19 @@ def with_every_part(name: str) -> InputFile:
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])
 def test_what_is_put_in_gives_what_is_printed(name: str):
     assert_substitutions_hold(bare_page(with_every_part(name)))
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_the_speed_of_the_shaft_has_six_digits_at_most(name: str):
+    """586,43063 stood in a note; what asks for more is written by the frequency of rotation."""
+    formulas = " ".join(formulas_of(bare_page(with_every_part(name))))
+    assert (r"\left(\dfrac{\pi \cdot 5410}{30}\right)" in formulas) == (name == "border")
+    terms = Terms(model := build_model(with_every_part(name)), evaluate_model(model))
+    whole, written = terms.value("omega"), set[str]()
+    for number in re.findall(r"\d+\{,\}\d+", formulas):
+        if abs(float(number.replace("{,}", ".")) - whole) < 1e-4 * whole:
+            written.add(number)
+    assert len(written) == 1 and all(len(each) <= len("123{,}456") for each in written)
 
 
 @pytest.mark.parametrize("name", ["yamz-236", "two-stroke", "one"])
@@ -73,3 +97,22 @@ def test_a_symbol_stands_for_one_quantity(name: str):
     several = {plain(symbol): sorted(titles) for symbol, titles in meanings.items()
                if len(set(titles.values())) > 1 and plain(symbol) not in SAME}  # fmt: skip
     assert several == {}
+
+
+def test_one_input_has_one_symbol_in_all_sections():
+    """The bore of the main journals stood twice in table 1, once as that of the film."""
+    symbols = defaultdict(set)
+    for name in (*SAMPLES, *NEW, "mwm-6", "d-240-bearings"):
+        given = with_every_part(name)
+        for field in build_model(given).inputs:
+            if field.name not in unused(given):
+                symbols[field.title].add(field.symbol)
+    assert {title: each for title, each in symbols.items() if len(each) > 1} == {}
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_the_share_of_a_web_is_not_told_beside_its_size(name: str):
+    given = with_every_part(name)
+    sizes = [side for arm in given.crankshaft.arms for side in (arm.left_web_mm, arm.right_web_mm)]
+    told = "Отношение толщины щеки к диаметру цилиндра" in plain(bare_page(given))
+    assert told == (not all(sizes) and given.strength.web_thickness_mm is None)

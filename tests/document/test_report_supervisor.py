@@ -281,3 +281,18 @@ def test_an_offset_tells_of_its_flywheel_and_of_what_is_offset():
 
 def test_a_count_of_cylinders_is_a_word():
     assert cylindered(2) == "двухцилиндровый" and cylindered(14) == "14-цилиндровый"
+
+
+@pytest.mark.parametrize("source", ["one", "two-stroke", "gots-diesel", "vw-1600", "yamz-236"])
+def test_no_table_of_an_appendix_repeats_another(source):
+    """Of one cylinder the torques stood in the tables of forces, of the sum, of the journals."""
+    page = bare_page(load_mapping(generate_engine(1).data, source="").model) if source == "one" \
+        else page_of(source, "course")  # fmt: skip
+    tables = {}
+    for number, body in re.findall(r'num">(Б\.\d+)<.*?<tbody>(.*?)</tbody>', page, re.DOTALL):
+        rows = [re.findall(r"<td.*?</td>", row) for row in re.findall(r"<tr.*?</tr>", body)]
+        texts = [[re.sub("<[^>]+>|\\s", "", cell) for cell in row] for row in rows]
+        tables[number] = set(zip(*texts, strict=True))
+    assert len(tables) > 4
+    repeats = [(a, b) for a in tables for b in tables if a != b and tables[a] <= tables[b]]
+    assert repeats == []

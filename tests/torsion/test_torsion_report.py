@@ -65,7 +65,15 @@ def test_the_dangerous_order_is_marked_in_both_figures() -> None:
         figure = re.search(f"<title>{title}.*?</svg>", html, re.S)[0]
         words = " ".join(re.findall("<text[^>]*>([^<]*)</text>", figure))
         assert re.search(r"=\s*6 \(форма 1\)", words), words
-        assert "<circle" in figure or "#000000" in figure
+        dots = re.findall(r'<path d="M([\d.]+) ([\d.]+)C[^"]*z" fill="#000000"/>', figure)
+        assert len(dots) == 1, title
+        if "напряж" not in title:
+            continue
+        x, low = map(float, dots[0])
+        lines = [re.findall(r"L([\d.]+) ([\d.]+)", d) for d in re.findall(r'd="([^"]*)"', figure)]
+        ends = [{(float(y), float(at)) for at, y in line} for line in lines if len(line) > 5]
+        top = (round(low - 2.8, 2), x)
+        assert any(top == min(tops) for tops in ends if len(tops) > 5 and top in tops)
 
 
 @pytest.mark.parametrize(

@@ -246,6 +246,7 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
             "title": CHAPTERS.get(template, ""),
+            "told_factors": partial(self._explained, (), "."),
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",

@@ -26,6 +26,7 @@ from reports.document.chapters.chapter import (
 )
 from reports.document.chapters.journals import alike_journals, least_ray
 from reports.document.chapters.oil_hole import oil_hole
+from reports.document.chapters.repeats import printed, repeated
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import remark_html, titled_html
@@ -342,8 +343,13 @@ def appendices(chapter: Chapter) -> Markup:
         *((key, _moments(terms, key), wide) for key in running),
         (rays_table(worst_pin(terms)), None, "dense"),
     ]
+    same = repeated(terms, [(key, columns) for key, columns, _ in forces])
+    for key, other in same.items():
+        chapter.writer.n.stand_for("table", key, other)
+    forces = [each for each in forces if each[0] not in same]
+    holders = {key: tuple(k for k in same if same[k] == key) for key in same.values()}
     return chapter.page("appendices", kinematic=_plans(chapter, "А", kinematic),
-                        forces=_plans(chapter, "Б", forces, together))  # fmt: skip
+                        forces=_plans(chapter, "Б", forces, together, holders))  # fmt: skip
 
 
 def _loads(shape: Shape) -> list[str]:
@@ -355,9 +361,7 @@ def _loads(shape: Shape) -> list[str]:
 
 def _moments(terms: Terms, table: str) -> list[str]:
     """Columns of the running-on tables; the cylinders' own torques stand in П4.2."""
-    keys = [column.key for column in terms.model.tables[table].columns if not column.helper]
-    if len(keys) <= 8:
-        return keys
+    keys = printed(terms, table, None)
     return [key for key in keys if key == "phi_deg" or key.startswith(("Mmain", "Mpin"))]
 
 
@@ -366,10 +370,12 @@ def _plans(
     letter: str,
     tables: Sequence[tuple[str, list[str] | None, str]],
     together: Mapping[str, tuple[int, ...]] = MappingProxyType({}),
+    holders: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
 ) -> list[tuple[str, TablePlan]]:
     """Tables of an appendix, numbered within it; the textbook's number stands in the title.
 
-    ``together`` are the journals of a table that serves several.
+    ``together`` are the journals of a table that serves several, ``holders`` the tables that one
+    serves beside itself.
     """
     plans = []
     for number, (key, columns, size) in enumerate(tables, 1):
@@ -383,7 +389,9 @@ def _plans(
             step=chapter.printed_step,
         )
         match = _TEXTBOOKS.fullmatch(spec.number)
-        title = f"{spec.title} ({spec.number})" if match else spec.title
+        served = [chapter.model.tables[other].number for other in holders.get(key, ())]
+        numbers = ", ".join([spec.number, *served])
+        title = f"{spec.title} ({numbers})" if match else spec.title
         if key in together:  # equal loads are printed once
             title = _JOURNALS.format(
                 joined([str(number) for number in together[key]]),

@@ -21,7 +21,7 @@ from reports.document.page.blocks import (
 from reports.document.page.numbering import TablePlan
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import of_digits, significant, to_tex
-from reports.formula.tex import number_tex
+from reports.formula.tex import as_put_in, number_tex
 from reports.inputs.sections.torsion import TorsionSection
 from reports.inputs.solve_input import INERTIAS, lighter_than
 from reports.model.charts import Series
@@ -44,6 +44,8 @@ _MOTION = (
 _NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}
 # Rows of the train; bounds of the frequencies are of the sheet alone.
 _TRAIN = ("tor_J_kgm2", "tor_c_Nm_rad", "tor_W_cm3", "tor_b_Nms_rad")
+_LEAST_DIGITS, _MOST_DIGITS = 5, 12  # of numbers put into the chain
+_FORM_DECIMALS = 5
 _DIGITS = 3  # of an energy, which is 4896 J for a ship's engine and 0.0012 J for a model's
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
@@ -265,14 +267,26 @@ def _holzer_row(terms: Terms) -> str:
     inertia, spring = terms.value("torJ1"), terms.value("torc1")
     omega = 2 * np.pi * terms.value("tor_f1_hz")
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
-    numbers = [number_tex(each, 5) for each in (omega, inertia, moment, spring)]
-    second = to_tex(fixed(float(terms.column("torsion_forms.tor_theta1")[1]), 5))
-    ground = terms.value("torsion_ground_nm_rad")
+    ground, form = terms.value("torsion_ground_nm_rad"), terms.column("torsion_forms.tor_theta1")
+    second = to_tex(fixed(float(form[1]), _FORM_DECIMALS))
+    tried = range(_LEAST_DIGITS, _MOST_DIGITS)
+    digits = next((n for n in tried if _gives(n, omega, inertia, ground, spring)), _LEAST_DIGITS)
+    numbers = [number_tex(each, digits) for each in (omega, inertia, moment, spring)]
+    numbers[2] = number_tex(moment, _LEAST_DIGITS)
     less = rf" - {to_tex(fixed(ground, 0))}" if ground else ""
     return (
         rf"M_1 = {numbers[0]}^2 \cdot {numbers[1]}{less} = {numbers[2]}\;\mathrm{{Н·м}}, \qquad "
         rf"a_2 = 1 - \dfrac{{{numbers[2]}}}{{{numbers[3]}}} = {second}"
     )
+
+
+def _gives(digits: int, omega: float, inertia: float, ground: float, spring: float) -> bool:
+    """Whether the step with numbers of so many digits gives what is printed."""
+    first, second, third = (as_put_in(each, digits) for each in (omega, inertia, spring))
+    moment = omega**2 * inertia - ground
+    near, shown = (as_put_in(each, _LEAST_DIGITS) for each in (first**2 * second - ground, moment))
+    ends = (fixed(1 - each, _FORM_DECIMALS) for each in (shown / third, moment / spring))
+    return near == shown and len(set(ends)) == 1
 
 
 def _hidden(terms: Terms, modes: list[int]) -> int:

@@ -67,8 +67,10 @@ class Numbering:
         elsewhere: Mapping[Name, str] | None = None,
         *,
         by_chapter: bool = False,
+        served: Mapping[Name, str] | None = None,
     ) -> None:
         self._by_chapter = by_chapter
+        self._served = dict(served or {})
         self._labels: dict[Name, Label] = dict(labels or {})
         self._elsewhere = dict(elsewhere or {})
         self._counts: Counter[tuple[Kind, int]] = Counter()
@@ -100,6 +102,10 @@ class Numbering:
         self._labels[kind, key] = label
         return label
 
+    def stand_for(self, kind: Kind, key: str, other: str) -> None:
+        """Note that another thing stands for this one: references lead to it."""
+        self._served[kind, key] = other
+
     def label(self, kind: Kind, key: str) -> Label:
         """Look a number up without counting as a reference.
 
@@ -116,6 +122,7 @@ class Numbering:
 
         What stands in a chapter that is left out has its words instead of a number.
         """
+        key = self._served.get((kind, key), key)
         if (kind, key) not in self._labels and (kind, key) in self._elsewhere:
             return Markup(escape(self._elsewhere[kind, key]))
         label = self.label(kind, key)
@@ -231,7 +238,7 @@ class Draft(Numbering):
     @property
     def declared(self) -> tuple[Name, ...]:
         """Kind and key of everything that was placed."""
-        return tuple(self._labels)
+        return (*self._labels, *self._served)
 
     def numbering(self, elsewhere: Mapping[Name, str] | None = None) -> Numbering:
         """Return a numbering in which everything is declared.
@@ -239,7 +246,7 @@ class Draft(Numbering):
         Args:
             elsewhere: Words for what stands in chapters that are left out.
         """
-        return Numbering(self._labels, elsewhere)
+        return Numbering(self._labels, elsewhere, served=self._served)
 
 
 def _ascii(key: str) -> str:

@@ -26,6 +26,7 @@ _HOLE = 4.0  # for each page's height of the blank beyond it
 _FAR = 0.0006  # for each block that a figure lets pass
 _NEXT = 0.015  # for each figure that lets a heading pass
 _LATE = 1.0  # for each page between a figure and the one after that of its first mention
+_LATE_TABLE = 0.3  # the same for a table, which may stand a page farther
 _SMALLER = 0.2  # for the square of the share that a figure loses
 _WRONG = 0.1  # the chance that what is left is less by a line than estimated
 _PAGE = 0.1  # for each page, where a chapter could end one earlier
@@ -79,9 +80,10 @@ class _Layout(NamedTuple):
         return _Layout(spot, waiting, (html, self.placed), self.mentions)
 
     def late(self, block: Block, page: int) -> float:
-        """Cost of a figure on a page that is not the next after its first mention."""
+        """Cost of a figure beyond the page after its first mention, of a table beyond two."""
         named = (at for name, at in self.mentions if name in block.names)
-        return _LATE * max(0, page - 1 - min(named, default=page))
+        each, near = (_LATE, 1) if block.figure else (_LATE_TABLE, 2)
+        return each * max(0, page - near - min(named, default=page))
 
 
 def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tuple[list[str], Spot]:
@@ -119,8 +121,11 @@ def _search(
 
 
 def _naming(blocks: Sequence[Block]) -> Iterator[Block]:
-    """Yield the blocks with the figures of the chapter that each is the first to name."""
-    own = [tuple(_IDS.findall(block.html)) if block.figure else () for block in blocks]
+    """Yield the blocks with the figures and tables of the chapter that each is first to name."""
+    own = [
+        tuple(_IDS.findall(block.html)) if block.kind in ("float", "table") else ()
+        for block in blocks
+    ]
     coming = {name for names in own for name in names}
     for block, names in zip(blocks, own, strict=True):
         first = tuple(name for name in _LINKS.findall(block.html) if name in coming)

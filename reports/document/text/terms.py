@@ -43,7 +43,7 @@ _SYMBOLS = {
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
 _SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
-_MOST_DECIMALS = 7  # of an angular speed
+_EXACT = 17  # digits, and decimals, of a number that is not rounded
 _NO_SPACE = {"°"}
 _GIVEN = 8  # significant digits of an input that nobody would write by hand
 # Words of a field's title for who fills it in, which a note does not repeat.
@@ -264,10 +264,15 @@ class Terms:
         parts = [self.tex(name)]
         if symbols:
             parts.append(formulas.to_tex(expr, self._symbols(name)))
-        table, digits = name.rpartition(".")[0], self._significant(name, expr, at)
+        table, (digits, decimals) = name.rpartition(".")[0], self._precision(name, expr, at)
 
         def number(inner: str) -> float | str:
             node = self._global(inner, table)
+            if self._is_speed(node) and decimals == _EXACT:  # by the frequency of rotation
+                spelled = formulas.to_tex_numbers(
+                    self._node_expr(node), self._symbols(node), number
+                )
+                return formulas.Raw(rf"\left({spelled}\right)")
             if not self._is_product(node):
                 return self._number(node, at, digits)
             product = formulas.to_tex_numbers(self._node_expr(node), self._symbols(name), number)
@@ -318,34 +323,47 @@ class Terms:
 
     @property
     def _speed_decimals(self) -> int:
-        """Fewest decimals of the angular speeds that give the result of every formula put in."""
+        """Decimals of the angular speeds: one more where a formula put in asks for it."""
         known = self.speed_decimals
         if len(self.put_in) not in known:
             decimals = _SIGNIFICANT - 1 - math.floor(math.log10(self.value("omega")))
-            while decimals < _MOST_DECIMALS and not all(
-                self._gives(name, at, decimals) for name, at in self.put_in
-            ):
-                decimals += 1
             known[len(self.put_in)] = decimals
+            known[len(self.put_in)] += any(self._is_spelled(*each) for each in self.put_in)
         return known[len(self.put_in)]
 
-    def _gives(self, name: str, at: float | None, decimals: int) -> bool:
-        """Whether a formula with speeds of so many decimals gives its printed result."""
+    def _is_spelled(self, name: str, at: float | None) -> bool:
+        """Whether no digits of the other numbers make the speeds as written give the result."""
+        expr = self._expr(name, at)
+        return not self._is_speed(name) and self._precision(name, expr, at)[1] == _EXACT
+
+    def _precision(self, name: str, expr: str, at: float | None) -> tuple[int, int]:
+        """Fewest digits of the numbers put in, decimals of the speeds, that give the result."""
+        for decimals in (self._speed_decimals, _EXACT):
+            for digits in range(_SIGNIFICANT, _MOST_SIGNIFICANT + 1):
+                try:
+                    if self._fits(name, expr, at, digits, decimals):
+                        return digits, decimals
+                except (IndexError, KeyError, TypeError, ValueError):  # whole columns, choices
+                    return _SIGNIFICANT, self._speed_decimals
+        return _SIGNIFICANT, self._speed_decimals
+
+    def _fits(self, name: str, expr: str, at: float | None, digits: int, decimals: int) -> bool:
+        """Whether numbers of so many digits, speeds of so many decimals give the printed result."""
         table = name.rpartition(".")[0]
 
         def rounded(inner: str) -> float:
             node = self._global(inner, table)
+            if self._is_product(node):
+                return float(evaluate(self._node_expr(node), rounded))
             value = self.value(node, at)
-            return round(value, decimals) if self._is_speed(node) else value
+            if self._is_speed(node):
+                return round(value, decimals)
+            if node not in self.model.fields and self.quantity(node).unit == "rad":
+                return float(np.radians(round(float(np.degrees(value)), _decimals_deg(digits))))
+            return formulas.as_put_in(value, digits)
 
-        try:
-            value = float(evaluate(self._expr(name, at), rounded))
-        except (IndexError, KeyError, TypeError, ValueError):  # whole columns, choices
-            return True
-        given = self.value(name, at)
-        if self._is_speed(name):
-            return fixed(value, decimals) == fixed(given, decimals)
-        return self._result_tex(name, value) == self._result_tex(name, given)
+        given = self._result_tex(name, self.value(name, at))
+        return self._result_tex(name, float(evaluate(expr, rounded))) == given
 
     def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]
@@ -394,31 +412,6 @@ class Terms:
             return self.value(node, at)
 
         return formulas.chosen(self._node_expr(name), lambda test: bool(evaluate(test, lookup)))
-
-    def _significant(self, name: str, expr: str, at: float | None) -> int:
-        """Fewest digits of the numbers put in that give the printed result."""
-        table = name.rpartition(".")[0]
-        tex = self._result_tex(name, self.value(name, at))
-
-        def rounded(inner: str) -> float:
-            node = self._global(inner, table)
-            if self._is_product(node):
-                return float(evaluate(self._node_expr(node), rounded))
-            value = self.value(node, at)
-            if self._is_speed(node):
-                return round(value, self._speed_decimals)
-            if node not in self.model.fields and self.quantity(node).unit == "rad":
-                return float(np.radians(round(float(np.degrees(value)), _decimals_deg(digits))))
-            return float(f"{value:.{digits - 1}e}")
-
-        for digits in range(_SIGNIFICANT, _MOST_SIGNIFICANT + 1):
-            try:
-                value = float(evaluate(expr, rounded))
-            except (KeyError, TypeError, ValueError):  # whole columns, choices
-                break
-            if self._result_tex(name, value) == tex:
-                return digits
-        return _SIGNIFICANT
 
     def _is_product(self, name: str) -> bool:
         """Whether the symbol of a node is itself a formula, as that of a projection of a force."""

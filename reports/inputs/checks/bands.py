@@ -150,7 +150,7 @@ BANDS: tuple[Band, ...] = (
     *_by_kind(*_RATIO),
     _doubtful("offset", "geometry.crank_offset_mm", "r", "e_в/r", zero=True),
     Band("geometry.pin_offset_mm", "D", "e_п/D", 0.003, 0.029, zero=True),
-    Band("regime.fullness", "", "φ_п", 0.85, 1),
+    Band("regime.fullness", "", "φ_д", 0.85, 1),
     Band("gas.ambient_pressure_mpa", "", "p_0", 0.05, 0.2, unit="МПа"),
     Band("gas.intake_pressure_mpa", "", "p_a", 0.05, 0.49, unit="МПа"),
     _doubtful("compression.n_1", "gas.compression_exponent", "", "n_1"),

@@ -129,7 +129,7 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
     )
     fillet_mm: float | None = number(title_of("safe_fillet1_mm"), "ρ_г", MM, 0.2, 200, None)
     pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_о.ш", MM, 0, 2000, USUAL)
-    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "δ_к", MM, 0, 2000, USUAL)
+    main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_о.к", MM, 0, 2000, USUAL)
     fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, USUAL)
     fillet_torsion: float = number(
         "Концентрация у галтели при кручении", "α_τг", NONE, 1, 10, USUAL

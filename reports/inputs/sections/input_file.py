@@ -133,7 +133,7 @@ class Regime(Strictly):
     indicated_power_kw: float | None = number(
         "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None
     )
-    fullness: float = number("Коэффициент полноты диаграммы", "φ_п", NONE, 0.5, 1, 1.0)
+    fullness: float = number("Коэффициент полноты диаграммы", "φ_д", NONE, 0.5, 1, 1.0)
 
 
 class RegimeValues(Regime):

@@ -38,8 +38,8 @@ class MassSection(Strictly):
 class PeakSection(Strictly):
     """[[torsion.peaks]]: the greatest pressure of the cycle at a speed."""
 
-    speed_rpm: float = number("Точка {n}: частота вращения", "n_{n}", RPM, 10, 60000)
-    pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_z{n}", MPA, 0.2, 100)
+    speed_rpm: float = number("Точка {n}: частота вращения", "n_т{n}", RPM, 10, 60000)
+    pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_zт{n}", MPA, 0.2, 100)
 
 
 class TorsionSection(Strictly, usual=(Torsion,)):

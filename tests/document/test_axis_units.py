@@ -1,0 +1,62 @@
+"""Every axis of a note and of the sheet of dynamics names its unit, or has none to name."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from unittest import mock
+
+import pytest
+
+from reports.document.figures.axes import Axes
+from reports.document.report import Report
+from reports.document.text.terms import Terms
+from reports.draw.canvas import Words
+from reports.model.evaluation import evaluate_model
+from reports.sheet.write import sheet_items
+from reports.tables.registry import build_model
+from tests.document.test_report_parts import NEW, SAMPLES, with_every_part
+
+# A share, an order of vibration, an amplitude in those of the first mass, a number of a mass.
+BARE = {r"$k'_{\mathrm{пв}}$", r"$\nu$", "$a$", r"$i_{\mathrm{м}}$"}
+_SCALES = re.compile(r", \S.* \(М [\d,]+ \S+/мм; по горизонтали [\d,]+ \S+/мм\)$")
+
+
+@lru_cache(maxsize=2)
+def terms_of(name: str) -> Terms:
+    """Terms of an engine with every chapter."""
+    model = build_model(with_every_part(name))
+    return Terms(model, evaluate_model(model))
+
+
+def axes_of(name: str) -> set[str]:
+    """Names of all axes of the figures of its note."""
+    named: set[str] = set()
+
+    def noted(draw):
+        def name_axis(self: Axes, text: str) -> None:
+            named.add(text)
+            draw(self, text)
+
+        return name_axis
+
+    draws = {each: noted(getattr(Axes, each)) for each in ("name_y", "name_x")}
+    with mock.patch.multiple(Axes, **draws):
+        terms = terms_of(name)
+        Report(terms.model, terms.values).page("screen")
+    return named
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_every_axis_has_its_unit(name: str):
+    named = axes_of(name)
+    assert len(named) > 15
+    assert {text for text in named if ", " not in text} <= BARE
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *NEW])
+def test_every_axis_of_the_sheet_has_its_unit(name: str):
+    canvas, *_ = sheet_items(terms_of(name))
+    scales = [item.text for item in canvas.items if isinstance(item, Words) and "(М " in item.text]
+    assert len(scales) > 5
+    assert [text for text in scales if not _SCALES.search(text)] == []

@@ -419,8 +419,9 @@ def _say(sheet: Worksheet, cell: Cell, formula: str, writer: BlockWriter, said: 
 def _areas(caches: CacheValues) -> dict[str, str]:
     """Sheet → the range of all its formula cells: the ends of a filled column are among them."""
     areas: dict[str, str] = {}
-    for title, cells in caches.values.items():
-        coordinates = [coordinate_to_tuple(address) for address in cells]
+    for title in dict.fromkeys((*caches.values, *caches.bare)):
+        coordinates = [coordinate_to_tuple(at) for at in caches.values.get(title, ())]
+        coordinates += [(c.row, c.column) for c in caches.bare.get(title, ()) if c.formula]
         rows, columns = {row for row, _ in coordinates}, {column for _, column in coordinates}
         first, last = (
             Cell(title, end(rows), end(columns)).absolute.partition("!")[2] for end in (min, max)

@@ -29,7 +29,7 @@ from reports.shared.russian import capital
 from reports.tables.verdicts import outcomes, reasons_of
 from reports.workbook import styles
 from reports.workbook.conditions import Condition, conditions
-from reports.workbook.inputs import options, shown
+from reports.workbook.inputs import limits_of, options, shown
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -485,11 +485,11 @@ def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:
             cell = layout.cells[item.name].coordinate
             yield f"OR({','.join(f'{cell}={number(word)}' for word in words)})"
     numbers = [item for item in items if not options(item)]
-    for (least, most), run in groupby(numbers, lambda item: (item.minimum, item.maximum)):
+    for limits, run in groupby(numbers, lambda item: limits_of(item, layout)):
         cells = [layout.cells[item.name] for item in run]
-        if least is None or most is None:
+        if limits is None:
             continue
         cells_tested = area(cells[0], cells[-1]) if len(cells) > 1 else cells[0].coordinate
         yield f"COUNT({cells_tested})={len(cells)}"  # an empty cell would be zero
-        yield f"MIN({cells_tested})>={number(least)}"
-        yield f"MAX({cells_tested})<={number(most)}"
+        yield f"MIN({cells_tested})>={limits[0]}"
+        yield f"MAX({cells_tested})<={limits[1]}"

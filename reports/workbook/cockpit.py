@@ -60,6 +60,10 @@ _WIDTHS = {"A": 31, "B": 9, "C": 14, "D": 7, "E": 1.5}
 PEOPLE_ROW, VERDICT_ROW = 2, 3
 _VERDICT_HEIGHT = 30.0  # pt: two lines
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
+_FOLDED = (
+    "Столбцы, нужные только формулам, свёрнуты: кнопка «+» над столбцами. "
+    "Красное в таблице: вместо формулы вписано число."
+)
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 SHEET = "Что если"
 _STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 12, "F": 6, "G": 12}
@@ -277,7 +281,7 @@ def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], r
         sheet.cell(row, 1, "образец").style = style
         sheet.cell(row, 2, text).style = styles.LINE
     row += 1
-    sheet.cell(row, 2, "Столбцы, нужные только формулам, свёрнуты: кнопка «+» над столбцами.")
+    sheet.cell(row, 2, _FOLDED)
     sheet.cell(row, 2).style = styles.NOTE
     if missing:
         cell = styles.as_text(sheet.cell(row + 1, 2, missing))

@@ -34,7 +34,7 @@ from reports.workbook.layout import (
 from reports.workbook.sheets import BlockWriter
 
 LEGEND_ROW = 3
-_HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "Не меньше", "Не больше")
+_HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "От", "До")
 _LEGEND = "Жёлтые меняют; после оранжевых нужна команда kshm build"
 _SAMPLES = ((styles.INPUT, "меняют"), (styles.STRUCTURE, "строение"))
 _KEY = "Ключ в файле .toml"

@@ -53,7 +53,7 @@ _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11,
     SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
 }  # fmt: skip
-_LIMIT = SOURCE_WIDTH // 2  # width of the columns of limits
+_LIMIT = 8  # width of the columns of limits
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
 _HEADER_LINE = 16  # pt

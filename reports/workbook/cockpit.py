@@ -187,7 +187,8 @@ def _values(
         if key in writer.layout.model.fields:
             at = writer.layout.cells[key]
             link(sheet, Cell(sheet.title, row, 1), text, at.sheet, at.coordinate)
-            sheet.cell(row, 1).alignment = Alignment(vertical="center", wrap_text=True)
+            # LibreOffice breaks no link into lines.
+            sheet.cell(row, 1).alignment = Alignment(vertical="center", shrink_to_fit=True)
         writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
         sheet.cell(row, 3).number_format = look

@@ -91,7 +91,7 @@ def _numbers(tag: str, cells: str) -> etree._Element:
     return root
 
 
-class Heading(Title):  # type: ignore[misc]
+class ChartTitle(Title):  # type: ignore[misc]
     """A title of moderate size (hundredths of a point) that leaves the plot its room."""
 
     def __init__(self, text: str, size: int) -> None:

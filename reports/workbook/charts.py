@@ -16,7 +16,7 @@ from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
 from reports.workbook import chart_parts as parts
 from reports.workbook.chapters import contents_for, is_smooth_sheet
-from reports.workbook.chart_parts import COLOURS, Curve, Heading
+from reports.workbook.chart_parts import COLOURS, ChartTitle, Curve
 from reports.workbook.chart_ranges import (
     CurveRanges,
     Drawn,
@@ -186,7 +186,7 @@ def _empty(title: str) -> ScatterChart:
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
-    chart.title = Heading(title, 1000)
+    chart.title = ChartTitle(title, 1000)
     chart.visible_cells_only = False  # curves of folded columns are drawn too
     chart.display_blanks = "gap"
     return chart
@@ -211,7 +211,7 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
         axis.numFmt.sourceLinked = False
         axis.majorGridlines.spPr = parts.grid()
         if title:
-            axis.title = Heading(title, 900)
+            axis.title = ChartTitle(title, 900)
 
 
 def _axes(

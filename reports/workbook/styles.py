@@ -34,6 +34,8 @@ LEGEND = (
     (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )  # fmt: skip
 
+# Number format of what a check measures, from what size on.
+_FEW, _FORMATS = "0.00##", ((100, "0.0"), (10, "0.00"))
 _MOST = 6  # significant digits of a typed number that count for its decimals
 _TITLES_ROW = 3  # of tables side by side
 _SIZES = {TITLE: 14, SUBTITLE: 11}
@@ -74,6 +76,13 @@ def excel_format(quantity: Quantity, decimals: int = 0) -> str:
 def typed_format(value: object, decimals: int) -> str:
     """Number format of a cell that a person changes: all digits, the point below that of others."""
     return "General" + _blank(decimals_of([value]), decimals)
+
+
+def few_digits(value: float) -> str:
+    """Return the number format with as many digits as a value of this size needs."""
+    if value.is_integer():
+        return "General"
+    return next((look for size, look in _FORMATS if abs(value) >= size), _FEW)
 
 
 def _blank(digits: int, decimals: int) -> str:

@@ -65,8 +65,6 @@ _REASON_COLUMN = SOURCE_COLUMN + 1
 # both stand in their list, the words of the whole sheet.
 _WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I", "J")
 _FURTHER = 4  # rows of counts besides those of lists
-# Number format of what a check measures, from what size on.
-_FEW, _FORMATS = "0.00##", ((100, "0.0"), (10, "0.00"))
 _DIGITS = 3  # decimals of a value in the words
 
 
@@ -138,7 +136,7 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> BookVerd
     for scalar, _ in (pair for block in lists for pair in block.pairs):
         at = layout.cells[scalar.key]
         cell = book[at.sheet][at.coordinate]
-        cell.number_format = _few_digits(float(writer.values.scalars[scalar.key]))
+        cell.number_format = styles.few_digits(float(writer.values.scalars[scalar.key]))
     held = list(conditions(model, layout, writer.values.scalars))
     titles = {title: areas[title] for title in book.sheetnames if title in areas}
     top = sheet.max_row + 2
@@ -167,13 +165,6 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> BookVerd
     colour_verdicts(sheet, top + 1, sheets_row + len(titles) - 1, YES, NO)
     _fold_rows(sheet, details, sheets_row + len(titles) - 1)
     return _sentence(sheet, top, below, counts, writer)
-
-
-def _few_digits(value: float) -> str:
-    """Return the number format with as many digits as a value of this size needs."""
-    if value.is_integer():
-        return "General"
-    return next((look for size, look in _FORMATS if abs(value) >= size), _FEW)
 
 
 def _sentence(

@@ -22,7 +22,7 @@ from reports.model.charts import ChartSpec
 from reports.model.shape import Shape
 from reports.tables.verdicts import reasons_of
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
-from reports.workbook.charts import COLOURS
+from reports.workbook.chart_parts import COLOURS
 
 Data = dict[str, Any]
 JOINTS, SIZES = "live_joints", "live_sizes"  # the block of what the mechanism is drawn from

@@ -49,7 +49,7 @@ from reports.web.doors import (
 )  # fmt: skip
 from reports.web.jobs import OFFERED, Jobs
 from reports.web.shares import Turns, Unfinished
-from reports.workbook.charts import COLOURS
+from reports.workbook.chart_parts import COLOURS
 
 STATIC = Path(__file__).parent / "static"
 SESSION_S = 12 * 3600

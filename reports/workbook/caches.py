@@ -11,8 +11,7 @@ import math
 import posixpath
 import re
 import zipfile
-from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -22,12 +21,12 @@ from typing import Protocol
 import numpy as np
 from lxml import etree
 from openpyxl import Workbook
-from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.utils import coordinate_to_tuple
 from openpyxl.writer.excel import ExcelWriter
 
 from kshm.nomenclature.symbols import LOWER, UPPER
-from reports.shared.errors import CacheError
-from reports.workbook.sheets import CacheValues, FilledColumn, Runs, SharedColumn, number_text
+from reports.workbook.cell_texts import cell_texts, escaped, finite
+from reports.workbook.sheets import CacheValues, Runs, number_text
 from reports.workbook.styles import FONT, SIZE
 
 _A = "http://schemas.openxmlformats.org/drawingml/2006/main"
@@ -189,7 +188,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
     for formula in root.iter(f"{{{_MAIN}}}f"):
         cell = formula.getparent()
         where = cell.get("r")
-        value = _checked(values.get(where), f"{title}!{where}")
+        value = finite(values.get(where), f"{title}!{where}")
         element = cell.find(_VALUE)
         if element is None:
             element = etree.SubElement(cell, _VALUE)
@@ -201,7 +200,7 @@ def _fill(data: bytes, title: str, caches: CacheValues) -> bytes:
             element.text = number_text(value)
     marks: list[bytes] = []
     _mark_symbols(root, caches.symbols.get(title, {}), marks)
-    _mark_columns(root, title, caches.columns.get(title, []), marks)
+    _mark_cells(root, title, caches, marks)
     return _unmarked(root, marks)
 
 
@@ -210,44 +209,21 @@ def _unmarked(root: etree._Element, marks: Sequence[bytes]) -> bytes:
     return _MARKED.sub(lambda mark: marks[int(mark[1])], _written(root))
 
 
-def _checked(value: float | str | None, where: str) -> float | str:
-    if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        raise CacheError(f"formula without a finite value: {where}: {value!r}")
-    return value
-
-
 def _marked(text: str, marks: list[bytes]) -> etree._Element:
     """Return a mark where a text of XML belongs: no elements need be made of it."""
     marks.append(text.encode())
     return etree.ProcessingInstruction(_MARK, str(len(marks) - 1))
 
 
-def _mark_columns(
-    root: etree._Element, title: str, columns: list[FilledColumn | SharedColumn],
-    marks: list[bytes],
-) -> None:  # fmt: skip
-    """Mark where the cells of columns belong."""
-    if not columns:
+def _mark_cells(root: etree._Element, title: str, caches: CacheValues, marks: list[bytes]) -> None:
+    """Mark where the cells belong that are written as text."""
+    columns, bare = caches.columns.get(title, []), caches.bare.get(title, [])
+    if not columns and not bare:
         return
-    data = root.find(f"{{{_MAIN}}}sheetData")
-    rows = {int(row.get("r")): row for row in data}
-    looks = {c.get("r"): c.get("s") for row in data for c in row}
-    texts: dict[int, dict[int, str]] = defaultdict(dict)
-    for column in sorted(columns, key=lambda c: c.index):
-        letter = get_column_letter(column.index)
-        style = looks[f"{letter}{column.first_row - 1}"]
-        begin, middle = f'<c r="{letter}', f'" s="{style}">'
-        if isinstance(column, SharedColumn):
-            for row, cell in _shared(column, begin, '">' if column.is_plain else middle):
-                texts[row][column.index] = cell
-            continue
-        for row, (formula, value) in enumerate(column.cells, column.first_row):
-            if not math.isfinite(value):
-                _checked(value, f"{title}!{letter}{row}")
-            text = f"<f>{_escaped(formula[1:])}</f>" if formula else ""
-            cell = f"{begin}{row}{middle}{text}<v>{number_text(value)}</v></c>"
-            texts[row][column.index] = cell
-    for number, cells in texts.items():
+    sheet_rows = root.find(f"{{{_MAIN}}}sheetData")
+    rows = {int(row.get("r")): row for row in sheet_rows}
+    looks = {c.get("r"): c.get("s") for row in sheet_rows for c in row}
+    for number, cells in cell_texts(title, columns, bare, looks).items():
         if number not in rows:
             rows[number] = etree.Element(f"{{{_MAIN}}}row", r=str(number))
         old = {coordinate_to_tuple(c.get("r"))[1]: c for c in rows[number]}
@@ -256,25 +232,7 @@ def _mark_columns(
                 rows[number].append(_marked("".join(map(cells.__getitem__, run)), marks))
             else:
                 rows[number].extend(map(old.__getitem__, run))
-    data[:] = [rows[number] for number in sorted(rows)]
-
-
-def _shared(column: SharedColumn, begin: str, middle: str) -> Iterator[tuple[int, str]]:
-    """Yield rows and cells of a column; the first cell says the formula of all."""
-    letter, first, key = get_column_letter(column.index), column.first_row, column.index
-    extent = f"{letter}{first}:{letter}{first + len(column.numbers) - 1}"
-    text = f'<f t="shared" ref="{extent}" si="{key}">{_escaped(column.formula[1:])}</f><v>'
-    yield first, f"{begin}{first}{middle}{text}{column.numbers[0]}</v></c>"
-    middle += f'<f t="shared" si="{key}"/><v>'
-    for row, number in enumerate(column.numbers[1:], first + 1):
-        yield row, f"{begin}{row}{middle}{number}</v></c>"
-
-
-def _escaped(text: str) -> str:
-    """Text for XML; hardly any formula has a sign that needs it."""
-    if "&" in text or "<" in text or ">" in text:
-        return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-    return text
+    sheet_rows[:] = [rows[number] for number in sorted(rows)]
 
 
 def _mark_symbols(
@@ -296,7 +254,7 @@ def _pieces(runs: Runs, bold: bool) -> str:
         # An index a little larger: programs make it about 0.6 of what is said.
         size = f'<sz val="{_INDEX}"/><vertAlign val="{_LEVELS[level]}"/>' if level else _LETTERS
         properties = f"<rPr>{face}{size}</rPr>" if number or level else ""
-        pieces.append(f'<r>{properties}<t xml:space="preserve">{_escaped(text)}</t></r>')
+        pieces.append(f'<r>{properties}<t xml:space="preserve">{escaped(text)}</t></r>')
     return "".join(pieces)
 
 
@@ -309,7 +267,7 @@ def _fill_chart(data: bytes, caches: CacheValues) -> bytes:
         curves = [ranges[reference.findtext(f"{{{_CHART}}}f")] for reference in references]
         rows = shape_rows(curves)
         is_thinned = len(rows) < max(map(len, curves), default=0)
-        digits = ".5g" if is_thinned else ".6g"
+        digits = ".4g" if is_thinned else ".6g"
         # Cells still to be filled in have no value; a picture needs no more digits.
         for reference, numbers in zip(references, curves, strict=True):
             points = "".join(
@@ -322,7 +280,7 @@ def _fill_chart(data: bytes, caches: CacheValues) -> bytes:
                 f'<ptCount val="{len(numbers)}"/>{points}</numCache>', marks,
             ))  # fmt: skip
         for name in series.iter(f"{{{_CHART}}}strRef"):
-            text = _escaped(caches.names[name.findtext(f"{{{_CHART}}}f")])
+            text = escaped(caches.names[name.findtext(f"{{{_CHART}}}f")])
             name.append(_marked(
                 f'<strCache><ptCount val="1"/><pt idx="0"><v>{text}</v></pt></strCache>', marks,
             ))  # fmt: skip

@@ -3,40 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from math import floor, isfinite, log10
 
 from openpyxl.chart import ScatterChart
-from openpyxl.chart.data_source import (
-    AxDataSource,
-    NumData,
-    NumDataSource,
-    NumRef,
-    NumVal,
-    StrRef,
-)
-from openpyxl.chart.error_bar import ErrorBars
-from openpyxl.chart.label import DataLabel, DataLabelList
 from openpyxl.chart.layout import Layout as PlotLayout
 from openpyxl.chart.layout import ManualLayout
 from openpyxl.chart.legend import LegendEntry
-from openpyxl.chart.marker import Marker
-from openpyxl.chart.series import SeriesLabel, XYSeries
 from openpyxl.chart.shapes import GraphicalProperties
-from openpyxl.chart.text import RichText, Text
-from openpyxl.chart.title import Title
-from openpyxl.drawing.line import LineEndProperties, LineProperties
-from openpyxl.drawing.text import (
-    CharacterProperties,
-    Paragraph,
-    ParagraphProperties,
-    RegularTextRun,
-)
 
 from reports.model.charts import ChartSpec
 from reports.model.charts import Series as SeriesSpec
 from reports.model.evaluation import Values
+from reports.workbook import chart_parts as parts
 from reports.workbook.chapters import contents_for, is_smooth_sheet
+from reports.workbook.chart_parts import COLOURS, ChartTitle, Curve
 from reports.workbook.chart_ranges import (
     CurveRanges,
     Drawn,
@@ -56,14 +36,9 @@ from reports.workbook.layout import FIRST_ROW, Layout
 WIDE, HIGH = 408, 272  # px: several beside a table
 ROOMY = 480  # px: width of three in a row on a sheet of their own
 STUDY = (16.0, 7.6)  # cm
-_LINE, _DEEP = 19050, 57150  # EMU: 1.5 pt, 4.5 pt
-# Told apart without colour too: solid, dashed, dotted.
-_DASHES = ("solid", "dash", "sysDot", "dashDot")
 _ZERO = 1e-9  # what rounding leaves of nothing
 _EDGE = 1.2  # of a drawing in a unit square, with room for numbers around it
 _PARTS = 5  # of a half axis of a polar diagram, at most
-_RED = "C00000"
-COLOURS = ("2F7ED8", "D94A3D", "2B9348", "A05FD0")  # of the page
 
 
 def pixels(spec: ChartSpec, *, wide: bool = False) -> tuple[int, int]:
@@ -92,11 +67,9 @@ def make_chart(
             chart.series.append(_ray(len(chart.series), line))
     if spec.kind == "scheme":
         for number, (series, _) in enumerate(zip(chart.series, curves, strict=True)):
-            series.spPr = GraphicalProperties(ln=_line_of_scheme(number))
+            series.spPr = _line_of_scheme(number)
         for mark, height in member_names(spec, layout, values):
-            named = _mark(len(chart.series), mark)
-            named.dLbls.dLblPos = "t" if height > 0 else "b"
-            chart.series.append(named)
+            chart.series.append(_mark(len(chart.series), mark, "t" if height > 0 else "b"))
     if spec.kind == "polar":
         table = live_table(spec, layout)
         if table:
@@ -114,53 +87,34 @@ def make_chart(
     return chart
 
 
-def _line_of_scheme(number: int) -> LineProperties:
+def _line_of_scheme(number: int) -> GraphicalProperties:
     """Axes as drawings have them, thin and of dashes and dots; what turns is thick."""
     if number == 0:
-        return LineProperties(w=_LINE, solidFill=COLOURS[0], prstDash="lgDashDot")
-    return LineProperties(w=_DEEP, solidFill=COLOURS[1], prstDash="solid")
+        return parts.stroke(COLOURS[0], dash="lgDashDot")
+    return parts.stroke(COLOURS[1], parts.DEEP)
 
 
-def _ray(number: int, line: CurveRanges) -> XYSeries:
+def _ray(number: int, line: CurveRanges) -> Curve:
     """Return a thick line for the worn depth, with the number of its ray at the circle."""
-    series = _curve(number, line, LineProperties(w=_DEEP, solidFill="F4B183"))
-    series.dLbls = _end_label("t")
-    return series
+    return Curve(number, line, parts.stroke(parts.RAY, parts.DEEP), None, parts.end_label("t"))
 
 
-def _arrow(number: int, line: CurveRanges) -> XYSeries:
+def _arrow(number: int, line: CurveRanges) -> Curve:
     """Return an arrow with its name at the head."""
-    look = LineProperties(w=_LINE, solidFill=_RED, tailEnd=LineEndProperties(type="triangle"))
-    series = _curve(number, line, look)
-    series.dLbls = _end_label("t")
-    return series
+    look = parts.stroke(parts.RED, end="triangle")
+    return Curve(number, line, look, None, parts.end_label("t"))
 
 
-def _end_label(place: str) -> DataLabelList:
-    """Name of a line of two points at its second one."""
-    label = DataLabel(idx=1, dLblPos=place, showSerName=True)
-    label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
-    labels = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
-    labels.showLegendKey = labels.showCatName = labels.showPercent = False
-    return labels
-
-
-def _mark(number: int, point: CurveRanges) -> XYSeries:
+def _mark(number: int, point: CurveRanges, place: str = "r") -> Curve:
     """Return a small point with its name beside it."""
-    series = _curve(number, point, _hidden())
-    series.marker = _dot(4, COLOURS[0])
-    series.dLbls = DataLabelList(dLblPos="r", showSerName=True, showVal=False)
-    series.dLbls.showLegendKey = series.dLbls.showCatName = series.dLbls.showPercent = False
-    return series
+    marker = parts.dot(4, COLOURS[0])
+    return Curve(number, point, parts.hidden(), marker, parts.name_label(place))
 
 
-def _pole(number: int) -> XYSeries:
+def _pole(number: int) -> Curve:
     """Where the vector is measured from."""
-    series = _mark(number, CurveRanges("O", "", ""))
-    zero = NumData(ptCount=1, pt=[NumVal(idx=0, v="0")])
-    series.xVal, series.yVal = AxDataSource(numLit=zero), NumDataSource(numLit=zero)
-    series.marker = _dot(7)
-    return series
+    nought = CurveRanges("O", "", "")
+    return Curve(number, nought, parts.hidden(), parts.dot(7), parts.name_label())
 
 
 def is_blank(spec: ChartSpec, layout: Layout, values: Values) -> bool:
@@ -177,7 +131,7 @@ def curves_chart(
     chart = _empty(title)
     chart.width, chart.height = STUDY
     for number, curve in enumerate(curves):
-        chart.series.append(_curve(number, curve, _look(number)))
+        chart.series.append(Curve(number, curve, parts.look(number)))
     _titles(chart, x_title, y_title)
     if ends[0] < ends[1]:
         chart.x_axis.scaling.min, chart.x_axis.scaling.max = ends
@@ -198,16 +152,12 @@ def drawing(
     """
     chart = _empty(title)
     for number, line in enumerate(lines):
-        look = _look(number)
-        if shape:  # a picture, whose lines are told by their places
-            look.prstDash = "solid"
-        series = _curve(
-            number, CurveRanges(line.name, line.x, line.y),
-            _hidden() if line.hidden or line.point else look,
-        )  # fmt: skip
-        if line.point:
-            series.marker = _dot(9)
-        chart.series.append(series)
+        # Of a picture the lines are told by their places.
+        is_hidden = line.hidden or line.point
+        look = parts.hidden() if is_hidden else parts.look(number, solid=bool(shape))
+        marker = parts.dot(9) if line.point else None
+        ranges = CurveRanges(line.name, line.x, line.y)
+        chart.series.append(Curve(number, ranges, look, marker))
     _titles(chart, *axes)
     _legend(chart, visible=not shape and len(lines) > 2)
     if downwards:
@@ -236,7 +186,7 @@ def _empty(title: str) -> ScatterChart:
     chart.scatterStyle = "lineMarker"
     chart.style = 2
     chart.roundedCorners = False
-    chart.title = _title(title, 1000)
+    chart.title = ChartTitle(title, 1000)
     chart.visible_cells_only = False  # curves of folded columns are drawn too
     chart.display_blanks = "gap"
     return chart
@@ -250,15 +200,6 @@ def _legend(chart: ScatterChart, *, visible: bool) -> None:
         chart.legend = None
 
 
-def _title(text: str, size: int) -> Title:
-    """Return a title of moderate size (hundredths of a point) that leaves the plot its room."""
-    look = _font(size)
-    paragraph = Paragraph(
-        pPr=ParagraphProperties(defRPr=look), r=[RegularTextRun(rPr=look, t=text)]
-    )
-    return Title(tx=Text(rich=RichText(p=[paragraph])), overlay=False)
-
-
 def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
     """Both axes as Excel shows them: there, with a light grid and their titles."""
     chart.x_axis.axPos = "b"  # openpyxl puts both on the left, where Gnumeric drops the chart
@@ -268,9 +209,9 @@ def _titles(chart: ScatterChart, x_title: str, y_title: str) -> None:
         axis.majorTickMark = "out"
         axis.number_format = "General"
         axis.numFmt.sourceLinked = False
-        axis.majorGridlines.spPr = _grid()
+        axis.majorGridlines.spPr = parts.grid()
         if title:
-            axis.title = _title(title, 900)
+            axis.title = ChartTitle(title, 900)
 
 
 def _axes(
@@ -343,72 +284,18 @@ def is_smooth(spec: ChartSpec, layout: Layout) -> bool:
     return spec.x_is_angle and is_smooth_sheet(spec.sheet, contents_for(layout.model))
 
 
-def _series(
-    series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool
-) -> XYSeries:
+def _series(series: SeriesSpec, number: int, layout: Layout, *, smooth: bool, stems: bool) -> Curve:
     name = series.name or symbol_of(series.y, layout)
-    line = _hidden() if series.invisible or series.point else _look(number)
-    ranges = layout.range_of(series.x), layout.range_of(series.y)
+    curve = CurveRanges(name, layout.range_of(series.x), layout.range_of(series.y))
     if series.point:
-        series_of_curve = _mark(number, CurveRanges(name, *ranges))
-        series_of_curve.marker = _dot(9)
-        return series_of_curve
-    series_of_curve = _curve(number, CurveRanges(name, *ranges), _hidden() if stems else line)
-    series_of_curve.smooth = smooth
+        return Curve(number, curve, parts.hidden(), parts.dot(9), parts.name_label())
+    look = parts.hidden() if series.invisible else parts.look(number)
+    drawn = Curve(number, curve, parts.hidden() if stems else look)
+    drawn.smooth = smooth
     if stems:
-        series_of_curve.marker = _dot(5, COLOURS[number % len(COLOURS)])
-        series_of_curve.errBars = ErrorBars(
-            errDir="y", errBarType="minus", errValType="percentage", val=100, noEndCap=True,
-            spPr=GraphicalProperties(ln=line),
-        )  # fmt: skip
-    return series_of_curve
-
-
-def _curve(number: int, curve: CurveRanges, line: LineProperties) -> XYSeries:
-    series = XYSeries(idx=number, order=number)
-    if curve.cell:
-        series.tx = SeriesLabel(strRef=StrRef(f=curve.cell))
-    elif curve.name:
-        series.tx = SeriesLabel(v=curve.name)
-    series.xVal = AxDataSource(numRef=NumRef(f=curve.x))
-    series.yVal = NumDataSource(numRef=NumRef(f=curve.y))
-    series.smooth = False
-    series.spPr = GraphicalProperties(ln=line)
-    series.marker = _unmarked()
-    return series
-
-
-def _dot(size: int, colour: str = _RED) -> Marker:
-    return Marker(symbol="circle", size=size, spPr=GraphicalProperties(solidFill=colour))
-
-
-@cache
-def _unmarked() -> Marker:
-    """No marker; one object serves all curves."""
-    return Marker(symbol="none")
-
-
-@cache
-def _grid() -> GraphicalProperties:
-    return GraphicalProperties(ln=LineProperties(solidFill="D9D9D9", w=6350))
-
-
-@cache
-def _font(size: int) -> CharacterProperties:
-    return CharacterProperties(sz=size, b=False)
-
-
-def _hidden() -> LineProperties:
-    line = LineProperties(w=_LINE, noFill=True)
-    line.prstDash = None  # openpyxl calls it solid: then Gnumeric draws it
-    return line
-
-
-def _look(number: int) -> LineProperties:
-    line = LineProperties(w=_LINE, solidFill=COLOURS[number % len(COLOURS)])
-    # Shifted after all colours are used: twelve curves differ.
-    line.prstDash = _DASHES[(number + number // len(COLOURS)) % len(_DASHES)]
-    return line
+        drawn.marker = parts.dot(5, COLOURS[number % len(COLOURS)])
+        drawn.errBars = parts.stem(look)
+    return drawn
 
 
 def ranges_of(spec: ChartSpec, layout: Layout, values: Values) -> dict[str, list[float]]:

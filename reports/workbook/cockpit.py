@@ -23,8 +23,8 @@ from reports.workbook.key_values import key_values, results_of, worst_pin
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
+    MOST_COLUMN,
     NOTE_ROW,
-    SOURCE_COLUMN,
     VALUE_COLUMN,
     Cell,
     area,
@@ -60,6 +60,10 @@ _WIDTHS = {"A": 31, "B": 9, "C": 14, "D": 7, "E": 1.5}
 PEOPLE_ROW, VERDICT_ROW = 2, 3
 _VERDICT_HEIGHT = 30.0  # pt: two lines
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
+_FOLDED = (
+    "Столбцы, нужные только формулам, свёрнуты: кнопка «+» над столбцами. "
+    "Красное в таблице: вместо формулы вписано число."
+)
 _SAMPLES = {styles.INPUT: "меняют", styles.ANSWER: "впишите", styles.STRUCTURE: "строение"}
 SHEET = "Что если"
 _STUDY_WIDTHS = {"A": 62, "B": 14, "C": 14, "D": 14, "E": 12, "F": 6, "G": 12}
@@ -163,7 +167,7 @@ def _verdict(sheet: Worksheet, writer: BlockWriter, row: int, verdict: BookVerdi
     text = Cell(sheet.title, row, 1).absolute
     writer.formula(inputs, here.row, here.column, f"={text}", verdict.text)
     inputs.cell(here.row, here.column).style = styles.LINE
-    colour_verdict(inputs, area(here, Cell(INPUT_SHEET, here.row, SOURCE_COLUMN)))
+    colour_verdict(inputs, area(here, Cell(INPUT_SHEET, here.row, MOST_COLUMN)))
     return row + 1
 
 
@@ -183,7 +187,8 @@ def _values(
         if key in writer.layout.model.fields:
             at = writer.layout.cells[key]
             link(sheet, Cell(sheet.title, row, 1), text, at.sheet, at.coordinate)
-            sheet.cell(row, 1).alignment = Alignment(vertical="center", wrap_text=True)
+            # LibreOffice breaks no link into lines.
+            sheet.cell(row, 1).alignment = Alignment(vertical="center", shrink_to_fit=True)
         writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
         sheet.cell(row, 3).number_format = look
@@ -192,7 +197,7 @@ def _values(
 
 def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
     """Two diagrams that answer at once beside the input data, above the lists of records."""
-    left = sum(column_px(sheet, i) for i in range(1, SOURCE_COLUMN + 1)) + GAP
+    left = sum(column_px(sheet, i) for i in range(1, MOST_COLUMN + 1)) + GAP
     listed = [writer.layout.cells[item.name].row for item in model.inputs if item.listed]
     top = top_of(sheet, HEADER_ROW + 1)
     room = top_of(sheet, min(listed) - 2) - top if listed else 2 * (HIGH + GAP)
@@ -277,7 +282,7 @@ def _legend(sheet: Worksheet, model: Model, legend: Sequence[tuple[str, str]], r
         sheet.cell(row, 1, "образец").style = style
         sheet.cell(row, 2, text).style = styles.LINE
     row += 1
-    sheet.cell(row, 2, "Столбцы, нужные только формулам, свёрнуты: кнопка «+» над столбцами.")
+    sheet.cell(row, 2, _FOLDED)
     sheet.cell(row, 2).style = styles.NOTE
     if missing:
         cell = styles.as_text(sheet.cell(row + 1, 2, missing))

@@ -14,6 +14,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
+from reports.formula.excel import number
 from reports.inputs.fields import Field
 from reports.model.blocks import Model
 from reports.shared.russian import capital, short
@@ -21,7 +22,8 @@ from reports.workbook import styles
 from reports.workbook.layout import (
     HEADER_ROW,
     KEY_COLUMN,
-    SOURCE_COLUMN,
+    LEAST_COLUMN,
+    MOST_COLUMN,
     SYMBOL_COLUMN,
     TITLE_COLUMN,
     UNIT_COLUMN,
@@ -32,13 +34,13 @@ from reports.workbook.layout import (
 from reports.workbook.sheets import BlockWriter
 
 LEGEND_ROW = 3
-_HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "Пределы")
+_HEADINGS = ("Величина", "Обозначение", "Значение", "Единица", "От", "До")
 _LEGEND = "Жёлтые меняют; после оранжевых нужна команда kshm build"
 _SAMPLES = ((styles.INPUT, "меняют"), (styles.STRUCTURE, "строение"))
 _KEY = "Ключ в файле .toml"
 _FOLDED = "свёрнуто: «+» слева от строк"
 _TITLE_LETTERS = 32  # of a message box, as much as Excel takes
-_LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT, SOURCE_COLUMN: styles.UNIT}
+_LOOKS = {KEY_COLUMN: styles.NOTE, UNIT_COLUMN: styles.UNIT}
 
 
 def write_inputs(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
@@ -92,7 +94,7 @@ def _field(sheet: Worksheet, item: Field, writer: BlockWriter, top: int, decimal
     target.style = styles.STRUCTURE if item.structural else styles.INPUT
     text = isinstance(item.value, str)
     target.number_format = "@" if text else styles.typed_format(item.value, decimals)
-    _validate(sheet, item, cell.coordinate)
+    _validate(sheet, item, cell.coordinate, limits_of(item, writer.layout))
 
 
 def _by_column(items: Sequence[Field], layout: Layout) -> dict[int, list[Field]]:
@@ -126,17 +128,30 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
     texts = {
         TITLE_COLUMN: item.title,
         UNIT_COLUMN: item.unit,
-        SOURCE_COLUMN: range_text(item),
         KEY_COLUMN: ".".join(
             str(part + 1 if isinstance(part, int) else part) for part in item.path
         ),
     }
     for column, text in texts.items():
         sheet.cell(row, column, text or None).style = _LOOKS.get(column, styles.TEXT)
+    if item.minimum is not None and item.maximum is not None:
+        for column, limit in ((LEAST_COLUMN, item.minimum), (MOST_COLUMN, item.maximum)):
+            sheet.cell(row, column, limit).style = styles.UNIT
     key = Comment(f"{_KEY}: {texts[KEY_COLUMN]}", "kshm")
     key.width, key.height = 330, 40
     sheet.cell(row, TITLE_COLUMN).comment = key
     sheet.cell(row, VALUE_COLUMN)
+
+
+def limits_of(item: Field, layout: Layout) -> tuple[str, str] | None:
+    """Limits of an input as its formulas name them: their cells, of records the numbers."""
+    if item.minimum is None or item.maximum is None:
+        return None
+    if item.listed:
+        return number(item.minimum), number(item.maximum)
+    row = layout.cells[item.name].row
+    least, most = (f"${get_column_letter(column)}{row}" for column in (LEAST_COLUMN, MOST_COLUMN))
+    return least, most
 
 
 def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int) -> None:
@@ -151,20 +166,22 @@ def _entry(sheet: Worksheet, item: Field, row: int, column: int, header_row: int
         header.style = styles.HEADER
 
 
-def _validate(sheet: Worksheet, item: Field, coordinate: str) -> None:
+def _validate(
+    sheet: Worksheet, item: Field, coordinate: str, limits: tuple[str, str] | None
+) -> None:
     if item.choices is not None:
         labels = list(map(str, options(item)))
         rule = DataValidation(type="list", formula1=f'"{",".join(labels)}"', allow_blank=False)
         if any("," in label for label in labels) or len(",".join(labels)) > 250:
             return
         rule.error = "Выберите значение из списка."
-    elif item.minimum is not None and item.maximum is not None:
+    elif limits is not None:
         whole = isinstance(item.value, int) and item.structural
         rule = DataValidation(
             type="whole" if whole else "decimal",
             operator="between",
-            formula1=f"{item.minimum!r}",
-            formula2=f"{item.maximum!r}",
+            formula1=limits[0],
+            formula2=limits[1],
             allow_blank=False,
         )
         rule.error = f"Допустимо {range_text(item)} {item.unit}".strip() + "."
@@ -181,11 +198,10 @@ def _mark_wrong(sheet: Worksheet, model: Model, layout: Layout) -> None:
 
     A text is larger than every number, and a cell left empty is zero.
     """
-    cells: dict[tuple[float, float], list[str]] = defaultdict(list)
+    cells: dict[tuple[str, str], list[str]] = defaultdict(list)
     for item in model.inputs:
-        if item.minimum is not None and item.maximum is not None:
-            address = layout.cells[item.name].coordinate
-            cells[item.minimum, item.maximum].append(address)
+        if limits := limits_of(item, layout):
+            cells[limits].append(layout.cells[item.name].coordinate)
     for limits, addresses in cells.items():
-        rule = CellIsRule("notBetween", [f"{limit!r}" for limit in limits], **styles.wrong())
+        rule = CellIsRule("notBetween", list(limits), **styles.wrong())
         sheet.conditional_formatting.add(" ".join(addresses), rule)

@@ -21,6 +21,8 @@ from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     KEY_COLUMN,
+    LEAST_COLUMN,
+    MOST_COLUMN,
     NUMBER_ROW,
     SOURCE_COLUMN,
     VALUE_COLUMN,
@@ -51,6 +53,7 @@ _LIST = {
     1: TITLE_WIDTH, 2: SYMBOL_WIDTH, VALUE_COLUMN: 14, 4: 11,
     SOURCE_COLUMN: SOURCE_WIDTH, KEY_COLUMN: 30,
 }  # fmt: skip
+_LIMIT = 8  # width of the columns of limits
 _SUBTITLE_LETTER = 1.18  # in digits of a column: bold and larger
 _THIN, _HEADER_LETTER = 0.65, 1.25  # the same of thin letters and of others of a header
 _HEADER_LINE = 16  # pt
@@ -81,6 +84,8 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         sheet.freeze_panes = Cell(sheet.title, HEADER_ROW, 1).coordinate
         grids = bool(blocks) and all(isinstance(block, Grid) for block in blocks)
         wide = {i: _LIST[i] for i in (1, 2)} if grids else dict(_LIST)
+        if sheet.title == INPUT_SHEET:
+            wide |= {LEAST_COLUMN: _LIMIT, MOST_COLUMN: _LIMIT}
         for block in blocks:
             wide |= _WIDTHS_WITH.get(block.id, {})
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
@@ -211,9 +216,9 @@ def _fit_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
 
 
 def _wrap_text(sheet: Worksheet, cell: Cell, text: str) -> None:
-    room = sum(column_px(sheet, i) for i in range(VALUE_COLUMN, SOURCE_COLUMN + 1)) / DIGIT
+    room = sum(column_px(sheet, i) for i in range(VALUE_COLUMN, MOST_COLUMN + 1)) / DIGIT
     if room_of(len(text)) > room:
-        wrap_across(sheet, cell.row, VALUE_COLUMN, SOURCE_COLUMN)
+        wrap_across(sheet, cell.row, VALUE_COLUMN, MOST_COLUMN)
 
 
 def _hold_words(sheet: Worksheet, labels: Mapping[int, str]) -> None:

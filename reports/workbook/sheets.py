@@ -44,11 +44,11 @@ from reports.workbook.places import raise_row
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
-_DIGITS = ".14g"  # a spreadsheet shows hardly one more; what follows is noise that takes room
+_DIGITS = ".12g"  # nobody is shown more; what follows takes room
 _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
-_CURVE_STEPS, _HELPER_STEPS = 4000, 99
+_CURVE_STEPS, _HELPER_STEPS = 2500, 9
 # Names of a chart's series are read as they are seen.
 _NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
@@ -87,12 +87,23 @@ class SharedColumn:
     is_plain: bool = False  # without a look of its own
 
 
+@dataclass(frozen=True, slots=True)
+class BareCell:
+    """A cell without a look of its own, on a sheet that nobody looks at."""
+
+    row: int
+    column: int
+    formula: str  # with its =, empty for a text or a number
+    value: float | str
+
+
 @dataclass
 class CacheValues:
     """What the finishing pass adds to each sheet."""
 
     values: dict[str, dict[str, float | str]] = field(default_factory=dict)  # by coordinate
     columns: dict[str, list[FilledColumn | SharedColumn]] = field(default_factory=dict)
+    bare: dict[str, list[BareCell]] = field(default_factory=dict)
     ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
     names: dict[str, str] = field(default_factory=dict)  # of their series, by the cell
     symbols: dict[str, dict[str, tuple[Runs, bool]]] = field(default_factory=dict)  # and if bold
@@ -114,6 +125,10 @@ class BlockWriter:
         """Write a formula cell with its value for the cache."""
         cell = sheet.cell(row, column, text)
         self.caches.values.setdefault(sheet.title, {})[cell.coordinate] = value
+
+    def bare(self, title: str, at: tuple[int, int], value: float | str, formula: str = "") -> None:
+        """Write a cell without a look; by row and column."""
+        self.caches.bare.setdefault(title, []).append(BareCell(*at, formula, value))
 
     def symbol(
         self, sheet: Worksheet, row: int, column: int, named: Quantity | Field,
@@ -271,10 +286,13 @@ class BlockWriter:
         """Write the value cell of a scalar, its point below that of others."""
         at = self.layout.cells[scalar.key]
         text = compile_formula(scalar.expr, RowReferences(self.layout, None, sheet.title))
-        self.formula(sheet, at.row, at.column, text, self.values.scalars[scalar.key])
+        value, is_name = self.values.scalars[scalar.key], scalar.of in _NAMES_OF_SERIES
+        if sheet.title in self.layout.model.drawn and not is_name:
+            self.bare(sheet.title, (at.row, at.column), value, text)
+            return
+        self.formula(sheet, at.row, at.column, text, value)
         cell = sheet.cell(at.row, at.column)
         cell.style = styles.CHECK if scalar.of == "check" else styles.FORMULA
-        is_name = scalar.of in _NAMES_OF_SERIES
         cell.number_format = _DEGREES if is_name else styles.excel_format(scalar.quantity, decimals)
 
     def list(self, sheet: Worksheet, block: ScalarTable) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 from openpyxl.cell.cell import Cell
@@ -33,6 +34,8 @@ LEGEND = (
     (HEADER, "заголовок; в примечании — смысл величины и номер формулы"),
 )  # fmt: skip
 
+# Number format of what a check measures, from what size on.
+_FEW, _FORMATS = "0.00##", ((100, "0.0"), (10, "0.00"))
 _MOST = 6  # significant digits of a typed number that count for its decimals
 _TITLES_ROW = 3  # of tables side by side
 _SIZES = {TITLE: 14, SUBTITLE: 11}
@@ -73,6 +76,13 @@ def excel_format(quantity: Quantity, decimals: int = 0) -> str:
 def typed_format(value: object, decimals: int) -> str:
     """Number format of a cell that a person changes: all digits, the point below that of others."""
     return "General" + _blank(decimals_of([value]), decimals)
+
+
+def few_digits(value: float) -> str:
+    """Return the number format with as many digits as a value of this size needs."""
+    if value.is_integer():
+        return "General"
+    return next((look for size, look in _FORMATS if abs(value) >= size), _FEW)
 
 
 def _blank(digits: int, decimals: int) -> str:
@@ -149,18 +159,36 @@ def add_styles(book: Workbook) -> None:
     style(CHECK, border=rule, alignment=centre, font=Font(name=FONT, size=SIZE, bold=True))
 
 
+class _Rule(Border):  # type: ignore[misc]
+    """A border of many cells: its hash, which openpyxl asks for each, takes longer than a cell."""
+
+    __elements__, __attrs__, __nested__ = Border.__elements__, Border.__attrs__, Border.__nested__
+
+    def __hash__(self) -> int:
+        """Return the hash of the border, reckoned once."""
+        known = self.__dict__.get("kept")
+        if known is None:
+            known = self.__dict__["kept"] = super().__hash__()
+        return int(known)
+
+
+@cache
+def _title_font(size: int, colour: str) -> Font:
+    return Font(name=FONT, size=size, bold=True, color=colour)
+
+
 def look(sheet: Worksheet, colour: str) -> None:
     """No grid, rows of one height, and the colour of the chapter over and under the titles."""
     sheet.sheet_view.showGridLines = False
     sheet.sheet_format.customHeight = True
     sheet.sheet_properties.tabColor = colour
-    under = Border(bottom=Side(style="medium", color=colour))
+    under = _Rule(bottom=Side(style="medium", color=colour))
     rows = range(1, sheet.max_row + 1)
     first = [cell for cell in (sheet.cell(row, 1) for row in rows) if isinstance(cell.value, str)]
     for cell in (*first, *sheet[_TITLES_ROW]):
         named = cell.style if cell.value is not None else ""  # takes long to find
         if named in _SIZES:
-            cell.font = Font(name=FONT, size=_SIZES[named], bold=True, color=colour)
+            cell.font = _title_font(_SIZES[named], colour)
         elif named == HEADER and sheet.cell(cell.row, 2).style == HEADER:
             for head in sheet[cell.row]:
                 if head.value is not None and head.style == HEADER:

@@ -60,9 +60,12 @@ class _Texts:
 
     def put(self, column: int, text: str, value: float | str) -> str:
         """Write one formula; its address."""
-        self.writer.formula(self.sheet, self.row, column, text, value)
-        self.sheet.cell(self.row, column).style = styles.HELPER
+        self.writer.bare(SHEET, (self.row, column), value, text.replace(f"'{SHEET}'!", ""))
         return Cell(SHEET, self.row, column).absolute
+
+    def say(self, column: int, text: str) -> None:
+        """Write a text."""
+        self.writer.bare(SHEET, (self.row, column), text)
 
 
 def write_substitutions(book: Workbook, writer: BlockWriter) -> None:
@@ -142,7 +145,7 @@ def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec, columns: Sequence
     places = _beside_title(sheet)
     label, angle, chosen, line = (Cell(sheet.title, TITLE_ROW, column) for column in places)
     angles = writer.layout.range_of(f"{table.id}.{table.columns[0].key}")
-    hidden.sheet.cell(hidden.row, _SYMBOL, table.number or table.title).style = styles.SUBTITLE
+    hidden.say(_SYMBOL, table.number or table.title)
     place = hidden.put(_VALUE, _place(angle, angles), at + 1)
     hidden.row += 1
     for name in dict.fromkeys(n for c in columns for n in sorted(names(c.expr or ""))):
@@ -151,9 +154,9 @@ def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec, columns: Sequence
     top, texts, lengths = hidden.row, dict[str, str](), dict[str, int]()
     for column in columns:
         symbol = column.quantity.symbol
-        if symbol not in texts and (text := _line(hidden, table, column, place, at)):
-            texts[symbol] = text
-            lengths[symbol] = len(str(hidden.sheet.cell(hidden.row, _HEAD).value))
+        if symbol not in texts and (line_of := _line(hidden, table, column, place, at)):
+            head, said = line_of
+            texts[symbol], lengths[symbol] = head + said, len(head)
             hidden.row += 1
     if not texts:
         return
@@ -216,8 +219,9 @@ def _operand(hidden: _Texts, table: TableSpec, name: str, place: str, at: int) -
         value = float(writer.values.columns[home][column][at])
     else:
         text, value = layout.name_of(name), float(_single(name, writer))  # type: ignore[arg-type]
-    hidden.sheet.cell(hidden.row, _SYMBOL, writer.symbol_of(name, table.id)).style = styles.TEXT
-    cell = hidden.put(_VALUE, f"={text}", value).rpartition("!")[2]
+    hidden.say(_SYMBOL, writer.symbol_of(name, table.id))
+    hidden.put(_VALUE, f"={text}", value)
+    cell = Cell(SHEET, hidden.row, _VALUE).coordinate
     model = layout.model
     node, given = model.nodes.get(key) or model.nodes.get(name), model.fields.get(name)
     label = node.quantity.unit_label if node is not None else ""
@@ -233,8 +237,10 @@ def _operand(hidden: _Texts, table: TableSpec, name: str, place: str, at: int) -
                     shown(value, degree))  # fmt: skip
 
 
-def _line(hidden: _Texts, table: TableSpec, column: Column, place: str, at: int) -> str:
-    """Write a column's line; empty where its formula would be too long for a spreadsheet."""
+def _line(
+    hidden: _Texts, table: TableSpec, column: Column, place: str, at: int
+) -> tuple[str, str] | None:
+    """Write a column's line; None where its formula would be too long for a spreadsheet."""
     writer, quantity = hidden.writer, column.quantity
     assert column.expr is not None
     used = sorted(names(column.expr))
@@ -247,16 +253,17 @@ def _line(hidden: _Texts, table: TableSpec, column: Column, place: str, at: int)
     after = f" {unit}" if unit else ""
     operands = [hidden.operands[table.id, name] for name in used]
     joined = "&".join(_pieces(put_in, [each.cell for each in operands]))
+    place = place.rpartition("!")[2]
     result = f"(ROUND(INDEX({writer.layout.range_of(key)},{place}),{decimals})+0)"
     formula = f'={joined}&" = "&{result}&"{after}"'.replace(f"'{SHEET}'!", "")
     if len(formula) > _MOST_FORMULA:
-        return ""
-    hidden.sheet.cell(hidden.row, _LINE_SYMBOL, quantity.symbol).style = styles.TEXT
-    hidden.sheet.cell(hidden.row, _HEAD, head).style = styles.TEXT
+        return None
+    hidden.say(_LINE_SYMBOL, quantity.symbol)
+    hidden.say(_HEAD, head)
     said = _MARK.sub(lambda match: operands[int(match[1])].text, put_in)
     text = f"{said} = {number}{after}"
     hidden.put(_LINE, formula, text)
-    return head + text
+    return head, text
 
 
 def _pieces(text: str, cells: list[str]) -> Iterator[str]:

@@ -29,7 +29,7 @@ from reports.shared.russian import capital
 from reports.tables.verdicts import outcomes, reasons_of
 from reports.workbook import styles
 from reports.workbook.conditions import Condition, conditions
-from reports.workbook.inputs import options, shown
+from reports.workbook.inputs import limits_of, options, shown
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -65,7 +65,6 @@ _REASON_COLUMN = SOURCE_COLUMN + 1
 # both stand in their list, the words of the whole sheet.
 _WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I", "J")
 _FURTHER = 4  # rows of counts besides those of lists
-_FEW = "0.00##"  # number format of what a check measures
 _DIGITS = 3  # decimals of a value in the words
 
 
@@ -134,10 +133,10 @@ def write_verdict(book: Workbook, model: Model, writer: BlockWriter) -> BookVerd
     for title, cells in areas.items():
         fade(book[title], cells.rpartition("!")[2])
     sheet = book[first.sheet]
-    for scalar, _ in checks.pairs:
-        whole = float(writer.values.scalars[scalar.key]).is_integer()
-        at = layout.cells[scalar.key].coordinate
-        sheet[at].number_format = "General" if whole else _FEW
+    for scalar, _ in (pair for block in lists for pair in block.pairs):
+        at = layout.cells[scalar.key]
+        cell = book[at.sheet][at.coordinate]
+        cell.number_format = styles.few_digits(float(writer.values.scalars[scalar.key]))
     held = list(conditions(model, layout, writer.values.scalars))
     titles = {title: areas[title] for title in book.sheetnames if title in areas}
     top = sheet.max_row + 2
@@ -419,8 +418,9 @@ def _say(sheet: Worksheet, cell: Cell, formula: str, writer: BlockWriter, said: 
 def _areas(caches: CacheValues) -> dict[str, str]:
     """Sheet → the range of all its formula cells: the ends of a filled column are among them."""
     areas: dict[str, str] = {}
-    for title, cells in caches.values.items():
-        coordinates = [coordinate_to_tuple(address) for address in cells]
+    for title in dict.fromkeys((*caches.values, *caches.bare)):
+        coordinates = [coordinate_to_tuple(at) for at in caches.values.get(title, ())]
+        coordinates += [(c.row, c.column) for c in caches.bare.get(title, ()) if c.formula]
         rows, columns = {row for row, _ in coordinates}, {column for _, column in coordinates}
         first, last = (
             Cell(title, end(rows), end(columns)).absolute.partition("!")[2] for end in (min, max)
@@ -484,11 +484,11 @@ def _tests(items: Sequence[Field], layout: Layout) -> Iterable[str]:
             cell = layout.cells[item.name].coordinate
             yield f"OR({','.join(f'{cell}={number(word)}' for word in words)})"
     numbers = [item for item in items if not options(item)]
-    for (least, most), run in groupby(numbers, lambda item: (item.minimum, item.maximum)):
+    for limits, run in groupby(numbers, lambda item: limits_of(item, layout)):
         cells = [layout.cells[item.name] for item in run]
-        if least is None or most is None:
+        if limits is None:
             continue
         cells_tested = area(cells[0], cells[-1]) if len(cells) > 1 else cells[0].coordinate
         yield f"COUNT({cells_tested})={len(cells)}"  # an empty cell would be zero
-        yield f"MIN({cells_tested})>={number(least)}"
-        yield f"MAX({cells_tested})<={number(most)}"
+        yield f"MIN({cells_tested})>={limits[0]}"
+        yield f"MAX({cells_tested})<={limits[1]}"

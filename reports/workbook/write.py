@@ -65,6 +65,7 @@ from reports.workbook.places import (
 from reports.workbook.print_setup import UPRIGHT, print_beginning, set_page, set_widths
 from reports.workbook.sheets import BlockWriter, CacheValues, link
 from reports.workbook.substitution import write_substitutions
+from reports.workbook.typed_over import mark_typed_over
 from reports.workbook.verdict import colour_verdicts, write_verdict
 
 _ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
@@ -284,6 +285,8 @@ def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
                 _remarks(sheet, [text for text in model.remarks if text not in accepted])
         elif isinstance(block, Grid):
             writer.grid(sheet, block)
+    if writer.tells and sheet.title not in model.drawn:
+        mark_typed_over(sheet, writer.caches.columns.get(sheet.title, ()))
 
 
 def _remarks(sheet: Worksheet, remarks: Sequence[str]) -> None:

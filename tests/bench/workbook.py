@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -26,8 +26,10 @@ from reports.model.evaluation import Values, evaluate_model
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from reports.workbook.read import load_workbook_input
+from reports.workbook.sheets import BlockWriter
 from reports.workbook.write import workbook_bytes
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
+from tools.referees.by_formualizer import Formualizer
 
 Written = tuple[int, int, Any, Any, tuple[str, str], str | None]
 
@@ -42,6 +44,15 @@ def solved() -> tuple[Model, Values]:
 def ours() -> bytes:
     """The workbook as ``kshm build`` writes it."""
     return workbook_bytes(*solved())
+
+
+def unshared() -> bytes:
+    """The same with a formula of its own in every cell of a table."""
+    BlockWriter.shares = False
+    try:
+        return ours()
+    finally:
+        BlockWriter.shares = True
 
 
 def cells_of(book: bytes) -> dict[str, list[Written]]:
@@ -84,6 +95,20 @@ def theirs(sheets: dict[str, list[Written]]) -> bytes:
     return stream.getvalue()
 
 
+def shared_formulas() -> Iterator[Figure]:
+    """What one formula to a column of a table buys: time, size, and time of a program's reading."""
+    books = {"ours": ours(), "unshared": unshared()}
+    writing = interleaved({"ours": ours, "unshared": unshared}, rounds=5)
+    yield Figure("по формуле в ячейке / общие: время", ratio(writing, "unshared", "ours"), "раз")
+    size = len(books["unshared"]) / len(books["ours"])
+    yield Figure("по формуле в ячейке / общие: размер", size, "раз")
+    reading = interleaved(
+        {name: partial(Formualizer().recalculate, [book]) for name, book in books.items()}, rounds=3
+    )
+    name = "по формуле в ячейке / общие: пересчёт formualizer"
+    yield Figure(name, ratio(reading, "unshared", "ours"), "раз")
+
+
 def figures() -> Iterator[Figure]:
     """Figures."""
     cells = cells_of(ours())
@@ -94,6 +119,7 @@ def figures() -> Iterator[Figure]:
     yield Figure("XlsxWriter, те же ячейки без диаграмм", median(times["theirs"]), "с")
     yield Figure("книга / XlsxWriter", ratio(times, "ours", "theirs"), "раз", "цель 0,5")
     yield Figure("на ячейку", median(times["ours"]) / count * 1e6, "мкс")
+    yield from shared_formulas()
     with TemporaryDirectory() as folder:
         path = Path(folder, "книга.xlsx")
         path.write_bytes(ours())

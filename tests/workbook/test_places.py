@@ -23,7 +23,7 @@ from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import diagrams_of, heading, ordered, place_of
 from reports.workbook.inputs import write_inputs
-from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, SOURCE_COLUMN, Layout, arranged
+from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, MOST_COLUMN, Layout, arranged
 from reports.workbook.motion import SHEET
 from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
 from reports.workbook.print_setup import set_widths
@@ -242,9 +242,9 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     write_inputs(sheet, model, BlockWriter(layout, Values({}, {})))
     set_widths(sheet, model, layout, Values({}, {}))
     title = layout.cells["report_title"]
-    (across,) = sheet.merged_cells.ranges
+    (across,) = (each for each in sheet.merged_cells.ranges if each.min_row == title.row)
     room = sum(column_px(sheet, i) for i in range(across.min_col, across.max_col + 1))
-    assert (across.min_row, across.max_col) == (title.row, SOURCE_COLUMN)
+    assert (across.min_row, across.max_col) == (title.row, MOST_COLUMN)
     assert _REGULAR.getlength(long) * _PX < room * (row_px(sheet, title.row) // _LINE)
     masses = [item for item in model.inputs if item.value == name]
     first = layout.cells[masses[0].name]

@@ -46,6 +46,7 @@ _MARKED = re.compile(rf"<\?{_MARK} (\d+)\?>".encode())
 # Of curves with more points every tenth is kept and, where a chord misses by more than this part
 # of their height, every second.
 _FINE_CURVE, _COARSE, _BEND, _BENT = 200, 10, 0.01, 2
+_DRAWN_DIGITS = ".4g"  # of points: a picture needs no more
 _PACKED = 7  # of 9: smaller by a fiftieth at hardly any time
 _CHART_TEXT = (
     f'<c:txPr xmlns:c="{_CHART}" xmlns:a="{_A}"><a:bodyPr/><a:p><a:pPr><a:defRPr sz="800">'
@@ -266,12 +267,10 @@ def _fill_chart(data: bytes, caches: CacheValues) -> bytes:
         references = list(series.iter(f"{{{_CHART}}}numRef"))
         curves = [ranges[reference.findtext(f"{{{_CHART}}}f")] for reference in references]
         rows = shape_rows(curves)
-        is_thinned = len(rows) < max(map(len, curves), default=0)
-        digits = ".4g" if is_thinned else ".6g"
-        # Cells still to be filled in have no value; a picture needs no more digits.
+        # Cells still to be filled in have no value.
         for reference, numbers in zip(references, curves, strict=True):
             points = "".join(
-                f'<pt idx="{i}"><v>{numbers[i]:{digits}}</v></pt>'
+                f'<pt idx="{i}"><v>{numbers[i]:{_DRAWN_DIGITS}}</v></pt>'
                 for i in rows
                 if math.isfinite(numbers[i])
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from math import ceil, log10
+from math import ceil, floor, log10
 from typing import ClassVar
 
 from openpyxl.comments import Comment
@@ -44,11 +44,11 @@ from reports.workbook.places import raise_row
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
-_DIGITS = ".12g"  # nobody is shown more; what follows takes room
+_DIGITS = ".13g"  # nobody is shown more; what follows takes room
 _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
-_CURVE_STEPS, _HELPER_STEPS = 2500, 9
+_CURVE_STEPS, _HELPER_STEPS = 500, 25
 # Names of a chart's series are read as they are seen.
 _NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
@@ -368,9 +368,12 @@ def number_text(value: float) -> str:
 
 
 def _step_of(values: Sequence[float], most: int) -> float:
-    """Return a power of ten that the largest value has up to so many of."""
+    """Return a step of one, two or five that the largest value has up to so many of."""
     largest = max(map(abs, values))
-    return 10.0 ** ceil(log10(largest / most)) if largest > 0 else 1.0
+    if not largest:
+        return 1.0
+    unit = 10.0 ** floor(log10(largest / most))
+    return next(step * unit for step in (1, 2, 5, 10) if largest <= most * step * unit)
 
 
 def decimals_in(block: ScalarTable | Grid) -> int:

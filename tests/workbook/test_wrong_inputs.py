@@ -263,7 +263,7 @@ def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
 def test_every_cell_with_a_range_turns_red_beyond_it(name: str) -> None:
     sheet = coarse_opened(name)[INPUT_SHEET]
     collected = {
-        (area.coord, *map(float, rule.formula))
+        (area.coord, *(sheet[limit.replace("$", "")].value for limit in rule.formula))
         for places in sheet.conditional_formatting
         for rule in places.rules
         if rule.operator == "notBetween" and rule.dxf.fill.bgColor.rgb.endswith("FFC7CE")

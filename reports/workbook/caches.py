@@ -283,7 +283,7 @@ def _fill_chart(data: bytes, caches: CacheValues) -> bytes:
             name.append(_marked(
                 f'<strCache><ptCount val="1"/><pt idx="0"><v>{text}</v></pt></strCache>', marks,
             ))  # fmt: skip
-        if is_thinned:
+        if len(rows) < max(map(len, curves), default=0):
             root.find(f".//{{{_CHART}}}dispBlanksAs").set("val", "span")
     # One face and size for all texts of a chart that say none.
     before = root.find(f"{{{_CHART}}}spPr")

@@ -11,7 +11,13 @@ from itertools import groupby
 from openpyxl.utils import get_column_letter
 
 from reports.shared.errors import CacheError
-from reports.workbook.sheets import BareCell, FilledColumn, SharedColumn, number_text
+from reports.workbook.sheets import (
+    BareCell,
+    FilledColumn,
+    SharedColumn,
+    column_texts,
+    number_text,
+)
 
 _ROW = "\x01"  # stands for the number of a row
 _REFERENCE = re.compile(r"(?<![\w$.])([A-Z]{1,3})(\d+)\b")
@@ -57,11 +63,13 @@ def cell_texts(
             for row, cell in _shared(column, begin, middle):
                 texts[row][column.index] = cell
             continue
-        for row, (formula, value) in enumerate(column.cells, column.first_row):
+        numbers = column_texts([value for _, value in column.cells])
+        pairs = zip(column.cells, numbers, strict=True)
+        for row, ((formula, value), number) in enumerate(pairs, column.first_row):
             if not math.isfinite(value):
                 finite(value, f"{title}!{letter}{row}")
             text = f"<f>{escaped(formula[1:])}</f>" if formula else ""
-            cell = f"{begin}{row}{middle}{text}<v>{number_text(value)}</v></c>"
+            cell = f"{begin}{row}{middle}{text}<v>{number}</v></c>"
             texts[row][column.index] = cell
     for at, text in _bare(bare, title):
         texts[at.row][at.column] = text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from math import ceil, floor, log10
+from math import ceil, floor, inf, log10
 from typing import ClassVar
 
 from openpyxl.comments import Comment
@@ -44,11 +44,12 @@ from reports.workbook.places import raise_row
 TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
-_DIGITS = ".13g"  # nobody is shown more; what follows takes room
+_DIGITS = ".14g"  # nobody is shown more; what follows takes room
+_COLUMN_DIGITS = 14  # of the largest value of a column; the others have as many decimals
 _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
-_CURVE_STEPS, _HELPER_STEPS = 500, 25
+_CURVE_STEPS, _HELPER_STEPS = 400, 25
 # Names of a chart's series are read as they are seen.
 _NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels
@@ -255,7 +256,7 @@ class BlockWriter:
         """Cells of a column whose rows have one formula: a program reads it once."""
         self.cells(sheet, index, {0: at_row(template, FIRST_ROW)}, values, look)
         second = FIRST_ROW + 1
-        numbers = list(map(number_text, values[1:]))
+        numbers = column_texts(values)[1:]
         column = SharedColumn(index, second, at_row(template, second), numbers)
         self.caches.columns.setdefault(sheet.title, []).append(column)
 
@@ -365,6 +366,15 @@ class BlockWriter:
 def number_text(value: float) -> str:
     """Return a value as a cell saves it."""
     return f"{value:{_DIGITS}}" if value > _NOTHING or value < -_NOTHING else "0"
+
+
+def column_texts(values: Sequence[float]) -> list[str]:
+    """Return values of a column as its cells save them: decimals that the largest needs."""
+    largest = max(map(abs, values), default=0.0)
+    if not _NOTHING < largest < inf:
+        return list(map(number_text, values))
+    decimals = _COLUMN_DIGITS - 1 - floor(log10(largest))
+    return [number_text(round(value, decimals)) for value in values]
 
 
 def _step_of(values: Sequence[float], most: int) -> float:

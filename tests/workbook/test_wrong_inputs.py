@@ -11,6 +11,7 @@ from types import NoneType
 import formualizer
 import openpyxl
 import pytest
+from openpyxl.worksheet.worksheet import Worksheet
 
 from reports.inputs.fields import Field, key_text, set_value, to_mapping
 from reports.inputs.load import load_mapping
@@ -259,11 +260,16 @@ def test_what_is_odd_at_the_start_is_so_in_the_caches() -> None:
     assert verdict(live).startswith(BAD)  # of the coarse grid, not of what is odd
 
 
+def limit_of(sheet: Worksheet, text: str) -> float:
+    """A limit of a rule, which of a record is typed and of a single input stands in a cell."""
+    return sheet[text.replace("$", "")].value if text.startswith("$") else float(text)
+
+
 @pytest.mark.parametrize("name", samples_with(charts, quantities))
 def test_every_cell_with_a_range_turns_red_beyond_it(name: str) -> None:
     sheet = coarse_opened(name)[INPUT_SHEET]
     collected = {
-        (area.coord, *(sheet[limit.replace("$", "")].value for limit in rule.formula))
+        (area.coord, *(limit_of(sheet, text) for text in rule.formula))
         for places in sheet.conditional_formatting
         for rule in places.rules
         if rule.operator == "notBetween" and rule.dxf.fill.bgColor.rgb.endswith("FFC7CE")

@@ -14,7 +14,7 @@ def first_mentions(pages, word):
     first = {}
     for number, page in enumerate(pages):
         text = re.sub(r"\s+", " ", re.sub(r"[‐-]\n\s*", "", page))
-        text = re.sub(r"(Таблица|таблицы) \d+ (?!и )", "", text)  # captions
+        text = re.sub(r"Таблица \d+ —|(Продолжение|Окончание) таблицы \d+", "", text)  # captions
         for told in re.findall(word + r"[а-я]+ (\d+(?:(?:, | и |–)\d+)*)", text):
             named = set(map(int, re.findall(r"\d+", told)))
             for low, high in re.findall(r"(\d+)–(\d+)", told):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from math import ceil, floor, inf, log10
+from math import ceil, floor, log10
 from typing import ClassVar
 
 from openpyxl.comments import Comment
@@ -45,7 +45,7 @@ TITLE_WIDTH, SYMBOL_WIDTH, SOURCE_WIDTH = 60, 14, 26
 NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 _DIGITS = ".14g"  # nobody is shown more; what follows takes room
-_COLUMN_DIGITS = 14  # of the largest value of a column; the others have as many decimals
+_SHORTER = ".12g"  # of values that are small in their column
 _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
@@ -363,18 +363,17 @@ class BlockWriter:
                     self.scalar(sheet, scalar, decimals)
 
 
-def number_text(value: float) -> str:
+def number_text(value: float, small: float = 0.0) -> str:
     """Return a value as a cell saves it."""
-    return f"{value:{_DIGITS}}" if value > _NOTHING or value < -_NOTHING else "0"
+    if -_NOTHING <= value <= _NOTHING:
+        return "0"
+    return f"{value:{_SHORTER if -small < value < small else _DIGITS}}"
 
 
 def column_texts(values: Sequence[float]) -> list[str]:
-    """Return values of a column as its cells save them: decimals that the largest needs."""
+    """Return values of a column as its cells save them: of small ones fewer digits."""
     largest = max(map(abs, values), default=0.0)
-    if not _NOTHING < largest < inf:
-        return list(map(number_text, values))
-    decimals = _COLUMN_DIGITS - 1 - floor(log10(largest))
-    return [number_text(round(value, decimals)) for value in values]
+    return [number_text(value, 0.1 * largest) for value in values]
 
 
 def _step_of(values: Sequence[float], most: int) -> float:

@@ -388,8 +388,7 @@ class Terms:
         def symbol(inner: str) -> str:
             node = self._global(inner, table)
             torque = _TORQUE.fullmatch(node)
-            is_alone = self.model.input.engine.cylinders == 1
-            if torque and not is_alone and not node.startswith(f"{table}."):  # one of others
+            if torque and not node.startswith(f"{table}."):  # of one cylinder among others
                 return rf"M_{{{torque[1] or 1}\mathrm{{ц}}}}"
             return self.tex(node)
 

@@ -388,6 +388,8 @@ class Terms:
         def symbol(inner: str) -> str:
             node = self._global(inner, table)
             torque = _TORQUE.fullmatch(node)
+            if self.model.input.engine.cylinders == 1 and (torque or node == "P4_2.M1_Nm"):
+                return self.tex("P4_1.M_Nm")
             if torque and not node.startswith(f"{table}."):  # of one cylinder among others
                 return rf"M_{{{torque[1] or 1}\mathrm{{ц}}}}"
             return self.tex(node)

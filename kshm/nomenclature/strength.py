@@ -256,7 +256,7 @@ ROWS: tuple[Row, ...] = (
     ),
     ("st_web_bend#_MPa", r"\sigma_{\mathrm{щ}#}", "MPa", "нормальное напряжение щеки колена #", 2),
     # Materials.
-    ("weights#_N", r"R_{\mathrm{пв}#}", "N", "реакция опоры на противовесы колена #", 0),
+    ("weights#_N", r"R_{\mathrm{оп}#}", "N", "реакция опоры на противовесы колена #", 0),
     ("st_over", "", "", "больше обычных пределов", 0),
     ("st_mat_tensile_MPa", r"\sigma_{\mathrm{в}}", "MPa", "предел прочности", 0),
     ("st_mat_yield_MPa", r"\sigma_{\mathrm{т}}", "MPa", "предел текучести", 0),

@@ -63,7 +63,8 @@ def test_what_is_redirected_is_whole_in_utf_8(
     tmp_path: Path, words: str, told: str, encoding: str
 ) -> None:
     done = run(with_engine(words, tmp_path), encoding)
-    assert done.returncode == 0, done.stderr.decode()
+    odd = words.startswith("check")  # a check fails on a coarse grid
+    assert done.returncode == odd, done.stderr.decode()
     assert told in done.stdout.decode("utf-8")
     assert "�" not in done.stdout.decode("utf-8")
     if "json" in words:

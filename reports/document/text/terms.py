@@ -40,6 +40,7 @@ _SYMBOLS = {
     "throw": "",
     TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
+_EXTREME = re.compile(r"col_(max|min)\(([\w.]+)\)")
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
 _SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
@@ -278,7 +279,9 @@ class Terms:
             product = formulas.to_tex_numbers(self._node_expr(node), self._symbols(name), number)
             return formulas.Raw("0" if product.startswith(r"0 \cdot") else product)
 
-        given = formulas.to_tex_numbers(expr, self._symbols(name), number)
+        given = formulas.to_tex_numbers(
+            self._with_extremes(name, expr, digits), self._symbols(name), number
+        )
         if given != parts[-1]:  # an extreme of a column has no numbers to put in
             parts.append(given)
         parts.append(self.result_tex(name, at))
@@ -363,7 +366,21 @@ class Terms:
             return formulas.as_put_in(value, digits)
 
         given = self._result_tex(name, self.value(name, at))
-        return self._result_tex(name, float(evaluate(expr, rounded))) == given
+        put_in = self._with_extremes(name, expr, digits)
+        return self._result_tex(name, float(evaluate(put_in, rounded))) == given
+
+    def _with_extremes(self, name: str, expr: str, digits: int) -> str:
+        """Return a formula with numbers for the extremes of columns, unless it is one itself."""
+        if _EXTREME.fullmatch(expr):
+            return expr
+        table = name.rpartition(".")[0]
+
+        def number(match: re.Match[str]) -> str:
+            column = self.column(self._global(match[2], table))
+            value = column.max() if match[1] == "max" else column.min()
+            return repr(formulas.as_put_in(round(float(value), 12), digits))
+
+        return _EXTREME.sub(number, expr)
 
     def _symbols(self, name: str) -> formulas.Symbols:
         table = name.rpartition(".")[0]
@@ -371,6 +388,8 @@ class Terms:
         def symbol(inner: str) -> str:
             node = self._global(inner, table)
             torque = _TORQUE.fullmatch(node)
+            if self.model.input.engine.cylinders == 1 and (torque or node == "P4_2.M1_Nm"):
+                return self.tex("P4_1.M_Nm")
             if torque and not node.startswith(f"{table}."):  # of one cylinder among others
                 return rf"M_{{{torque[1] or 1}\mathrm{{ц}}}}"
             return self.tex(node)

@@ -58,7 +58,7 @@ def test_points_of_charts_are_those_of_the_cells() -> None:
             rows = [int(p.get("idx")) for p in reference.iterfind(f"{C}numCache/{C}pt")]
             noise = 1e-12
             if CURVES in where:  # as many digits as a picture needs
-                noise = max(map(abs, points)) / 320 if len(cells) > 1 else 0.006
+                noise = max(map(abs, points)) / 320 if len(cells) > 1 else 0.011
                 saved |= {where: len(rows)} if len(cells) > 1 else {}
             else:
                 assert len(rows) == len(cells), where

@@ -316,20 +316,23 @@ def _lock(path: Path) -> int | None:
     return handle
 
 
-def _is_abandoned(path: Path) -> bool:
-    """Whether nobody writes what is hidden any more: without locks, what is a day old."""
+def _remove_unless_written(path: Path) -> None:
+    """Remove what is hidden if nobody writes it any more: without locks, what is a day old.
+
+    The lock is kept to the end: whoever takes it next sees that the path is gone.
+    """
     try:
         import fcntl
     except ImportError:  # Windows
-        return time.time() - path.stat().st_mtime > _DAY_S
+        if time.time() - path.stat().st_mtime > _DAY_S:
+            _remove(path)
+        return
     handle = os.open(path, os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
+        _remove(path)
     finally:
         os.close(handle)
-    return True
 
 
 def _remove_abandoned(folder: Path) -> None:
@@ -342,8 +345,8 @@ def _remove_abandoned(folder: Path) -> None:
         # Killed while folders changed places: one of the two is all that there is.
         is_half = name + _OLD in hidden or name.removesuffix(_OLD) in hidden.keys() - {name}
         with contextlib.suppress(OSError):
-            if not is_half and path not in _unfinished and _is_abandoned(path):
-                _remove(path)
+            if not is_half and path not in _unfinished:
+                _remove_unless_written(path)
 
 
 def _fresh_name(folder: Path, suffix: str) -> Path:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pytest
+
+from reports.shared import files
 from tests.cover import examples
 from tests.robustness.command import leftovers, small_input, started
 
@@ -30,3 +33,24 @@ def test_many_commands_in_one_folder(tmp_path):
     assert {path.name for path in out.iterdir()} == names | {"b.json"}
     for name in names:
         assert (out / name).read_bytes() == (alone / name).read_bytes()
+
+
+def test_what_another_has_locked_by_then_is_removed_under_a_lock(tmp_path, monkeypatch):
+    """Between the look and the removal a writer took the file for its own, and lost it."""
+    fcntl = pytest.importorskip("fcntl")
+    left = tmp_path / ".kshm-left.csv"
+    left.touch()
+    free = []
+
+    def removed(path):
+        with path.open("rb") as stream:
+            try:
+                fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                path.unlink()
+            else:
+                free.append(path)
+
+    monkeypatch.setattr(files, "_remove", removed)
+    files._remove_abandoned(tmp_path)
+    assert not free and not left.exists()

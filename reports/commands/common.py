@@ -131,12 +131,10 @@ def tell_solved(loaded: Loaded, *, aside: bool = False, every: bool = False) -> 
     Failed checks are those of own books, with ``every`` those of the program too.
     """
     from reports.exports.own_books import failed_engine_checks
-    from reports.inputs.solve_input import POWER, power_problems, solution_remarks
+    from reports.inputs.solve_input import power_problems, solution_remarks
     from reports.shared.standing import Notice, Severity
 
     power, failed = power_problems(loaded.model), failed_engine_checks(loaded.model, every=every)
-    if power:  # which say more of it
-        failed = [each for each in failed if not each.key.startswith(POWER)]
     lines = [*(each.line() for each in power), *(each.line() for each in failed)]
     remarks = [Notice(Severity.WARNING, line) for line in lines]
     remarks += solution_remarks(loaded.model)

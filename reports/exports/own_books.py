@@ -15,6 +15,7 @@ from reports.exports.book_faults import Own
 from reports.exports.book_meanings import compared, misread
 from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
+from reports.inputs.solve_input import POWER, power_problems
 from reports.model.book_text import BookPlaces, Shelf, shelf_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation
@@ -101,7 +102,9 @@ def failed_engine_checks(model: InputFile, *, every: bool) -> list[Failed]:
     """
     if not model.books and not every:
         return []
-    return failed_of(kept_model(model), department=not every)
+    failed = failed_of(kept_model(model), department=not every)
+    told = power_problems(model)  # which say more of it
+    return [each for each in failed if not (told and each.key.startswith(POWER))]
 
 
 @dataclass(frozen=True, slots=True)

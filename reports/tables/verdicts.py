@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from kshm.ranges import side_of
+from reports.formula.parse import names
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import NO, YES, Block, Held, Model, Scalar, ScalarTable, scalars_of
 from reports.model.evaluation import Evaluation, Values
@@ -19,7 +20,6 @@ _PREFIX, _ALLOWED = "check_", "allowed_"
 class JudgedValue:
     """A value of the tables and where it stands; ``key`` is that of its verdict."""
 
-    sheet: str
     block: str
     held: Held
     key: str
@@ -56,7 +56,7 @@ def _judged(block: ScalarTable, scalars: Mapping[str, float | str]) -> Iterator[
         if said in words:
             value = float(scalars[scalar.key])
             where = Standing.INSIDE if said == words[0] else _outside(value, scalar.usual)
-            yield JudgedValue(block.sheet, block.id, held, verdict.key, scalar, value, where)
+            yield JudgedValue(block.id, held, verdict.key, scalar, value, where)
 
 
 def _outside(value: float, usual: tuple[float, float] | None) -> Standing:
@@ -105,24 +105,26 @@ def checks_of(model: Model, *, department: bool = False) -> dict[str, Scalar]:
 def failed_checks(model: Model, values: Values, *, department: bool = False) -> list[Failed]:
     """Return checks that did not pass, in their order; ``department`` leaves those of own books."""
     reasons = reasons_of(model.input)
-    names = {scalar.key for scalar in checks_of(model, department=department).values()}
+    keys = {scalar.key for scalar in checks_of(model, department=department).values()}
     judged = outcomes(model, values.scalars)
     return [
         Failed(each.name, each.title, check_value(each.value), reasons.get(each.name, ""),
-               _counted(each, judged))
+               _counted(each, model, judged))
         for each in judged
         if each.standing is not Standing.INSIDE
-        and each.key in names
+        and each.key in keys
         and (each.held is Held.CHECK or each.key in model.department)
     ]  # fmt: skip
 
 
-def _counted(check: JudgedValue, judged: Sequence[JudgedValue]) -> tuple[str, ...]:
-    """Return the values of a sheet beyond what is usual where a check is their number."""
+def _counted(check: JudgedValue, model: Model, judged: Sequence[JudgedValue]) -> tuple[str, ...]:
+    """Return the values beyond what is usual that a check counts, where it is their number."""
+    marks = (model.scalars[name] for name in names(check.scalar.expr) if name in model.scalars)
+    watched = frozenset[str]().union(*(names(mark.expr) for mark in marks))
     beyond = [
         f"{uncapital(each.scalar.note)} {check_value(each.value)}, обычно {each.scalar.usual_text}"
         for each in judged
-        if each.held is Held.USUAL and each.sheet == check.sheet and each.scalar.usual
+        if each.held is Held.USUAL and each.scalar.expr in watched and each.scalar.usual
         and abs(each.value) > each.scalar.usual[1]
     ]  # fmt: skip
     return tuple(beyond) if len(beyond) == check.value else ()
@@ -131,11 +133,11 @@ def _counted(check: JudgedValue, judged: Sequence[JudgedValue]) -> tuple[str, ..
 def failed_of(model: Model, *, department: bool = False) -> list[Failed]:
     """Return checks that an engine does not pass and does not explain, no more calculated."""
     run = Evaluation(model)
-    names = {verdict.key for verdict in checks_of(model, department=department).values()}
+    keys = {verdict.key for verdict in checks_of(model, department=department).values()}
     lists = [block for block in model.blocks if isinstance(block, ScalarTable) and block.held]
     scalars = {
         scalar.key: run.value(scalar.key)
-        for block in lists if block.held is Held.USUAL or names & {v.key for _, v in block.pairs}
+        for block in lists if block.held is Held.USUAL or keys & {v.key for _, v in block.pairs}
         for pair in block.pairs for scalar in pair
     }  # fmt: skip
     failed = failed_checks(model, Values(scalars, {}), department=department)

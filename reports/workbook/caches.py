@@ -46,7 +46,7 @@ _MARKED = re.compile(rf"<\?{_MARK} (\d+)\?>".encode())
 # Of curves with more points every tenth is kept and, where a chord misses by more than this part
 # of their height, every second.
 _FINE_CURVE, _COARSE, _BEND, _BENT = 200, 10, 0.01, 2
-_DRAWN_DIGITS = ".4g"  # of points: a picture needs no more
+_DRAWN_DIGITS = ".6g"  # of points: a picture needs no more
 _PACKED = 7  # of 9: smaller by a fiftieth at hardly any time
 _CHART_TEXT = (
     f'<c:txPr xmlns:c="{_CHART}" xmlns:a="{_A}"><a:bodyPr/><a:p><a:pPr><a:defRPr sz="800">'

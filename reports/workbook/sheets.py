@@ -49,7 +49,7 @@ _SHORTER = ".12g"  # of values that are small in their column
 _NOTHING = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
-_CURVE_STEPS, _HELPER_STEPS = 400, 25
+_CURVE_STEPS, _HELPER_STEPS = 900, 25
 # Names of a chart's series are read as they are seen.
 _NAMES_OF_SERIES, _DEGREES = {"mark_label", "arrow_deg"}, '0"°"'
 Runs = tuple[tuple[str, str], ...]  # of a text: pieces and their levels

@@ -58,12 +58,12 @@ def test_points_of_charts_are_those_of_the_cells() -> None:
             rows = [int(p.get("idx")) for p in reference.iterfind(f"{C}numCache/{C}pt")]
             noise = 1e-12
             if CURVES in where:  # as many digits as a picture needs
-                noise = max(map(abs, points)) / 320 if len(cells) > 1 else 0.011
+                noise = max(map(abs, points)) / 700 if len(cells) > 1 else 0.006
                 saved |= {where: len(rows)} if len(cells) > 1 else {}
             else:
                 assert len(rows) == len(cells), where
             cells = [cells[row] for row in rows]
-            assert points == pytest.approx(cells, rel=5.1e-4, abs=noise), (name, where)
+            assert points == pytest.approx(cells, rel=5.1e-6, abs=noise), (name, where)
             compared += len(points)
     assert compared > 2000
     assert len(saved) > 20 and 73 <= max(saved.values()) < 500

@@ -19,7 +19,7 @@ from reports.tables.left_out import left_out_note
 from reports.workbook import styles
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
 from reports.workbook.charts import HIGH, WIDE, make_chart, names_of, ranges_of
-from reports.workbook.key_values import key_values, results_of, worst_pin
+from reports.workbook.key_values import key_values, nought_words, results_of, worst_pin
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
@@ -38,6 +38,7 @@ from reports.workbook.places import (
     anchor,
     column_px,
     flow,
+    lines_of,
     raise_row,
     top_of,
     wrap_across,
@@ -56,7 +57,7 @@ DATA = (
 CHARTS = ("fig50", "fig49", "p_phi", "fig52")
 _PIN_CHARTS = {"fig50", "fig52"}
 BESIDE = ("fig49", "fig50")
-_WIDTHS = {"A": 31, "B": 9, "C": 14, "D": 7, "E": 1.5}
+_WIDTHS = {"A": 28, "B": 9, "C": 13, "D": 7, "E": 1.5}
 PEOPLE_ROW, VERDICT_ROW = 2, 3
 _VERDICT_HEIGHT = 30.0  # pt: two lines
 _HIDDEN = "Нужные только формулам листы скрыты: правая кнопка на ярлыке → «Показать»."
@@ -186,12 +187,13 @@ def _values(
         key = formula.removeprefix("=")
         if key in writer.layout.model.fields:
             at = writer.layout.cells[key]
-            link(sheet, Cell(sheet.title, row, 1), text, at.sheet, at.coordinate)
-            # LibreOffice breaks no link into lines.
-            sheet.cell(row, 1).alignment = Alignment(vertical="center", shrink_to_fit=True)
+            # LibreOffice breaks no link into lines: the symbol of a long title is the link.
+            symbol = None if lines_of(text, _WIDTHS["A"]) == 1 else sheet.cell(row, 2).value
+            words, column = (str(symbol), 2) if symbol else (text, 1)
+            link(sheet, Cell(sheet.title, row, column), words, at.sheet, at.coordinate)
         writer.formula(sheet, row, 3, formula, value)
         sheet.cell(row, 3).style = styles.FORMULA
-        sheet.cell(row, 3).number_format = look
+        sheet.cell(row, 3).number_format = look + nought_words(key)
     return row + 1
 
 

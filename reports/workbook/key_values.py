@@ -28,6 +28,7 @@ _OF_PINS = {
     "Rpin_mean": "Rpin{}_mean", "Rpin_max": "Rpin{}_max", "q_pin_max": "q_pin{}_max",
     "hole_pin_deg": "hole_pin{}_deg",
 }  # fmt: skip
+NOUGHT = {"I_flywheel": "не нужен"}  # what a zero says, in words
 _WORST = "worst_pin_load"
 _WORST_PIN = (
     ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
@@ -66,7 +67,7 @@ def key_values(
         elif key in known_keys:
             quantity = model.scalars[key].quantity
             look = styles.excel_format(quantity, decimals)
-            formula, value = _ofworst_pin(writer, key)
+            formula, value = _of_worst_pin(writer, key)
             title = capital(quantity.title)
             if formula != f"={key}":
                 for words, more in _WORST_PIN:
@@ -74,7 +75,12 @@ def key_values(
             yield title, quantity, formula, value, quantity.unit_label, look
 
 
-def _ofworst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
+def nought_words(key: str) -> str:
+    """Return the rest of a number format: minus and words for a zero of a value that has them."""
+    return f';General;"{NOUGHT[key]}"' if key in NOUGHT else ""
+
+
+def _of_worst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
     """Return the formula and value of a scalar, of the most loaded pin where each has its own."""
     values = writer.values.scalars
     if key not in _OF_PINS or _WORST not in values:

@@ -125,7 +125,16 @@ def raise_row(sheet: Worksheet, row: int, texts: Mapping[str, float]) -> None:
     """Room for texts that wrap, with the widths of their columns."""
     lines = max(lines_of(text, width) for text, width in texts.items())
     if lines > 1:
-        sheet.row_dimensions[row].height = LINE * lines
+        height = sheet.row_dimensions[row].height or LINE
+        sheet.row_dimensions[row].height = max(height, LINE * lines)
+
+
+def wrap_within(sheet: Worksheet, at: tuple[int, int], text: str, width: float) -> None:
+    """Let a text of a cell wrap in its column, made so wide."""
+    row, column = at
+    sheet.column_dimensions[get_column_letter(column)].width = width
+    sheet.cell(row, column).alignment = Alignment(wrap_text=True, vertical="center")
+    raise_row(sheet, row, {text: width})
 
 
 def top_of(sheet: Worksheet, row: int) -> int:

@@ -13,7 +13,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 from kshm.nomenclature.quantity import Quantity
 from reports.tables.strength_members import SAFETIES
 from reports.workbook import styles
-from reports.workbook.key_values import key_values
+from reports.workbook.key_values import NOUGHT, key_values
+from reports.workbook.places import DIGIT, column_px, lines_of
 from reports.workbook.sheets import BlockWriter
 
 # First and last columns of the tiles, and of the links below them.
@@ -29,7 +30,8 @@ _TILES: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
 )
 _SAFETIES = (*SAFETIES, "safe_n_pin", "safe_n_main")
 _LEAST_SAFETY = "Наименьший запас прочности деталей"
-_HEIGHTS = (26.0, 22.0, 15.0)  # pt: title, value, what stands below
+_HEIGHTS = (26.0, 22.0, 15.0)  # pt: title of two lines, value, what stands below
+_TITLE_LINE, _TITLE_SIZE, _INDENT = 12.0, styles.SIZE - 2, 10  # pt, pt, px
 _DIGITS = 4
 _FILL, _EDGE, _PALE = "F3F6FA", "2E75B6", "595959"
 
@@ -43,13 +45,15 @@ class _Number:
     value: float
     symbol: str
     look: str
+    nought: str = ""  # what a zero says
 
     @property
     def with_symbol(self) -> str:
         """Number format with the symbol in the cell."""
         if not self.symbol:
             return self.look
-        return ";".join(f'"{self.symbol} = {sign}"{self.look}' for sign in ("", "−"))
+        signed = [f'"{self.symbol} = {sign}"{self.look}' for sign in ("", "−")]
+        return ";".join((*signed, f'"{self.symbol}: {self.nought}"') if self.nought else signed)
 
 
 def write_tiles(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
@@ -65,6 +69,7 @@ def write_tiles(sheet: Worksheet, writer: BlockWriter, row: int) -> int:
         _frame(sheet, row, span)
         if number is not None:
             sheet.cell(row, span[0], number.title)
+            _raise(sheet, row, span, number.title)
         for at, each in ((row + 1, number), (row + 2, below)):
             if each is not None:
                 writer.formula(sheet, at, span[0], each.formula, each.value)
@@ -78,8 +83,17 @@ def _first(writer: BlockWriter, keys: Sequence[str]) -> _Number | None:
     for title, measure, formula, value, unit, _ in key_values(writer, keys):
         if isinstance(measure, Quantity) and isinstance(value, float | int):
             look = _few_digits(measure, float(value)) + (f'" {unit}"' if unit else "")
-            return _Number(title, formula, float(value), measure.symbol, look)
+            nought = NOUGHT.get(formula.removeprefix("="), "")
+            return _Number(title, formula, float(value), measure.symbol, look, nought)
     return None
+
+
+def _raise(sheet: Worksheet, row: int, span: tuple[int, int], title: str) -> None:
+    """Raise the row of titles until one has room."""
+    width = sum(column_px(sheet, index) for index in range(span[0], span[1] + 1)) - _INDENT
+    lines = lines_of(title, width / DIGIT * styles.SIZE / _TITLE_SIZE)
+    height = sheet.row_dimensions[row].height
+    sheet.row_dimensions[row].height = max(height, _TITLE_LINE * lines + 2)
 
 
 def _few_digits(quantity: Quantity, value: float) -> str:
@@ -102,7 +116,7 @@ def _least_safety(writer: BlockWriter) -> _Number | None:
 def _frame(sheet: Worksheet, row: int, span: tuple[int, int]) -> None:
     """Merge, fill and border of a tile."""
     fonts = (
-        Font(name=styles.FONT, size=styles.SIZE - 2, color=_PALE),
+        Font(name=styles.FONT, size=_TITLE_SIZE, color=_PALE),
         Font(name=styles.FONT, size=styles.SIZE + 4, bold=True, color="1F3864"),
         Font(name=styles.FONT, size=styles.SIZE - 1, color=_PALE),
     )

@@ -44,6 +44,7 @@ from reports.workbook.layout import (
     column_range,
     quoted,
 )
+from reports.workbook.places import wrap_within
 from reports.workbook.sheets import BlockWriter, CacheValues, link
 
 GOOD, ACCEPTED = "Проверки выполнены", "Принято: "
@@ -60,7 +61,7 @@ _FAILED, _BROKEN = "сколько не так", "На скольких лист
 _RESHAPED_ROWS = f"{INPUT_SHEET}: в скольких строках изменена структура"
 _WRONG_ROW, _ODD_ROW, RESHAPED_ROW = 1, 2, 10  # the last is added to either
 _CHECKS = "checks"  # the list of the house; a department's book may have checks too
-_REASON_COLUMN = SOURCE_COLUMN + 1
+_REASON_COLUMN, _REASON_WIDTH = SOURCE_COLUMN + 1, 50
 # Columns of a count: words on the first of what it counts and on the first accepted one, where
 # both stand in their list, the words of the whole sheet.
 _WORDS, _ACCEPTED, _AT, _ACCEPTED_AT, _HELP = "E", "F", "G", "H", ("G", "H", "I", "J")
@@ -247,6 +248,7 @@ def _of_list(
         sheet, row, (_ACCEPTED_AT, _ACCEPTED), marks, judged, taken, writer,
         reason=reasons[taken[0][1].key] if taken else "",
     )  # fmt: skip
+    wrap_within(sheet, (row, _REASON_COLUMN), said, _REASON_WIDTH)
     return _Count(row, verdict, words, said)
 
 
@@ -274,6 +276,7 @@ def _mark_accepted(
         sheet.cell(at.row, SOURCE_COLUMN).style = styles.TEXT
         if reason := reasons.get(verdict.key):
             styles.as_text(sheet.cell(at.row, _REASON_COLUMN, reason)).style = styles.NOTE
+            wrap_within(sheet, (at.row, _REASON_COLUMN), reason, _REASON_WIDTH)
     rows = [writer.layout.cells[verdict.key].row for _, verdict in block.pairs]
     cells = area(Cell("", rows[0], UNIT_COLUMN), Cell("", rows[-1], SOURCE_COLUMN))
     before(sheet, cells, FormulaRule([f'${letter}{rows[0]}="{_TAKEN}"'], stopIfTrue=True,

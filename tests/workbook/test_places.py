@@ -22,12 +22,21 @@ from reports.new.generate import file_text, generate_engine
 from reports.tables.registry import build_model
 from reports.workbook import styles
 from reports.workbook.chapters import diagrams_of, heading, ordered, place_of
+from reports.workbook.cockpit import VERDICT_ROW
 from reports.workbook.inputs import write_inputs
-from reports.workbook.layout import HEADER_ROW, INPUT_SHEET, MOST_COLUMN, Layout, arranged
+from reports.workbook.layout import (
+    CONTENTS_SHEET,
+    HEADER_ROW,
+    INPUT_SHEET,
+    MOST_COLUMN,
+    Layout,
+    arranged,
+)
 from reports.workbook.motion import SHEET
-from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, row_px
+from reports.workbook.places import DIGIT, FOLD, SCREEN, Box, column_px, extent, lines_of, row_px
 from reports.workbook.print_setup import set_widths
 from reports.workbook.sheets import BlockWriter
+from reports.workbook.tiles import SPANS
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample, sample_names
 from tests.cover import charts, quantities, samples_with
@@ -302,3 +311,45 @@ def test_a_scheme_names_its_rows_and_throws() -> None:
     dashes = [d.get("val") for d in scheme.iterfind(f".//{C}ser/{C}spPr/{A}ln/{A}prstDash")]
     assert dashes[:2] == ["lgDashDot", "solid"]
     assert scheme.find(f".//{C}legend") is not None
+
+
+def test_two_charts_of_the_first_sheet_fit_a_small_screen() -> None:
+    """1366 px less the numbers of rows and the bars at the right of LibreOffice."""
+    for name in ("gots-diesel", "yamz-238"):
+        boxes = boxes_of(coarse_opened(name)[CONTENTS_SHEET])
+        top = [box for box in boxes if box.y == boxes[0].y]
+        assert len(top) == 2
+        assert max(box.right for box in top) <= 1366 - 114
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-238"])
+def test_words_of_the_first_sheet_have_room(name: str) -> None:
+    """No letters made smaller, no tile's title cut: a V says whose pin is loaded most."""
+    sheet = coarse_opened(name)[CONTENTS_SHEET]
+    assert not [c.coordinate for row in sheet for c in row if c.alignment.shrink_to_fit]
+    for first, last in SPANS:
+        width = sum(column_px(sheet, index) for index in range(first, last + 1))
+        letters = width / DIGIT * styles.SIZE / (styles.SIZE - 2)
+        lines = lines_of(str(sheet.cell(VERDICT_ROW + 1, first).value), letters)
+        assert row_px(sheet, VERDICT_ROW + 1) >= lines * 15
+    links = {c.value for row in sheet for c in row if c.hyperlink}
+    long = "Масса возвратно-поступательно движущихся деталей"
+    assert long not in links
+    assert "n" not in links
+
+
+def test_a_flywheel_that_is_not_needed_says_so() -> None:
+    sheet = coarse_opened("gots-diesel")[CONTENTS_SHEET]
+    looks = [c.number_format for row in sheet for c in row if c.value == "=I_flywheel"]
+    assert len(looks) == 2
+    assert all(look.endswith('не нужен"') for look in looks)
+
+
+def test_a_reason_of_an_accepted_check_has_room() -> None:
+    sheet = coarse_opened("gots-diesel")["Проверки"]
+    reasons = [c for c in sheet["F"] if isinstance(c.value, str) and "в учебнике" in c.value]
+    assert reasons
+    for cell in reasons:
+        assert cell.alignment.wrap_text
+        lines = lines_of(cell.value, sheet.column_dimensions["F"].width)
+        assert row_px(sheet, cell.row) >= 20 * lines

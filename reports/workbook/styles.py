@@ -159,19 +159,6 @@ def add_styles(book: Workbook) -> None:
     style(CHECK, border=rule, alignment=centre, font=Font(name=FONT, size=SIZE, bold=True))
 
 
-class _Rule(Border):  # type: ignore[misc]
-    """A border of many cells: its hash, which openpyxl asks for each, takes longer than a cell."""
-
-    __elements__, __attrs__, __nested__ = Border.__elements__, Border.__attrs__, Border.__nested__
-
-    def __hash__(self) -> int:
-        """Return the hash of the border, reckoned once."""
-        known = self.__dict__.get("kept")
-        if known is None:
-            known = self.__dict__["kept"] = super().__hash__()
-        return int(known)
-
-
 @cache
 def _title_font(size: int, colour: str) -> Font:
     return Font(name=FONT, size=size, bold=True, color=colour)
@@ -182,7 +169,7 @@ def look(sheet: Worksheet, colour: str) -> None:
     sheet.sheet_view.showGridLines = False
     sheet.sheet_format.customHeight = True
     sheet.sheet_properties.tabColor = colour
-    under = _Rule(bottom=Side(style="medium", color=colour))
+    under = Border(bottom=Side(style="medium", color=colour))
     rows = range(1, sheet.max_row + 1)
     first = [cell for cell in (sheet.cell(row, 1) for row in rows) if isinstance(cell.value, str)]
     for cell in (*first, *sheet[_TITLES_ROW]):

@@ -405,8 +405,7 @@ def _titles(model: type[Strictly]) -> dict[str, str]:
     titles = {}
     for key, spec in hints(model).items():
         for meta in spec.metas[:1]:
-            title = meta.title.replace("{n}", "N").removeprefix("Щека N: ")
-            titles[key] = title.removeprefix("Колено N: ").replace(" N:", ":")
+            titles[key] = meta.title.rpartition("{n}: ")[2]  # which entry the heading says
             options = meta.choices or {}
             if any(word != label for word, label in options.items()) and len(options) < 5:
                 words = ", ".join(f"{word} — {label}" for word, label in options.items())

@@ -67,15 +67,15 @@ SAME = 0.01  # share within which values count as equal
 STILL = 1e-3  # of the engine's own load or torque: what is smaller is nought
 _THOUSANDS = 1000.0
 _TIMES = 2.0  # from here on "so many times" is said
-# Key of the result, what is said of the greatest of it.
+# Key of the result, the superlative, its name.
 _GREATEST = (
-    ("M_e", "Наибольший эффективный момент"),
-    ("N_i_calc", "Наибольшая индикаторная мощность"),
-    ("c_m", "Наибольшая средняя скорость поршня"),
-    ("Rpin_max_kN", "Наибольшая нагрузка на шатунную шейку"),
-    (r"Rmain\d+_max_kN", "Наибольшая нагрузка на коренную шейку"),
-    (r"dM_main\d+", "Наибольший размах набегающего момента коренных шеек"),
-    ("I_flywheel", "Самый тяжёлый маховик"),
+    ("M_e", "Наибольший", "эффективный момент"),
+    ("N_i_calc", "Наибольшая", "индикаторная мощность"),
+    ("c_m", "Наибольшая", "средняя скорость поршня"),
+    ("Rpin_max_kN", "Наибольшая", "нагрузка на шатунную шейку"),
+    (r"Rmain\d+_max_kN", "Наибольшая", "нагрузка на коренную шейку"),
+    (r"dM_main\d+", "Наибольший", "размах набегающего момента коренных шеек"),
+    ("I_flywheel", "Самый тяжёлый", "маховик"),
 )
 # And what an engine's own size is measured by.
 _BALANCE = (
@@ -373,7 +373,7 @@ def _litres(volume: float) -> str:
 
 
 def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
-    for key, words in _GREATEST:
+    for key, most, name in _GREATEST:
         row = rows.get(key)
         values = _known(row)
         if row is None or values is None or min(values) <= 0:
@@ -382,12 +382,10 @@ def _greatest(names: Sequence[str], rows: Mapping[str, Row]) -> Iterator[str]:
         number = written(values[big], row.quantity(big).digits, group=True)
         text = f"{number} {row.unit}".rstrip().replace(" ", NBSP)
         if spread(values) <= SAME:
-            name = words.removeprefix("Наибольшая ").removeprefix("Наибольший ")
-            name = name.removeprefix("Самый тяжёлый ")
             yield f"Одинаковы с точностью 1{NBSP}%: {name}, {text}."
         else:
             more = _more(values[big] / values[small])
-            yield f"{words} — {names[big]}: {text}, {more} больше, чем у {names[small]}."
+            yield f"{most} {name} — {names[big]}: {text}, {more} больше, чем у {names[small]}."
 
 
 def _more(ratio: float) -> str:

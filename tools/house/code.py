@@ -39,6 +39,11 @@ class Code:
         return _texts(self.root / "tests", "*.py")
 
     @cached_property
+    def tools(self) -> dict[Path, str]:
+        """Text of each file of the tools."""
+        return _texts(self.root / "tools", "*.py")
+
+    @cached_property
     def books(self) -> dict[str, str]:
         """Text of each book by its name."""
         actual = _texts(self.root / "templates", "*.book")

@@ -179,10 +179,9 @@ def circles_of_rooms(code: Code) -> str:
 
 
 def for_tests_alone(code: Code) -> str:
-    """Public functions of modules that no code of the packages names, but a test does."""
-    used = Counter(
-        word for tree in code.trees.values() for node in ast.walk(tree) for word in _uses(node)
-    )
+    """Public functions of modules that no code of the packages or tools names, but a test does."""
+    trees = (*code.trees.values(), *map(ast.parse, code.tools.values()))
+    used = Counter(word for tree in trees for node in ast.walk(tree) for word in _uses(node))
     tested = set(re.findall(r"\w+", "\n".join(code.tests.values())))
     templates = " ".join(
         path.read_text(encoding="utf-8") for path in (code.root / "templates").rglob("*.j2")

@@ -121,7 +121,7 @@ def _value(cell: str) -> float | None:
 
 
 def _mend(cell: str, units: frozenset[str]) -> str:
-    """Return what makes a number of a cell that is nearly one; empty if nothing does."""
+    """Return the mend that makes a cell a number; empty if there is none."""
     if _value(cell) is not None:
         return ""
     if _THOUSANDS.fullmatch(cell):
@@ -207,7 +207,7 @@ def _is_numbering(
 
 
 def _columns_beside(body: list[Row], first: int) -> Iterator[tuple[float, ...]]:
-    """Columns of numbers from one on, to the first that is none."""
+    """Consecutive columns of numbers, from a first one."""
     for column in range(first, min(len(fields) for _, fields in body)):
         numbers = [_value(fields[column]) for _, fields in body]
         if None in numbers:

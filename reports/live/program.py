@@ -137,7 +137,7 @@ class _Compiler:
         self.values[key] = np.asarray(value).tolist()
 
     def _need(self, key: str) -> None:
-        """Steps of a node behind those of what it refers to; no deeper than the machine calls."""
+        """Append the steps of a node after those of its references, without deep recursion."""
         waiting = [key]
         while waiting:
             top = waiting[-1]
@@ -169,12 +169,12 @@ class _Compiler:
         return self.model.grid_runs.get(key) or self.model.input_runs.get(key)
 
     def _together(self, key: str) -> tuple[Column, ...]:
-        """Columns that are found a row at a time."""
+        """Columns of a table calculated row by row as a whole; empty for others."""
         table = self.model.whole_tables.get(key)
         return () if table is None or table.computed is not None else table.columns
 
     def _take(self, key: str) -> None:
-        """A node whose references stand there."""
+        """Append the step of a node whose references are compiled."""
         cells = self._run(key)
         if cells is not None:
             self._number(key)

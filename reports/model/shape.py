@@ -1,4 +1,4 @@
-"""What the layout of an engine makes of its tables: how many there are and what refers to what.
+"""Structure of an engine's tables: how many there are, and what they refer to.
 
 Numbers count from 1 here, as people count cylinders, throws and journals.
 """

@@ -45,7 +45,7 @@ def stoppable() -> Iterator[None]:
 
 
 def answered() -> None:
-    """Let no further signal stop anything: the first one has ended what was going on."""
+    """Ignore further stop signals: the first one has been obeyed."""
     _state["over"] = True
 
 
@@ -63,7 +63,7 @@ def _stop(number: int, frame: FrameType | None) -> None:
 
 
 def _is_cleaning() -> bool:
-    """Whether what runs now runs because of ``Stopped``."""
+    """Whether the current code cleans up after ``Stopped``."""
     error = sys.exc_info()[1]
     while error is not None and not isinstance(error, Stopped):
         error = error.__context__
@@ -71,7 +71,7 @@ def _is_cleaning() -> bool:
 
 
 def _again(number: int, main: int) -> None:
-    """Repeat a signal until it has been obeyed: callbacks and libraries swallow what is raised."""
+    """Repeat a signal until it is obeyed: callbacks and libraries swallow exceptions."""
     while True:
         time.sleep(_AGAIN_S)
         if _state["over"]:

@@ -150,7 +150,7 @@ def count(checks: Iterable[Check]) -> Counts:
 
 
 def _apart(checks: Iterable[Check]) -> tuple[int, int]:
-    """How many, and how many agree."""
+    """Number of checks, and of those that agree."""
     verdicts = [check.verdict for check in checks]
     return len(verdicts), verdicts.count(Verdict.AGREES)
 
@@ -221,7 +221,7 @@ def verdict(check: Check) -> str:
 
 
 def apart(counts: Counts) -> str:
-    """Return what is checked besides the numbers, in a sentence."""
+    """Return the checks other than numbers, in a sentence."""
     signs, placed, empty = (
         f"{all_} (совпадает {agree})" for all_, agree in (counts.signs, counts.placed, counts.empty)
     )

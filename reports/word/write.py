@@ -199,7 +199,7 @@ def _describe(document: Document, root: HtmlElement) -> None:
 
 
 def _timeless(data: bytes) -> bytes:
-    """Remove times of packing and what tells of the library's own template from the archive."""
+    """Remove times of packing and the library's template properties from the archive."""
     stream = io.BytesIO()
     with (
         zipfile.ZipFile(io.BytesIO(data)) as source,

@@ -54,7 +54,7 @@ def _needed(model: Model, beyond: set[str], series: list[Series]) -> set[str]:
 
 
 def _together(block: Block) -> Iterator[tuple[str, ...]]:
-    """Nodes none of which stands without the others."""
+    """Groups of nodes that stand only together."""
     keys = tuple(key for key, _ in nodes_in(block))
     if isinstance(block, TableSpec) and not block.row_by_row and block.computed is None:
         yield from ((key, keys[0]) for key in keys)

@@ -186,7 +186,7 @@ def concluded(chapter: Chapter) -> Markup:
 
 
 def flywheel(chapter: Chapter) -> Markup:
-    """Return flywheel that the evenness needs, beside the given one; empty where none is found."""
+    """Return the flywheel that the evenness needs, beside the given one; empty without either."""
     terms = chapter.terms
     if not terms.has("I_flywheel"):
         return Markup("")
@@ -203,7 +203,7 @@ def flywheel(chapter: Chapter) -> Markup:
 
 
 def _whole_first(terms: Terms, stage: str) -> Markup:
-    """Return what the first order and the rotating masses give together, for the conclusion."""
+    """Return the sum of the first order and the rotating masses, for the conclusion."""
     parts = [
         Markup("вектор {} {} порядка достигает {}").format(
             words, rich("1-го"), terms.val(f"{letter}1_{stage}_max")
@@ -218,7 +218,7 @@ def _whole_first(terms: Terms, stage: str) -> Markup:
 
 
 def _own_flywheel(chapter: Chapter) -> str:
-    """How the flywheel of the torsional train is to the required one; empty without either."""
+    """Compare the flywheel of the torsional train with the required one; empty without either."""
     section = chapter.input.torsion
     inertia = None if section is None else section.flywheel_kg_m2
     if inertia is None or not is_flywheel_needed(chapter):
@@ -272,7 +272,7 @@ def _idle(terms: Terms) -> set[str]:
 def _is_balanced(
     terms: Terms, letter: str, ends: Sequence[str] = ("",), sums: Sequence[str] = ("up", "right")
 ) -> bool:
-    """Whether the forces (F) or the moments (L) are nothing beside those of one cylinder."""
+    """Whether the forces (F) or moments (L) vanish against those of one cylinder."""
     unit = "kN" if letter == "F" else "Nm"
     force = terms.value("Pj_unit_kN")
     scale = force if letter == "F" else 1000 * force * terms.value("S_stroke")
@@ -286,7 +286,7 @@ def _are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
 
 
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:
-    """Diagrams over a turn that are not zero: after balancing, or by orders without it."""
+    """Diagrams over a turn that do not vanish: after balancing, or by orders without it."""
     if after:
         unbalanced = [x for x in "FL" if not _is_balanced(terms, x, ("", "_after"), ("up",))]
         return [f"balance_{x}_after" for x in unbalanced]
@@ -349,7 +349,7 @@ def _devices(chapter: Chapter, devices: set[str]) -> TablePlan | None:
 
 
 def is_flywheel_needed(chapter: Chapter) -> bool:
-    """Whether the required evenness asks for a flywheel that can be printed."""
+    """Whether the required flywheel is more than zero as printed."""
     value, digits = chapter.terms.value("I_flywheel"), chapter.terms.quantity("I_flywheel").digits
     return bool(str(of_digits(value, digits.within(value))).strip(_ZERO))
 

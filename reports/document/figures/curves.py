@@ -248,7 +248,7 @@ def legend(axes: Axes, names: Sequence[str], *, in_row: int = _IN_ROW, above: fl
 def _mark(
     axes: Axes, room: LabelField, point: tuple[float, float], name: str, *, loud: bool = False
 ) -> None:
-    """Draw a point with its name; a ``loud`` one is what the figure is about."""
+    """Draw a point with its name; a ``loud`` one is the subject of the figure."""
     size, way = (FONT_SIZE, (1.0, -1.0)) if loud else (SMALL, (1.0, 1.0))
     axes.page.circle((point[0], point[1]), _LOUD if loud else 1.6, "#000000", None, 4)
     gaps = (5.0, 9.0, 14.0, 20.0, 30.0, 45.0) if loud else (2.5, 5.0, 9.0, 14.0, 20.0)
@@ -259,13 +259,13 @@ def _mark(
 
 
 def _fan_width(panel: Panel) -> float:
-    """Room that the names at the ends of a fan ask for [pt]."""
+    """Width of the names at the ends of a fan [pt]."""
     names = (text_size(curve.name, FONT_SIZE)[0] for curve in panel.curves if panel.fan)
     return max(names, default=-_LEADER) + _LEADER
 
 
 def _fan(axes: Axes, curves: Sequence[PlotCurve], lines: Sequence[Points]) -> None:
-    """Names of a fan at the right edge, from below as the ends are, none over another."""
+    """Place the names of a fan at the right edge, in the order of the ends, without overlap."""
     ends = [line[-1].tolist() for line in lines]
     rising = sorted(range(len(ends)), key=lambda n: ends[n][1])
     places = spread([ends[n][1] for n in rising], _FAN_ROW, axes.field[1], axes.field[3])

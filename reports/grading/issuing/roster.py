@@ -134,7 +134,7 @@ class _List:
         return {key: cells[i] if i < len(cells) else "" for key, i in self.columns.items()}
 
     def text(self, line: RosterLine) -> str:
-        """Tell what stands under the heads of names."""
+        """Text under the heads of names."""
         names = self.given(line)
         return " ".join(names[key] for key in (*_SURNAMES, "name") if names.get(key))
 
@@ -146,7 +146,7 @@ class _List:
 
 
 def _headed(listing: RosterListing) -> _List | None:
-    """Return list of a sheet or file; titles may stand above its head, and a head has two lines."""
+    """Return the list under a head of one or two lines; titles may stand above it."""
     heads = [_columns(line.cells) for line in listing.lines[: _TITLES + 2]]
     named = [not head.keys().isdisjoint(_SURNAMES) for head in heads]
     if True not in named[: _TITLES + 1]:
@@ -198,7 +198,7 @@ def _continues(head: RosterLine, line: RosterLine) -> bool:
 
 
 def _unmarked(line: RosterLine, columns: dict[str, int]) -> RosterLine:
-    """Return a line whose names have no number, bullet or other sign before and behind them."""
+    """Strip numbers, bullets and other signs around the names of a line."""
     cells = list(line.cells)
     for index in {columns[key] for key in _SURNAMES if key in columns}:
         if index < len(cells):
@@ -214,7 +214,7 @@ def _without_mark(text: str) -> str:
 
 
 def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
-    """Whether a site of learning has put a line of its own among the people."""
+    """Whether a line is the learning system's own, no student."""
     filled = {cell.casefold().strip() for cell in line.cells if cell}
     at = [columns[key] for key in _SURNAMES if key in columns]
     texts = {line.cells[i].casefold().strip() for i in at if i < len(line.cells)} - {""}
@@ -226,7 +226,7 @@ def _is_service(line: RosterLine, columns: dict[str, int]) -> bool:
 def _joined(
     people: list[RosterLine], columns: dict[str, int], head: Sequence[RosterLine]
 ) -> list[RosterLine]:
-    """People with their names in one cell where the head above two or three of them is one."""
+    """Join names whose two or three cells share one head."""
     key = next((key for key in ("full", "turned", "either", "surname") if key in columns), None)
     if key is None or (key == "surname" and "name" in columns):
         return people
@@ -248,7 +248,7 @@ def _joined(
 
 
 def _together(cells: Sequence[str]) -> str:
-    """Return a name whose parts stand in several cells; a remark is none of them."""
+    """Join the parts of a name from several cells; a remark is no part."""
     return " ".join([*filter(None, cells[:1]), *filter(_is_name, cells[1:])])
 
 
@@ -260,7 +260,7 @@ def _is_name(text: str) -> bool:
 
 
 def _are_names(people: Sequence[RosterLine], start: int, end: int) -> bool:
-    """Whether a column without a head goes on with the names before it; a remark does not.
+    """Whether a column without a head continues the names; a remark does not.
 
     Behind a surname nearly everybody has a name of his own, behind a name a patronymic.
     """
@@ -278,7 +278,7 @@ def _are_names(people: Sequence[RosterLine], start: int, end: int) -> bool:
 
 
 def _order(headed: _List, head: RosterLine, column: int) -> str:
-    """Which of a surname and a name comes first under a head that does not say it.
+    """Order of surname and given name under a head that leaves it open.
 
     A patronymic stands behind a name; how a site writes one name it writes them all.
     """
@@ -304,7 +304,7 @@ def _is_bare(line: RosterLine) -> bool:
 
 
 def _refuse_another(path: Path, lists: list[_List]) -> None:
-    """Two groups on two sheets must not become one; a sheet of marks repeats the people."""
+    """Refuse a second sheet with other students; a sheet of marks repeats the same."""
     people, *others = ({_named(headed.given(line))[0].casefold() for line in headed.people}
                       for headed in lists)  # fmt: skip
     for other, headed in zip(others, lists[1:], strict=True):

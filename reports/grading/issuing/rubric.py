@@ -108,7 +108,7 @@ class Late(_Section):
     @field_validator("deadline", mode="before")
     @classmethod
     def _with_its_hour(cls, value: object) -> object:
-        """Refuse a day alone: it would end as it begins."""
+        """Refuse a date without a time: midnight would be its beginning."""
         if type(value) is date:
             raise PydanticCustomError("datetime_parsing", "no hour")
         return value
@@ -149,7 +149,7 @@ class Attempts(_Section):
 
 
 class Copying(_Section):
-    """[copying]: a likeness with a work of an earlier year holds the points, or is told."""
+    """[copying]: likeness with a work of an earlier year: hold the points, or report."""
 
     past: Literal["hold", "tell"] = "hold"
 
@@ -216,7 +216,7 @@ class Rubric(_Section):
 
     @property
     def calculated(self) -> float:
-        """Points of the book: what a person's parts leave of the maximum."""
+        """Maximum points of the workbook: the total less the parts that a person marks."""
         return self.maximum - sum(self.parts.values())
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""Points of a work from those of its lines: what is asked besides, and what lateness takes."""
+"""Points of a work: the sum of its lines, conditions and lateness."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Result = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class HandedIn:
-    """When a work came, by which clock, and the student's own deadline or hours more."""
+    """Time of submission, its clock, the student's own deadline or extension."""
 
     time: datetime | None = None
     clock: str = MOODLE
@@ -27,7 +27,7 @@ class HandedIn:
 
 
 def score(result: Result, rubric: Rubric, handed: HandedIn) -> None:
-    """Set the points of a result from those of its lines, and what takes them away."""
+    """Set the points of a result: the sum of its lines less what is withheld."""
     lines = result["items"]
     paid = [line for line in lines if line["of"] > 0 and line.get("block") != PART]
     result["filled"] = _filled(paid)
@@ -48,7 +48,7 @@ def _filled(lines: list[dict[str, Any]]) -> float:
 
 
 def _withhold(result: Result, paid: list[dict[str, Any]], rubric: Rubric) -> None:
-    """Take the points of tables that are hardly begun, and of items that need others."""
+    """Withhold the points of tables hardly begun and of items that need others."""
     for table, least in rubric.minimum.tables.items():
         lines_of = [line for line in paid if fnmatchcase(line["block"], table)]
         share = _filled(lines_of)
@@ -76,7 +76,7 @@ def _is(line: Mapping[str, Any], patterns: tuple[str, ...]) -> bool:
 
 
 def rescored(result: Result) -> None:
-    """Sum the points of a result's lines; a person may have given more for one."""
+    """Sum the points of a result's lines, a person's corrections included."""
     raw = min(sum(line["points"] for line in result["items"]), result["maximum"])
     result["raw"] = round(raw, 2)
     result["points"] = round(raw * result["late"], 2) if result["enough"] else 0.0
@@ -86,7 +86,7 @@ def rescored(result: Result) -> None:
 
 
 def _take_lateness(result: Result, rubric: Rubric, handed: HandedIn) -> None:
-    """Take points for lateness by the learning system's clock; a file's own time asks a person."""
+    """Reduce the points for lateness by the learning system's clock; else ask a person."""
     factor = late_factor(rubric, handed.time, handed.extension)
     result["late"] = factor
     if factor == 1:

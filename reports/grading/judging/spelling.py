@@ -1,4 +1,4 @@
-"""What a student has written, where it tells a mistake better than its numbers."""
+"""Mistakes that the text of a formula tells better than its numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _CHOICES = frozenset(("IF", "IFERROR", "IFNA", "IFS", "SWITCH", "CHOOSE"))
 
 @lru_cache(maxsize=20_000)
 def squares_a_minus(formula: Formula) -> bool:
-    """Whether a minus stands before what is raised to a power: a spreadsheet raises it too."""
+    """Whether a unary minus precedes a power: a spreadsheet raises the minus too."""
     tokens = _tokens(formula)
     return any(
         _begins(tokens, at) and _is_raised(tokens, at + 1)
@@ -31,7 +31,7 @@ def squares_a_cosine(formula: Formula) -> bool:
 
 
 def chooses_a_number(formula: Formula) -> bool:
-    """Whether a choice between cases stands about a number, for the looks of it."""
+    """Whether a choice between cases only formats a number."""
     return not formula.functions.isdisjoint(_CHOICES)
 
 
@@ -40,13 +40,13 @@ def _tokens(formula: Formula) -> list[Token]:
 
 
 def _begins(tokens: list[Token], at: int) -> bool:
-    """Whether a minus has nothing before it to be taken from."""
+    """Whether a minus is unary."""
     kind, text = tokens[at - 1] if at else _OPEN
     return kind == "op" and text not in (")", "%", "}")
 
 
 def _is_raised(tokens: list[Token], at: int) -> bool:
-    """Whether what begins at a place is raised to a power."""
+    """Whether the operand at an index is raised to a power."""
     if at < len(tokens) - 1 and tokens[at][0] == "name" and tokens[at + 1] == _OPEN:
         at += 1  # a function
     depth = 0

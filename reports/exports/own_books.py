@@ -103,8 +103,8 @@ def failed_engine_checks(model: InputFile, *, every: bool) -> list[Failed]:
     if not model.books and not every:
         return []
     failed = failed_of(kept_model(model), department=not every)
-    told = power_problems(model)  # which say more of it
-    return [each for each in failed if not (told and each.key.startswith(POWER))]
+    power_remarks = power_problems(model)  # which say more of it
+    return [each for each in failed if not (power_remarks and each.key.startswith(POWER))]
 
 
 @dataclass(frozen=True, slots=True)

@@ -115,9 +115,9 @@ def _title(size: int) -> Title:
 
 
 @cache
-def end_label(place: str) -> DataLabelList:
+def end_label(position: str) -> DataLabelList:
     """Name of a line of two points at its second one."""
-    label = DataLabel(idx=1, dLblPos=place, showSerName=True)
+    label = DataLabel(idx=1, dLblPos=position, showSerName=True)
     label.showVal = label.showLegendKey = label.showCatName = label.showPercent = False
     labels = DataLabelList(dLbl=[label], showSerName=False, showVal=False)
     labels.showLegendKey = labels.showCatName = labels.showPercent = False
@@ -125,9 +125,9 @@ def end_label(place: str) -> DataLabelList:
 
 
 @cache
-def name_label(place: str = "r") -> DataLabelList:
+def name_label(position: str = "r") -> DataLabelList:
     """Name of a point beside it."""
-    labels = DataLabelList(dLblPos=place, showSerName=True, showVal=False)
+    labels = DataLabelList(dLblPos=position, showSerName=True, showVal=False)
     labels.showLegendKey = labels.showCatName = labels.showPercent = False
     return labels
 

@@ -105,10 +105,10 @@ def _arrow(number: int, line: CurveRanges) -> Curve:
     return Curve(number, line, look, None, parts.end_label("t"))
 
 
-def _mark(number: int, point: CurveRanges, place: str = "r") -> Curve:
+def _mark(number: int, point: CurveRanges, position: str = "r") -> Curve:
     """Return a small point with its name beside it."""
     marker = parts.dot(4, COLOURS[0])
-    return Curve(number, point, parts.hidden(), marker, parts.name_label(place))
+    return Curve(number, point, parts.hidden(), marker, parts.name_label(position))
 
 
 def _pole(number: int) -> Curve:

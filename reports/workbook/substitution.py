@@ -70,19 +70,19 @@ class _Texts:
 
 def write_substitutions(book: Workbook, writer: BlockWriter) -> None:
     """Write the lines of all tables of the visible sheets, and what they are joined of."""
-    told = {
+    lines_by_table = {
         table.id: columns
         for table in writer.layout.model.tables.values()
         if book[table.sheet].sheet_state == "visible" and (columns := _lines_of(table, writer))
     }
-    if not told:
+    if not lines_by_table:
         return
     hidden = _Texts(book.create_sheet(SHEET), writer)
     for column, width in zip("ABCDEF", _WIDTHS, strict=True):
         hidden.sheet.column_dimensions[column].width = width
     head = heading(SHEET, contents_for(writer.layout.model))
     styles.as_text(hidden.sheet.cell(TITLE_ROW, 1, head)).style = styles.TITLE
-    for name, columns in told.items():
+    for name, columns in lines_by_table.items():
         table = writer.layout.model.tables[name]
         _table(book[table.sheet], hidden, table, columns)
     hidden.sheet.sheet_state = "hidden"
@@ -146,15 +146,15 @@ def _table(sheet: Worksheet, hidden: _Texts, table: TableSpec, columns: Sequence
     label, angle, chosen, line = (Cell(sheet.title, TITLE_ROW, column) for column in places)
     angles = writer.layout.range_of(f"{table.id}.{table.columns[0].key}")
     hidden.say(_SYMBOL, table.number or table.title)
-    place = hidden.put(_VALUE, _place(angle, angles), at + 1)
+    ordinal = hidden.put(_VALUE, _place(angle, angles), at + 1)
     hidden.row += 1
     for name in dict.fromkeys(n for c in columns for n in sorted(names(c.expr or ""))):
-        hidden.operands[table.id, name] = _operand(hidden, table, name, place, at)
+        hidden.operands[table.id, name] = _operand(hidden, table, name, ordinal, at)
         hidden.row += 1
     top, texts, lengths = hidden.row, dict[str, str](), dict[str, int]()
     for column in columns:
         symbol = column.quantity.symbol
-        if symbol not in texts and (line_of := _line(hidden, table, column, place, at)):
+        if symbol not in texts and (line_of := _line(hidden, table, column, ordinal, at)):
             head, said = line_of
             texts[symbol], lengths[symbol] = head + said, len(head)
             hidden.row += 1
@@ -209,12 +209,12 @@ def _choice(sheet: Worksheet, at: Cell, value: float | str, choices: str) -> Non
     rule.add(cell)
 
 
-def _operand(hidden: _Texts, table: TableSpec, name: str, place: str, at: int) -> _Operand:
+def _operand(hidden: _Texts, table: TableSpec, name: str, ordinal: str, at: int) -> _Operand:
     """Write the number of a name in the chosen row and its text."""
     writer, layout = hidden.writer, hidden.writer.layout
     key = name if name in layout.columns else f"{table.id}.{name}"
     if key in layout.columns:
-        text = f"INDEX({layout.range_of(key)},{place})"
+        text = f"INDEX({layout.range_of(key)},{ordinal})"
         home, _, column = key.partition(".")
         value = float(writer.values.columns[home][column][at])
     else:
@@ -238,7 +238,7 @@ def _operand(hidden: _Texts, table: TableSpec, name: str, place: str, at: int) -
 
 
 def _line(
-    hidden: _Texts, table: TableSpec, column: Column, place: str, at: int
+    hidden: _Texts, table: TableSpec, column: Column, ordinal: str, at: int
 ) -> tuple[str, str] | None:
     """Write a column's line; None where its formula would be too long for a spreadsheet."""
     writer, quantity = hidden.writer, column.quantity
@@ -253,8 +253,8 @@ def _line(
     after = f" {unit}" if unit else ""
     operands = [hidden.operands[table.id, name] for name in used]
     joined = "&".join(_pieces(put_in, [each.cell for each in operands]))
-    place = place.rpartition("!")[2]
-    result = f"(ROUND(INDEX({writer.layout.range_of(key)},{place}),{decimals})+0)"
+    ordinal = ordinal.rpartition("!")[2]
+    result = f"(ROUND(INDEX({writer.layout.range_of(key)},{ordinal}),{decimals})+0)"
     formula = f'={joined}&" = "&{result}&"{after}"'.replace(f"'{SHEET}'!", "")
     if len(formula) > _MOST_FORMULA:
         return None

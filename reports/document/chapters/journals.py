@@ -121,9 +121,9 @@ def alike_journals(terms: Terms, throws: int) -> list[tuple[int, ...]]:
     """Main journals in groups that one table of loads serves: at every angle they are the same."""
     groups: list[tuple[int, ...]] = []
     for number in range(1, throws + 2):
-        for place, group in enumerate(groups):
+        for index, group in enumerate(groups):
             if _is_same_load(terms, group[0], number):
-                groups[place] = (*group, number)
+                groups[index] = (*group, number)
                 break
         else:
             groups.append((number,))

@@ -6,7 +6,7 @@ import gc
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -73,6 +73,12 @@ def load_input(path: Path) -> Loaded:
         from reports.inputs.solve_input import solved
 
         solved(loaded.model, path.name)  # whether the oil films carry their loads
+    if path.suffix.lower() in BOOKS:
+        from reports.tables.registry import build_model
+        from reports.workbook.lost_formulas import lost_formulas
+
+        lost = lost_formulas(path, build_model(loaded.model))
+        loaded = replace(loaded, warnings=(*loaded.warnings, *lost))
     return loaded
 
 

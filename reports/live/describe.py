@@ -39,8 +39,10 @@ _MAIN = ("geometry_bore_mm", "geometry_stroke_mm", "geometry_crank_radius_mm",
 _MOST_MAIN = 5
 _CHART = ("id", "sheet", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed",
           "y_reversed")  # fmt: skip
-_FIRST = ("P4_2.Msum_Nm", "crankpin.Krod_MPa", "crankpin_1.Krod_MPa", "P4_1.Ps_MPa", "gas.p_MPa")
+_PINS = r"crankpin(_\d+)?\.Krod_MPa"
+_FIRST = (r"P4_2\.Msum_Nm", _PINS, r"P4_1\.Ps_MPa", r"gas\.p_MPa")
 _KEY_NUMBERS = (r"N_e_calc", r"M_mean", r"M_max", r"Rpin\d*_max")
+_WORST_PIN = "worst_pin_load"  # number of the most loaded crankpin
 _ODD = -1234.5  # a number that no sentence has
 
 
@@ -155,23 +157,32 @@ def checks(model: Model) -> list[Data]:
 
 
 def key_numbers(model: Model) -> list[Data]:
-    """Return the four numbers of an engine."""
+    """Return the four numbers of an engine; of several pins ``of`` says whose ``alike`` is told."""
     numbers = []
     for pattern in _KEY_NUMBERS:
-        scalar = next((s for key, s in model.scalars.items() if re.fullmatch(pattern, key)), None)
-        if scalar is not None:
-            at = f"phi_{scalar.key}_deg"
-            numbers.append({**_row(scalar), "at": at if at in model.scalars else None})
+        rows = [{**_row(scalar), "at": _angle_of(key, model)}
+                for key, scalar in model.scalars.items() if re.fullmatch(pattern, key)]  # fmt: skip
+        several = {"alike": rows, "of": _WORST_PIN} if len(rows) > 1 else {}
+        numbers += [{**row, **several} for row in rows[:1]]
     return numbers
 
 
+def _angle_of(key: str, model: Model) -> str | None:
+    """Return the key of the angle of a largest value."""
+    at = f"phi_{key}_deg"
+    return at if at in model.scalars else None
+
+
 def charts(model: Model) -> list[Data]:
-    """Charts of the book; those of the whole engine are ``first``."""
+    """Charts of the book; ``first`` are those of the engine, ``pin`` whose it is."""
     drawn = [each for each in model.charts if each.sheet]
-    first = [next((c.id for c in drawn if any(s.y == key for s in c.series)), None)
-             for key in _FIRST]  # fmt: skip
-    return [{**_chart(each, model), "first": first.index(each.id) + 1 if each.id in first else 0}
-            for each in drawn]  # fmt: skip
+    ranks: dict[str, Data] = {}
+    for rank, pattern in enumerate(_FIRST, 1):
+        alike = [c.id for c in drawn if any(re.fullmatch(pattern, s.y) for s in c.series)]
+        several = pattern == _PINS and len(alike) > 1
+        for pin, name in enumerate(alike if several else alike[:1], 1):
+            ranks[name] = {"first": rank, "pin": pin if several else 0}
+    return [{**_chart(each, model), **ranks.get(each.id, {"first": 0, "pin": 0})} for each in drawn]
 
 
 def _chart(chart: ChartSpec, model: Model) -> Data:

@@ -68,6 +68,24 @@ def test_an_edit_gives_the_numbers_of_a_new_build(
     assert not page.faults
 
 
+def test_of_several_pins_the_most_loaded_one_is_told(live: Opened) -> None:
+    """Sheet 1 told of pin 4, the page of pin 1."""
+    page, model = live("yamz-238"), model_of("yamz-238")
+    page.wait_for_selector("#numbers")
+    raw, pins = to_mapping(model.input), set[int]()
+    for speed in (raw["regime"]["speed_rpm"], 3000.0):
+        assert page.evaluate(SET, ["regime.speed_rpm", speed]) is None
+        raw["regime"]["speed_rpm"] = speed
+        values = Evaluation(build_model(load_mapping(raw, source="").model))
+        pins.add(worst := round(float(values.value("worst_pin_load"))))
+        key = f"Rpin{worst if worst > 1 else ''}_max"
+        shown = page.inner_text(f"[data-key={key}] b")
+        assert shown == fixed(float(values.value(key)), model.scalars[key].quantity.digits.decimals)
+        titles = " ".join(page.locator("#charts").all_inner_texts())
+        assert set(re.findall(r"на шатунную шейку (\d)", titles)) == {str(worst)}
+    assert len(pins) == 2
+
+
 def test_a_value_beyond_its_limits_leaves_the_last_good_engine(live: Opened) -> None:
     page = live("gots-diesel")
     before = page.inner_text("[data-key=M_mean] b")

@@ -19,7 +19,7 @@ export function engineOf(data, functions) {
   const fields = data.fields.flatMap(({entries}) => entries.flat());
   return {...data, data, functions, main, fine, fields, strokes: STROKES[data.strokes], charts: new Map(), stands: JSON.stringify(data.raw),
     byKey: Object.fromEntries(fields.flatMap(f => [[f.key, f], [f.cell, f]])),
-    scalars: [...data.numbers.map(each => each.key), ...data.checks.map(each => each.value)]};
+    scalars: [...data.numbers.flatMap(({key, of, alike}) => of ? [of, ...alike.map(each => each.key)] : key), ...data.checks.map(each => each.value)]};
 }
 
 export const read = (raw, path) => path.reduce((part, key) => part?.[key], raw);
@@ -80,7 +80,7 @@ export function type(changes, done) {
     clearTimeout(state.pause);
     state.pause = setTimeout(() => {
       Object.assign(state, {isAll: true, isHurried: false});
-      set({told: `Пересчитано: ${state.engine.numbers.map(each => `${each.title} ${number(each)} ${each.unit}`).join(", ")}`});
+      set({told: `Пересчитано: ${keyNumbers(state.engine).map(each => `${each.title} ${number(each)} ${each.unit}`).join(", ")}`});
       state.isAll = false;
     }, 400);
   });
@@ -130,7 +130,8 @@ function loads({phi, x, y}) { // of a journal: the greatest with its angle, the 
   return {x: x[i], y: y[i], name: `R′_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R′_ср = ${printed(mean, 3)}`};
 }
 
-const drawnCharts = ({charts: all} = state.engine.data) => state.sheet === FIRST ? all.filter(each => each.first).sort((a, b) => a.first - b.first)
+const isOfWorstPin = ({pin}) => !pin || pin === Math.round(state.engine.main.get("worst_pin_load"));
+const drawnCharts = ({charts: all} = state.engine.data) => state.sheet === FIRST ? all.filter(each => each.first && isOfWorstPin(each)).sort((a, b) => a.first - b.first)
   : all.filter(each => each.sheet === state.sheet);
 
 function sheetChoice() { // by chapters, in words
@@ -221,8 +222,9 @@ export const scene = more => {
 
 // --- what is read ---
 const number = ({key, digits}) => cell(state.engine.main.get(key), digits);
+const keyNumbers = ({main, numbers}) => numbers.map(each => each.of ? each.alike[Math.round(main.get(each.of)) - 1] ?? each : each); // of several pins the most loaded one's
 
-export const numbers = () => html`<dl id="numbers">${state.engine.numbers.map(each => html`
+export const numbers = () => html`<dl id="numbers">${keyNumbers(state.engine).map(each => html`
   <div key=${each.key} data-key=${each.key} title=${each.title}><dt>${symbol(each.symbol)}</dt>
     <dd><b>${number(each)}</b> ${each.unit}${each.at && html`<small> при ${cell(state.engine.main.get(each.at), ["fixed", 0, ""])}°</small>`}</dd></div>`)}</dl>
   <p id="stale" class="warn" hidden=${!state.wrong.length}>Показан последний верный двигатель: исправьте отмеченное.</p>`;
@@ -282,11 +284,11 @@ const look = name => { // light-dark() as a canvas takes it
 };
 
 export function makeCard() {
-  const {raw, phi, last: {moves: {speed, phi: over}}, engine: {main, fine, strokes, numbers: all, palette}} = state;
+  const {raw, phi, last: {moves: {speed, phi: over}}, engine: {main, fine, strokes, palette}} = state;
   const [x, y] = ["phi_deg", "Msum_Nm"].map(key => Array.from((fine.has("P4_2.Msum_Nm") ? fine : main).get(`P4_2.${key}`)));
   return card(document.getElementById("mechanism"), {
     title: raw.engine.name, about: `${printed(speed)} мин⁻¹ · φ = ${Math.round(phi)}°, ${strokes[Math.min(Math.floor(phi / 180), strokes.length - 1)]}`,
-    numbers: all.map(each => [each.symbol, number(each), each.unit]),
+    numbers: keyNumbers(state.engine).map(each => [each.symbol, number(each), each.unit]),
     curve: {x, y, at: [phi, between(x, y, Math.min(phi, over.at(-1))) ?? 0], name: "Крутящий момент, Н·м", mean: main.get("M_mean")},
     colours: {page: look("--page"), card: look("--card"), text: look("--text"), soft: look("--soft"), first: `#${palette[0]}`, second: `#${palette[1]}`},
   });

@@ -23,6 +23,8 @@ from tests.conftest import missing
 from tools.referees.by_libreoffice import LibreOffice, find_soffice
 from tools.referees.cells import Book
 
+pytestmark = pytest.mark.xdist_group("first sheet")  # four engines are recalculated once
+
 ENGINES = ("gots-diesel", "yamz-236", "two-stroke", "vaz-2106")
 TILES = {"power": "A5", "mean": "B5", "most": "F5", "least": "F6", "pin": "I5", "delta": "L5",
          "flywheel": "L6", "last": "O5"}  # fmt: skip

@@ -106,8 +106,11 @@ class Scalar(Node):
 
     @property
     def usual_text(self) -> str:
-        """The usual span in print, ``20…150 МПа``; empty where there is none."""
-        span = "…".join(map(short, self.usual or ()))
+        """The usual span in print, ``20…150 МПа``, ``до 40 МПа``; empty where there is none."""
+        if not self.usual:
+            return ""
+        low, high = map(short, self.usual)
+        span = f"до {high}" if low == "0" else f"{low}…{high}"
         return f"{span} {self.usual_unit}" if self.usual_unit else span
 
     @property

@@ -15,7 +15,7 @@ from reports.document.chapters.balance import asked_devices
 from reports.document.chapters.chapter import pin_stems, worst_pin
 from reports.document.page.charts import counterweight_of, flywheel_of, mechanism_of, throw_of
 from reports.document.text.terms import Terms, plain_number
-from reports.document.text.texts import limits, of_digits
+from reports.document.text.texts import of_digits
 from reports.draw.canvas import (
     AXES,
     CONTOUR,
@@ -321,7 +321,7 @@ def strength(canvas: Canvas, room: CellArea, terms: Terms) -> None:
     rows += [[value.note, fixed(terms.value(value.key), 2), least]
              for value, _ in blocks["strength_allowed"].pairs]  # fmt: skip
     ranged = [pair for pair in blocks["strength_ranges"].pairs if pair[0].expr in _STRESSES]
-    rows += [[value.note, fixed(terms.value(value.key), 1), limits(value.usual_text)]
+    rows += [[value.note, fixed(terms.value(value.key), 1), value.usual_text]
              for value, _ in ranged]  # fmt: skip
     grid(canvas, room, rows)
 

@@ -22,7 +22,6 @@ from reports.document.page.blocks import (
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name, plain_number
-from reports.document.text.texts import limits
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.inputs.to_si.engine import to_engine
 from reports.model.blocks import ScalarTable
@@ -124,7 +123,7 @@ def _again(chapter: Chapter, sizes: ChangedSizes) -> TableBlock:
         after = sizes.after[each.key] / quantity(each.key).si
         if abs(after - value) > _MOVED * abs(value):
             rows.append([titled_html(titles[each.key]), terms.sym(each.key), fixed(value, _RANGED),
-                         fixed(after, _RANGED), limits(usual[each.key])])  # fmt: skip
+                         fixed(after, _RANGED), usual[each.key]])  # fmt: skip
     allowed = terms.num("strength_safety_allowed")
     for key in SAFETIES:
         if terms.has(key) and abs(sizes.after[key] - terms.value(key)) > _MOVED * terms.value(key):

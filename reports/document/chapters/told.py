@@ -15,7 +15,6 @@ from reports.document.chapters.record import Write
 from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
-from reports.document.text.texts import limits
 from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
 from reports.model.book_text import cause_of, shelf_of
@@ -213,7 +212,7 @@ def _usual_table(chapter: Chapter, block: ScalarTable) -> TableBlock:
     judged = {each.key: each for each in outcomes(terms.model, terms.values.scalars)}
     rows = [
         [titled_html(capital(verdict.note)), fixed(judged[verdict.key].value, _RANGED),
-         limits(verdict.usual_text), WORDS[judged[verdict.key].standing]]
+         verdict.usual_text, WORDS[judged[verdict.key].standing]]
         for _, verdict in block.pairs
     ]  # fmt: skip
     return table_block(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -43,8 +44,8 @@ MOST_CHARTS = 24
 DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
 _FIRST = 3  # rows of keys and titles stand above
 _NOWHERE = "не меняется"  # the place of an extreme of what stays the same
-# Shown where nothing is asked for.
-_USUAL = ("M_mean", "M_max", "M_e", "N_i_calc", "Rpin_max", "q_pin_max", "worst_main_load")
+# Shown where nothing is asked for: of several pins each one's load, for another may lead.
+_USUAL = re.compile(r"M_mean|M_max|M_e|N_i_calc|Rpin\d*_max|q_pin_max|worst_main_load")
 
 
 class _Book:
@@ -239,7 +240,7 @@ class StudyBook:
         if len(self.plan.axes) > 2 and not self.plan.pairwise:
             return []
         names = [name for name in self.wanted.names if not name.endswith("_deg")]
-        usual = [name for name in names if name in _USUAL]
+        usual = [name for name in names if _USUAL.fullmatch(name)]
         return (usual or names)[:MOST_CHARTS] if len(names) > MOST_CHARTS else names
 
     def write(self, chunk: Chunk) -> None:

@@ -245,6 +245,15 @@ def test_the_workbook_shows_a_family_of_curves(tmp_path: Path) -> None:
     assert first.series[1].yVal.numRef.f == "'Результаты'!$C$7:$C$10"
 
 
+def test_every_crankpin_has_its_chart_where_nothing_is_asked_for(tmp_path: Path) -> None:
+    """Another pin than the first may carry the most."""
+    target = tmp_path / "a.xlsx"
+    sweep(V_ENGINE, ("regime.speed_rpm=1500:2100:2",), target)
+    charts = openpyxl.load_workbook(target)["Диаграммы"]._charts
+    titles = ["".join(run.t for part in c.title.tx.rich.p for run in part.r) for c in charts]
+    assert len([title for title in titles if "Наибольшая удельная нагрузка" in title]) == 3
+
+
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "a.csv"
     with pytest.raises(SystemExit) as stop:

@@ -127,6 +127,13 @@ def test_books_written_by_two_processes_are_the_same(tmp_path):
         assert {"xl/styles.xml", "xl/worksheets/sheet3.xml"} <= same
 
 
+@pytest.fixture
+def books_are_empty(monkeypatch):
+    """What is asked of the register alone needs no work-books, which take a second each."""
+    monkeypatch.setattr(classroom.issuing.Handouts, "__call__", lambda *given: b"")
+
+
+@pytest.mark.usefixtures("books_are_empty")
 def test_a_latecomer_and_one_who_leaves_orphan_no_book(tmp_path):
     """Whatever the list becomes: a name in the middle, a mail more, another order, a return."""
     first = classroom.issue_class(tmp_path, 5).register
@@ -160,6 +167,7 @@ def test_a_latecomer_and_one_who_leaves_orphan_no_book(tmp_path):
     assert done.kept == 5 and len(register.former) == 2
 
 
+@pytest.mark.usefixtures("books_are_empty")
 @pytest.mark.parametrize(
     ("what", "words"),
     [("seed", "по другой базе, другим диапазонам или другому зерну"),
@@ -186,6 +194,7 @@ def test_a_second_issue_that_would_orphan_books_is_refused(tmp_path, what, words
     assert (tmp_path / "secret.key").exists() == (what != "secret")
 
 
+@pytest.mark.usefixtures("books_are_empty")
 def test_the_command_says_who_is_issued_of_how_many_lines(tmp_path):
     classroom.issue_class(tmp_path, 2)
     text = classroom.roster_text(3).splitlines()
@@ -202,6 +211,7 @@ def test_the_command_says_who_is_issued_of_how_many_lines(tmp_path):
     assert "Нет в списке, варианты оставлены за ними: 1 (Иванов Имя)" in said
 
 
+@pytest.mark.usefixtures("books_are_empty")
 def test_the_secret_may_not_go_out_with_the_books(tmp_path):
     classroom.issue_class(tmp_path, 1)
     with pytest.raises(InputError, match="не должен лежать в папке выдачи"):
@@ -215,6 +225,7 @@ def test_the_secret_may_not_go_out_with_the_books(tmp_path):
     assert (tmp_path / "mine" / "thesis.doc").exists()
 
 
+@pytest.mark.usefixtures("books_are_empty")
 def test_a_changed_register_is_refused(tmp_path):
     done = classroom.issue_class(tmp_path, 2)
     path = tmp_path / "issued" / "register.json"

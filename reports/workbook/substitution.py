@@ -20,6 +20,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from reports.formula.parse import SCALE_FUNCTIONS, names, parse
 from reports.formula.plain import plain
 from reports.model.blocks import Column, TableSpec
+from reports.shared.russian import as_printed
 from reports.workbook import styles
 from reports.workbook.chapters import contents_for, heading
 from reports.workbook.layout import FIRST_ROW, TITLE_ROW, Cell, column_range
@@ -90,9 +91,9 @@ def write_substitutions(book: Workbook, writer: BlockWriter) -> None:
 
 def shown(value: float, text: str = "") -> str:
     """Return a number as its text cell has it: a negative one in brackets."""
-    value = round(value, _FINE) + 0.0
+    value = as_printed(value, _FINE)
     digits = next((many for size, many in _DECIMALS if abs(value) < size), _LARGE)
-    number = f"{round(value, digits):.{digits}f}"
+    number = f"{as_printed(value, digits):.{digits}f}"
     number = (number.rstrip("0").rstrip(".") if "." in number else number) + text
     return f"({number})" if value < 0 else number
 
@@ -249,7 +250,7 @@ def _line(
     head, unit = f"{quantity.symbol} = {symbols} = ", quantity.unit_label
     key, decimals = f"{table.id}.{column.key}", quantity.digits.decimals
     value = float(writer.values.columns[table.id][column.key][at])
-    number = np.format_float_positional(round(value, decimals) + 0.0, trim="-")
+    number = np.format_float_positional(as_printed(value, decimals), trim="-")
     after = f" {unit}" if unit else ""
     operands = [hidden.operands[table.id, name] for name in used]
     joined = "&".join(_pieces(put_in, [each.cell for each in operands]))

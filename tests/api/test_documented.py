@@ -17,6 +17,7 @@ import pytest
 
 import kshm
 import reports
+from reports import figures
 from reports.api import loaded_of
 from reports.exports.numbers import json_text
 from reports.exports.own_books import own_numbers
@@ -158,3 +159,16 @@ def test_an_engine_and_a_solution_say_what_they_are() -> None:
     with pytest.raises(kshm.InputError, match="коренные шейки: от 1 до 4"):
         solution.plot.polar(9)
     assert np.isfinite(float(solution.torque.mean))
+
+
+def test_of_several_crankpins_the_most_loaded_one_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[np.ndarray] = []
+    monkeypatch.setattr(figures, "polar_path", lambda x, *_, **__: drawn.append(x) or "")
+    monkeypatch.setattr(figures, "wear_diagram", lambda sums, *_: drawn.append(sums) or "")
+    for speed, pin, rays in ((2100, "crankpin", ""), (3000, "crankpin_4", "pin_4_")):
+        solution = kshm.solve(reports.load("yamz-238").with_(speed_rpm=speed))
+        solution.plot.polar()
+        solution.plot.wear()
+        expected = (solution.columns[pin]["T_MPa"], solution.wear_sums[f"table_14_{rays}sums"])
+        assert np.array_equal(drawn[-2], expected[0])
+        assert np.array_equal(drawn[-1], expected[1]["ray_sum"])

@@ -38,6 +38,9 @@ _RINGS, _TURNS = 12, 16  # around a dimension, where its letter looks for room a
 class LetteredCanvas(Canvas):
     """Contours and dimensions by the keys of sizes; letters find room when all else stands.
 
+    Thin straight lines and axes give way to a letter; contours and lines of the layer of sizes,
+    such as breaks, keep it away.
+
     Attributes:
         names: letters by the keys of sizes; what has none is not measured.
         letters: height of the letters [mm].
@@ -180,7 +183,8 @@ def _over(
     if not is_short:
         return [(low + s * (high - low), y + up) for up in levels for s in _SHARES]
     near, far = 0.7 * h + wide / 2, (_TAIL + 0.4) * h + wide / 2
-    return [*((x, y + up) for up in levels for x in (high + near, low - near)),
+    ends = [x for n in range(3) for x in (high + near + 0.7 * n * h, low - near - 0.7 * n * h)]
+    return [*((x, y + up) for up in levels for x in ends),
             (high + far, y - 0.5 * h), (low - far, y - 0.5 * h)]  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from reports.draw.canvas import AXES, CONTOUR, DASHED, THIN, Item, Point
+from reports.draw.canvas import AXES, CONTOUR, DASHED, SIZES, THIN, Item, Point
 from reports.draw.lettered import LetteredCanvas
 from reports.draw.parts import ROUND, ThrowSizes, throw_outline
 from reports.draw.sketches import LANE, PartSizes, box
@@ -35,7 +35,7 @@ def web_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -> 
         for y in (level - journal, level + journal):
             canvas.line((start, y), (stop, y), layer=CONTOUR)
         broken = left if level == 0.0 else end
-        canvas.line(*_wave(broken, level, journal), layer=THIN)
+        canvas.line(*_wave(broken, level, journal), layer=SIZES)
         canvas.line((start - h, level), (stop + h, level), layer=AXES)
     canvas.line((0.0, low - 2 * LANE * h), (0.0, main + h), layer=AXES)
     canvas.line((arm, low - 2 * LANE * h), (arm, low), layer=THIN)

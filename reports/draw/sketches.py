@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from reports.draw.canvas import AXES, CONTOUR, THIN, Item, Point
+from reports.draw.canvas import AXES, CONTOUR, SIZES, THIN, Item, Point
 from reports.draw.lettered import LetteredCanvas
 
 _RINGS = 3
@@ -70,7 +70,7 @@ def piston_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) 
         for top in tops:
             edge, back = side * outer, side * (outer - s["ring_radial"])
             ring = ((edge, top), (back, top), (back, top - tall), (edge, top - tall))
-            canvas.line(*ring, layer=THIN, closed=True, filled=True)
+            canvas.line(*ring, layer=SIZES, closed=True, filled=True)
     _pin_hole(canvas, s)
     over = 1.5 * h
     canvas.line((0.0, over), (0.0, -height - over), layer=AXES)
@@ -239,7 +239,7 @@ def _shank(
         for level in (half - gap, half + gap):
             wave = [(middle + t * wide * 1.25, level + 0.25 * canvas.letters * math.sin(4 * t))
                     for t in (-1.0, -0.6, -0.2, 0.2, 0.6, 1.0)]  # fmt: skip
-            canvas.line(*wave, layer=THIN)
+            canvas.line(*wave, layer=SIZES)
 
 
 def _side_view(canvas: LetteredCanvas, s: Mapping[str, float], at: Point, is_cut: bool) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -18,6 +18,7 @@ CENTRE: Dash = (12.0, 2.0, 1.0, 2.0)
 DOTTED: Dash = (1.5, 1.5)
 _NEAR = 1e-6  # mm; what is farther from a text's box surely does not cut it
 SIZE = "size"
+_TRIES, _CLOSE, _LEAST = 7, 2e-3, 0.1  # of fitting: how often, how near, how much smaller at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -319,3 +320,24 @@ def bounds(items: Sequence[Item]) -> Box:
     """Bounds of all items."""
     lefts, lows, rights, highs = zip(*(item.box for item in items), strict=True)
     return min(lefts), min(lows), max(rights), max(highs)
+
+
+def fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:
+    """Return a drawing to the scale at which it fits a room; letters keep their height."""
+    scale, before = 1.0, (0.0, (0.0, 0.0))  # of nothing, nothing
+    items = draw(scale=scale)
+    for _ in range(_TRIES):
+        left, low, right, high = bounds(items)
+        sizes = right - left, high - low
+        # What letters take does not grow with the drawing, the rest in proportion.
+        nexts = [
+            scale + (most - size) * (scale - before[0]) / (size - old)
+            for most, size, old in zip(room, sizes, before[1], strict=True)
+            if abs(size - old) > _NEAR
+        ]
+        before, following = (scale, sizes), max(min(nexts, default=scale), _LEAST * scale)
+        if abs(following - scale) < _CLOSE * scale:
+            break
+        scale = following
+        items = draw(scale=scale)
+    return items

@@ -23,7 +23,7 @@ from reports.draw.fonts import width_of
 from reports.shared.russian import fixed
 
 _MOST_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
-_ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
+ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
 
 
 def number(value: float) -> str:
@@ -154,19 +154,26 @@ class MechanismSizes:
         return 2 * self.radius + self.rod + self.bore
 
 
-def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0) -> list[Item]:
-    """Return a throw from the side with its chain of lengths, diameters and radius.
+@dataclass(frozen=True, slots=True)
+class ThrowOutline:
+    """Where the parts of a drawn throw are [mm]; levels from the axis of the main journals."""
 
-    Args:
-        throw: sizes.
-        letters: height of the letters on the drawing [mm].
-        scale: size of the drawing to that of the throw.
-    """
-    canvas = Canvas()
+    stations: tuple[float, ...]  # ends of l1, h, l2 … l5, h, l6 from the left support
+    inner: tuple[float, float]  # ends of the crankpin
+    outer: tuple[float, float]  # faces of the webs at the main journals
+    ends: tuple[float, float]  # of the main journals
+    low: float  # lower end of the webs
+    radius: float
+    pin: float  # diameter
+    mains: tuple[float, float]  # diameters
+
+
+def throw_outline(canvas: Canvas, throw: ThrowSizes, scale: float) -> ThrowOutline:
+    """Draw webs and journals of a throw from the side."""
     l1, l2, l3, l4, l5, l6 = (scale * arm for arm in throw.arms)
     left_web, right_web = (scale * web for web in throw.webs)
     r, pin = scale * throw.radius, scale * throw.pin
-    mains = [scale * d for d in throw.mains]
+    mains = scale * throw.mains[0], scale * throw.mains[1]
     halves = [scale * length / 2 for length in throw.lengths]
     rod = l1 + left_web + l2
     right = rod + l3 + l4 + l5
@@ -178,33 +185,49 @@ def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0
              (right if right_web else right - thickness[1] / 2, thickness[1])]  # fmt: skip
     low = 0.0
     for (face, thick), main, heavy in zip(faces, mains, throw.weights, strict=True):
-        foot = -(main / 2 + 0.8 * r) if heavy else -_ROUND * main
+        foot = -(main / 2 + 0.8 * r) if heavy else -ROUND * main
         low = min(low, foot)
-        canvas.box(face, foot, face + thick, r + _ROUND * pin, CONTOUR)
+        canvas.box(face, foot, face + thick, r + ROUND * pin, CONTOUR)
     inner = faces[0][0] + faces[0][1], faces[1][0]
+    outer, ends = (faces[0][0], faces[1][0] + faces[1][1]), (-halves[0], end + halves[1])
     canvas.box(inner[0], r - pin / 2, inner[1], r + pin / 2, CONTOUR)
-    canvas.box(-halves[0], -mains[0] / 2, faces[0][0], mains[0] / 2, CONTOUR)
-    canvas.box(faces[1][0] + faces[1][1], -mains[1] / 2, end + halves[1], mains[1] / 2, CONTOUR)
+    canvas.box(ends[0], -mains[0] / 2, outer[0], mains[0] / 2, CONTOUR)
+    canvas.box(outer[1], -mains[1] / 2, ends[1], mains[1] / 2, CONTOUR)
+    stations = (0.0, l1, l1 + left_web, rod, rod + l3, rod + l3 + l4, right, right + right_web, end)
+    return ThrowOutline(stations, inner, outer, ends, low, r, pin, mains)
+
+
+def throw_drawing(throw: ThrowSizes, *, letters: float = 3.5, scale: float = 1.0) -> list[Item]:
+    """Return a throw from the side with its chain of lengths, diameters and radius.
+
+    Args:
+        throw: sizes.
+        letters: height of the letters on the drawing [mm].
+        scale: size of the drawing to that of the throw.
+    """
+    canvas = Canvas()
+    drawn = throw_outline(canvas, throw, scale)
+    inner, ends, mains, r, pin = drawn.inner, drawn.ends, drawn.mains, drawn.radius, drawn.pin
     over = 2.5 * letters
-    canvas.line((-halves[0] - over, 0), (end + halves[1] + over, 0), layer=AXES)
+    canvas.line((ends[0] - over, 0), (ends[1] + over, 0), layer=AXES)
     canvas.line((inner[0] - over, r), (inner[1] + over, r), layer=AXES)
-    stations = [0.0, l1, l1 + left_web, rod, rod + l3, rod + l3 + l4, right, right + right_web, end]
     names = ["l_1", "h_Л", "l_2", "l_3", "l_4", "l_5", "h_П", "l_6"]
     values = [throw.arms[0], throw.webs[0], *throw.arms[1:5], throw.webs[1], throw.arms[5]]
-    floor = low - 4 * letters
-    for x in sorted({0.0, rod, rod + l3, rod + l3 + l4, end}):
+    floor = drawn.low - 4 * letters
+    _, _, _, rod, middle, far, *_, end = drawn.stations
+    for x in sorted({0.0, rod, middle, far, end}):
         top = mains[0] / 2 + letters if x in (0.0, end) else r + pin / 2 + letters
         canvas.line((x, floor), (x, top), layer=AXES)
-    chain(canvas, stations, names, values, floor, letters)
-    reach = -halves[0] - 3.5 * letters
+    chain(canvas, drawn.stations, names, values, floor, letters)
+    reach = ends[0] - 3.5 * letters
     canvas.line((reach - letters, r), (inner[0], r), layer=THIN)
-    canvas.line((reach - letters, 0), (-halves[0], 0), layer=THIN)
+    canvas.line((reach - letters, 0), (ends[0], 0), layer=THIN)
     along(canvas, (reach, 0), (reach, r), "r", throw.radius, letters)
     aside = 1.9 * letters  # from the end of a journal: the letters stand left of the line
     for x, y, d, value in (
         ((inner[0] + inner[1]) / 2 + (inner[1] - inner[0]) / 4, r, pin, throw.pin),
-        (-halves[0] + max(halves[0] / 2, aside), 0.0, mains[0], throw.mains[0]),
-        (end + halves[1] / 2, 0.0, mains[1], throw.mains[1]),
+        (ends[0] + max(-ends[0] / 2, aside), 0.0, mains[0], throw.mains[0]),
+        ((end + ends[1]) / 2, 0.0, mains[1], throw.mains[1]),
     ):
         across(canvas, x, (y - d / 2, y + d / 2), value, letters)
     return interrupted(canvas.items)

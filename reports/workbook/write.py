@@ -45,6 +45,7 @@ from reports.workbook.layout import (
     quoted,
 )
 from reports.workbook.orders import Waves
+from reports.workbook.pictures import add_sketches
 from reports.workbook.places import (
     FOLD,
     GAP,
@@ -206,6 +207,7 @@ def assemble(
         _heading(waves, heading(WAVES_SHEET))
         write_waves(waves, writer)
     boxes = _charts(book, model, writer)
+    add_sketches(book, writer, boxes)
     boxes[INPUT_SHEET] = cockpit.charts_beside(inputs, model, writer)
     if motion.can_move(writer):
         for title in (cockpit.SHEET, motion.SHEET):

@@ -24,7 +24,7 @@ def first_mentions(pages, word):
     return first
 
 
-@pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "mwm-6"])
+@pytest.mark.parametrize("name", ["gots-diesel", "two-stroke", "mwm-6", "vaz-2106"])
 @pytest.mark.parametrize(
     ("word", "caption", "count", "most"),
     [("рисун", r"^\s*Рисунок (\d+) —", 20, 1), ("табл", r"^\s*Таблица (\d+) —", 16, 2)],

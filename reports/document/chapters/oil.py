@@ -12,6 +12,7 @@ from markupsafe import Markup
 from kshm.arrays import Array
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
+from reports.document.page.charts import sketches_figure
 from reports.document.page.numbering import TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name
@@ -93,6 +94,7 @@ def oil(chapter: Chapter) -> Markup:
         orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
         mains=_safety(chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"),
         pins=_safety(chapter, "safe_pins", _SAFE_PINS, "Запасы прочности шатунных шеек"),
+        crank=sketches_figure(terms, "Шейки колена, размеры", "crank"),
         several=chapter.shape.throws > 1,
         worst=steady,
         enough=steady.value >= section.reserve_allowed,

@@ -9,16 +9,15 @@ from functools import partial
 from markupsafe import Markup
 
 from kshm.nomenclature.quantity import quantity
-from kshm.ranges import PART_SHARES
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.strength_changes import ChangedSizes, changed
-from reports.document.figures.parts import parts_sketch
 from reports.document.page.blocks import (
     TableBlock,
     TableColumn,
     symbol_head,
     table_block,
 )
+from reports.document.page.charts import sketches_figure
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name, plain_number
@@ -192,19 +191,6 @@ def _size_rows(chapter: Chapter) -> TableBlock:
     )  # fmt: skip
 
 
-def _drawn(chapter: Chapter) -> dict[str, float]:
-    """Sizes for the sketch."""
-    values = chapter.terms.values.scalars
-    sizes = {key: float(values[f"st_{key}_mm"]) for key in PART_SHARES}
-    bore = _bore_mm(chapter.terms)
-    crankpin = 2 * (sizes["bolts_apart"] / 2 - float(values["st_cap_wall_mm"]) - sizes["shell"])
-    return sizes | {"bore": bore, "crankpin": crankpin}
-
-
-def _bore_mm(terms: Terms) -> float:
-    return 1000 * math.sqrt(4 * float(terms.values.scalars["F_piston"]) / math.pi)
-
-
 def _materials(chapter: Chapter) -> TablePlan:
     return TablePlan(partial(_material_rows, chapter), "Материалы деталей")
 
@@ -213,12 +199,16 @@ def _sizes(chapter: Chapter) -> TablePlan:
     return TablePlan(partial(_size_rows, chapter), "Размеры частей")
 
 
-def _sketch(chapter: Chapter) -> Figure:
-    caption = f"Размеры частей: а{NBSP}— поршень; б{NBSP}— палец; в{NBSP}— шатун"
-    return Figure(partial(parts_sketch, _drawn(chapter)), caption)
+def _sketches(caption: str, *names: str) -> Callable[[Chapter], Figure]:
+    return lambda chapter: sketches_figure(chapter.terms, caption, *names)
 
 
 VIEWS: dict[str, Callable[[Chapter], TablePlan | Figure]] = {
-    "strength_materials": _materials, "strength_sizes": _sizes, "strength_parts": _sketch,
+    "strength_materials": _materials, "strength_sizes": _sizes,
+    "piston_sketch": _sketches("Поршень, размеры", "piston"),
+    "rod_sketch": _sketches(
+        f"Палец и шатун, размеры: а{NBSP}— палец; б{NBSP}— шатун", "pin", "rod"
+    ),
+    "web_sketch": _sketches("Щека, размеры", "web"),
 }  # fmt: skip
 INSERTS = {"strength_changes": _changed}

@@ -18,8 +18,9 @@ from reports.document.text.symbols import spoken
 from reports.document.text.terms import Terms
 from reports.document.text.tex import GREEK
 from reports.document.text.texts import significant
-from reports.draw.canvas import Canvas, Item, bounds, moved
+from reports.draw.canvas import Canvas, Item, bounds, fitted, moved
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
+from reports.draw.sketched import sketch
 from reports.draw.weights import (
     CounterweightSizes,
     FlywheelSizes,
@@ -86,10 +87,14 @@ def sizes_figure(throw: ThrowSizes, mechanism: MechanismSizes, *, size: float = 
     """
     rooms = ((size * wide, size * tall) for wide, tall in (_THROW, _MECHANISM))
     draws = (partial(throw_drawing, throw), partial(mechanism_drawing, mechanism))
-    parts = [
-        _fitted(partial(draw, letters=_LETTERS), room)
+    return beside_figure([
+        fitted(partial(draw, letters=_LETTERS), room)
         for draw, room in zip(draws, rooms, strict=True)
-    ]
+    ])  # fmt: skip
+
+
+def beside_figure(parts: Sequence[Sequence[Item]]) -> str:
+    """Return drawings side by side as SVG, lettered where there are several."""
     canvas = Canvas()
     left_end, ends = 0.0, []
     for items in parts:
@@ -98,10 +103,16 @@ def sizes_figure(throw: ThrowSizes, mechanism: MechanismSizes, *, size: float = 
         ends.append(left_end + (right - left) / 2)
         left_end += right - left + _BETWEEN
     low = bounds(canvas.items)[1] - 2.5 * _LETTERS
-    for middle, letter in zip(ends, "аб", strict=True):
+    for middle, letter in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
         canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
     left, low, right, high = bounds(canvas.items)
     return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
+
+
+def sketches_figure(terms: Terms, caption: str, *names: str) -> Figure:
+    """Return sketches of parts side by side, with the letters of their sizes, as a figure."""
+    sketches = (sketch(name, terms.model, terms.values.scalars) for name in names)
+    return Figure(partial(beside_figure, [items for items in sketches if items]), caption)
 
 
 def counterweight_of(terms: Terms) -> CounterweightSizes:
@@ -128,18 +139,9 @@ def flywheel_figure(terms: Terms) -> str:
 
 
 def _pictured(draw: Callable[..., list[Item]]) -> str:
-    items = _fitted(draw, _WEB)
+    items = fitted(draw, _WEB)
     left, low, right, high = bounds(items)
     return svg_of(items, (left - 2, low - 2, right + 2, high + 2))
-
-
-def _fitted(draw: Callable[..., list[Item]], room: tuple[float, float]) -> list[Item]:
-    """Return a drawing to the scale at which it fits a room; letters keep their height."""
-    scale = 1.0
-    for _ in range(6):  # what letters take does not shrink with the drawing
-        left, low, right, high = bounds(draw(scale=scale))
-        scale *= min(room[0] / (right - left), room[1] / (high - low))
-    return draw(scale=scale)
 
 
 def throws_of(terms: Terms) -> list[ThrowSizes]:

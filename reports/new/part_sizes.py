@@ -79,8 +79,9 @@ def _trials(
     for name, amount in excess.items():
         for key, way in _MOVES[name] if amount else ():
             step = choice.get(key, sizing.start(key)) + (way if amount > 0 else -way)
-            if 0 <= step <= sizing.last(key):
-                yield {**choice, key: step}
+            trial = {**choice, key: step}
+            if 0 <= step <= sizing.last(key) and sizing.fits(trial):
+                yield trial
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +118,11 @@ class _Sizing:
             sizes[key] = section[f"{key}_mm"] = round(size, 1 if size > _FINE_SIZE else 2)
         steels = {key: steel[choice[key]] for key, steel in _STEELS.items() if choice.get(key)}
         return section | steels
+
+    def fits(self, choice: Mapping[str, int]) -> bool:
+        """Whether the rod's eye goes between the bosses of the piston."""
+        section = self.section(choice)
+        return float(section["eye_length_mm"]) < float(section["bosses_mm"])
 
     def notes(self, choice: Mapping[str, int]) -> Notes:
         """Ratio of every size, and that it follows the load where it is not the middle."""

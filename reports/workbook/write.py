@@ -73,7 +73,8 @@ _ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
 _TURNS = {"cos": cos, "sin": sin}
 _MOST_CHECKS = 40
 _TEXT_WIDTH = 110
-NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note begins, and how wide it is at least
+NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note may begin, and how wide it is at least
+_LINK_PX = 90  # of the link to the contents
 _REMARK_WIDTH = 115  # of the columns of a list
 _CHARTS_ROW = 4  # of a sheet of diagrams
 _CURVES_WIDTH = 12  # of the columns of a hidden sheet
@@ -340,7 +341,7 @@ def _charts(book: Workbook, model: Model, writer: BlockWriter) -> dict[str, list
 def _say_blank(sheet: Worksheet, specs: Sequence[ChartSpec]) -> None:
     """Which charts are left out, for all their values are zero."""
     text = f"Не начерчено, все значения равны нулю: {'; '.join(spec.title for spec in specs)}."
-    _note(sheet, f"{sheet.cell(NOTE_ROW, NOTE_COLUMN).value or ''} {text}".strip())
+    _note(sheet, f"{sheet.cell(NOTE_ROW, _note_column(sheet)).value or ''} {text}".strip())
 
 
 def _room(
@@ -378,11 +379,20 @@ def _index(book: Workbook, title: str, contents: Contents) -> int:
     return 1 + ordered([*book.sheetnames[1:], title], contents).index(title)
 
 
+def _note_column(sheet: Worksheet) -> int:
+    """Return the column of a sheet's note: beside the link to the contents."""
+    column = NOTE_COLUMN
+    while sum(column_px(sheet, i) for i in range(1, column)) < _LINK_PX:
+        column += 1
+    return column
+
+
 def _note(sheet: Worksheet, text: str) -> None:
     """Write a note across the sheet's open columns, as high as its text."""
-    last, width = NOTE_COLUMN, 0
+    first = last = _note_column(sheet)
+    width = 0
     while width < _NOTE_PX:
         width += column_px(sheet, last)
         last += 1
-    sheet.cell(NOTE_ROW, NOTE_COLUMN, text).style = styles.NOTE
-    wrap_across(sheet, NOTE_ROW, NOTE_COLUMN, last - 1, NOTE_LETTER, SMALL)
+    sheet.cell(NOTE_ROW, first, text).style = styles.NOTE
+    wrap_across(sheet, NOTE_ROW, first, last - 1, NOTE_LETTER, SMALL)

@@ -338,6 +338,15 @@ def test_words_of_the_first_sheet_have_room(name: str) -> None:
     assert "n" not in links
 
 
+@pytest.mark.parametrize("name", ["gots-diesel", "vaz-2106"])
+def test_no_note_lies_over_the_link_to_the_contents(name: str) -> None:
+    for sheet in coarse_opened(name):
+        notes = [c for c in sheet[2] if isinstance(c.value, str) and c.column > 1]
+        if sheet.sheet_state == "visible" and notes and sheet["A2"].hyperlink:
+            left = sum(column_px(sheet, i) for i in range(1, notes[0].column))
+            assert left >= 80, sheet.title
+
+
 def test_a_flywheel_that_is_not_needed_says_so() -> None:
     sheet = coarse_opened("gots-diesel")[CONTENTS_SHEET]
     looks = [c.number_format for row in sheet for c in row if "нужен" in c.number_format]

@@ -12,6 +12,8 @@ from pydantic import BaseModel
 from kshm.defaults import CLEARANCE_SHARES, SPEED_RANGE
 from kshm.engine.arrangement import rods_beside
 from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+from kshm.engine.strength import PartStrength
+from kshm.ranges import PART_SHARES
 from reports.inputs.checks.layout import arrangement_given
 from reports.inputs.fields import Path
 from reports.inputs.findings import Finding, ValidValues, radius_and_rod
@@ -162,6 +164,51 @@ def _journals(part: str, whose: str, mark: str) -> tuple[Pair, ...]:
     )  # fmt: skip
 
 
+def _parts() -> Iterator[Pair]:
+    """Yield sizes of parts of which one goes into the other."""
+
+    def side(key: str, times: str = "") -> str:
+        return f"{times}strength.{key}_mm | {times}=st_{key}_mm"
+
+    for less, more, title, what, hint in (
+        ("pin_bore", "pin", "Отверстие пальца меньше его диаметра",
+         "отверстие пальца {less} мм не меньше его диаметра {more} мм", "уменьшите отверстие"),
+        ("pin", "eye_outer", "Палец тоньше верхней головки шатуна",
+         "палец {less} мм не тоньше головки {more} мм", "увеличьте головку"),
+        ("bosses", "pin_length", "Палец длиннее промежутка между бобышками",
+         "палец {more} мм не длиннее промежутка между бобышками {less} мм", "удлините палец"),
+        ("skirt", "height", "Юбка ниже поршня",
+         "юбка {less} мм не ниже поршня {more} мм", "уменьшите высоту юбки"),
+        ("crown", "height", "Днище тоньше высоты поршня",
+         "днище {less} мм не тоньше высоты поршня {more} мм", "уменьшите толщину днища"),
+        ("shank_web", "shank_width", "Стенка стержня шатуна уже его полки",
+         "стенка {less} мм не уже полки {more} мм", "уменьшите стенку"),
+    ):  # fmt: skip
+        yield Pair(side(less), side(more), title, what, hint)
+    yield Pair(
+        side("shank_flange", "2*"),
+        side("shank_height"),
+        "Полки стержня шатуна вдвоём ниже его сечения",
+        "две полки {less} мм не ниже сечения стержня {more} мм",
+        "уменьшите полки",
+    )
+    yield Pair(
+        side("pin_length"),
+        "geometry.bore_mm",
+        "Палец короче диаметра цилиндра",
+        "палец {less} мм не короче диаметра цилиндра {more} мм",
+        "укоротите палец",
+    )
+    yield Pair(
+        side("eye_length"),
+        side("bosses"),
+        "Головка шатуна уже промежутка между бобышками",
+        "головка {less} мм не проходит между бобышками, {more} мм",
+        "уменьшите l_ш или раздвиньте бобышки",
+        warning=True,
+    )
+
+
 PAIRS = (
     Pair("geometry.crank_radius_mm | 0.5*geometry.stroke_mm", "geometry.rod_length_mm",
          "Радиус кривошипа меньше длины шатуна",
@@ -230,6 +277,7 @@ PAIRS = (
          "Предел выносливости меньше предела прочности",
          "предел выносливости {less} МПа не меньше предела прочности {more} МПа",
          "обычно он вдвое меньше: проверьте оба", warning=True),
+    *_parts(),
 )  # fmt: skip
 
 
@@ -307,9 +355,24 @@ def _grade(values: ValidValues) -> OilGrade:
     return OILS[values.get("bearings", "oil") or "sae30"]
 
 
+def _part_size(key: str) -> Callable[[ValidValues], float | None]:
+    """Size of a part [mm], as given or as it follows from bore and crankpin."""
+
+    def size(values: ValidValues) -> float | None:
+        bore, pins = values.get("geometry", "bore_mm"), _sizes(values, "pin", "diameter")
+        if "strength" not in values.sections or bore is None or not pins:
+            return None
+        given = {name: values.get("strength", f"{name}_mm") for name in PART_SHARES}
+        kind = values.get("strength", "kind") or PartStrength().kind
+        return PartStrength(kind=kind, **given).sizes(bore, pins[0])[key]
+
+    return size
+
+
 # What follows from other keys; what is not here has its value in the book alone.
 _FOLLOWING: dict[str, Callable[[ValidValues], float | None]] = {
     "=rod": _rod,
     "=oil_40": lambda values: _grade(values).at_40,
     "=oil_100": lambda values: _grade(values).at_100,
+    **{f"=st_{key}_mm": _part_size(key) for key in PART_SHARES},
 }

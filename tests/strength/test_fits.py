@@ -55,14 +55,14 @@ def test_the_workbook_holds_them_live() -> None:
 
 
 @pytest.mark.parametrize(
-    ("cylinders", "kind", "bore"), [(8, "petrol", 92.0), (12, "diesel", 300.0), (3, "petrol", 70.0)]
-)
-def test_the_eye_of_a_new_engine_goes_between_the_bosses(
-    cylinders: int, kind: str, bore: float
-) -> None:
+    "task",
+    [
+        {"cylinders": 8, "layout": "v", "kind": "petrol", "power_kw": 210.0, "speed_rpm": 5600.0,
+         "bore_mm": 92.0, "stroke_mm": 84.0},
+        {"cylinders": 12, "layout": "v", "kind": "diesel", "bore_mm": 300.0},
+    ],
+)  # fmt: skip
+def test_the_eye_of_a_new_engine_goes_between_the_bosses(task: dict[str, Any]) -> None:
     """Sized by its pressure alone it was longer than their gap."""
-    layout = "v" if cylinders > 6 else "inline"
-    raw = generate_engine(
-        cylinders, layout=layout, kind=kind, bore_mm=bore, strength=True
-    ).data  # fmt: skip
-    assert raw["strength"]["eye_length_mm"] < raw["strength"]["bosses_mm"]
+    sizes = generate_engine(**task, strength=True).data["strength"]
+    assert sizes["eye_length_mm"] < sizes["bosses_mm"]

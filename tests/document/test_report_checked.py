@@ -72,7 +72,7 @@ def test_what_is_beyond_its_limit_names_the_limit_and_its_unit():
     assert {allows(terms, each).rpartition(" ")[0] for each in beyond} == {"не более", "не менее"}
     chapter = text[text.rindex("Правильность расчёта проверена") :]
     for each in beyond:
-        title, comma, unit = each.title.rpartition(", ")
+        _, comma, unit = each.title.rpartition(", ")
         shape = re.escape(f"— {shown(terms, each)}{' ' + unit if comma else ''} (")
         assert re.search(shape + allows(terms, each), chapter), each.title
     assert "меньше допускаемого: наибольшая" not in text

@@ -1,8 +1,8 @@
 """One cylinder whose counterweights take a part of the reciprocating mass: two printed examples.
 
-1. A theory of machines, «Balancing of Reciprocating Masses», illustration 1 on page 310: 250 rpm, a stroke
-   of 18 cm, 120 kg that reciprocate, 70 kg that turn at 9 cm, two thirds balanced at 15 cm: 90 kg,
-   3262.8 N at 30° from the dead centre.  The print has π = 3.141.
+1. A theory of machines, «Balancing of Reciprocating Masses», illustration 1 on page 310: 250 rpm,
+   a stroke of 18 cm, 120 kg that reciprocate, 70 kg that turn at 9 cm, two thirds balanced at
+   15 cm: 90 kg, 3262.8 N at 30° from the dead centre.  The print has π = 3.141.
 2. R. S. Khurmi, Theory of Machines, on one cylinder: 240 rpm, a stroke of 300 mm, 50 kg, 37 kg,
    two thirds at 400 mm: 26.38 kg.
 """

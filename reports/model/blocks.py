@@ -107,8 +107,17 @@ class Scalar(Node):
     @property
     def usual_text(self) -> str:
         """The usual span in print, ``20…150 МПа``; empty where there is none."""
-        span = "…".join(map(short, self.usual or ()))
-        return f"{span} {self.usual_unit}" if self.usual_unit else span
+        return f"{self.span_text} {self.usual_unit}" if self.usual_unit else self.span_text
+
+    @property
+    def span_text(self) -> str:
+        """The usual span without its unit."""
+        return "…".join(map(short, self.usual or ()))
+
+    @property
+    def united(self) -> str:
+        """The note with the unit of the usual span."""
+        return f"{self.note}, {self.usual_unit}" if self.usual_unit else self.note
 
     @property
     def label(self) -> str:

@@ -88,7 +88,7 @@ def test_statics_leads_where_the_rule_of_half_a_torque_is_off():
     said = re.search(r"среди шатунных — у ше(?:йки|ек) [^:]*: ([\d\xa0 ]+) Н·м", text)
     assert said, "no range of crankpins"
     rows = printed_rows(page, "Размах набегающих моментов")
-    shown = [float(re.sub(r"\D", "", row[3])) for row in rows if row[0].startswith("шатунная")]
+    shown = [float(re.sub(r"\D", "", row[3])) for row in rows if row[0].startswith("Шатунная")]
     assert shown == pytest.approx(swings, abs=0.6)
     assert float(re.sub(r"\D", "", said[1])) == pytest.approx(max(swings), abs=0.6)
     assert f"— {said[1].strip()} Н·м" in text[text.index("Рассчитаны кинематика") :]

@@ -40,7 +40,7 @@ SENSITIVITY, SIZE_FACTOR = 0.7, 0.75
 CLEARANCE_SHARES = {"min": 0.007, "max": 0.014}
 
 # Parts, of which strength is calculated.
-PISTON_SHARE = 0.65  # of the reciprocating mass, without a source
+PISTON_SHARE = 0.5  # of the reciprocating mass at least, without a source
 CAP_SHARE = 0.22  # of the rod's big end, without a source
 GROOVE_SHARE = 0.5  # of the piston group above the section of the oil ring's groove
 EYE_SHARE = 0.3  # of the rod's mass at the pin, above the section I-I of its eye, without a source

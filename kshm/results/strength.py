@@ -69,7 +69,11 @@ class _Study:
         engine, batch, index = self.case.engine, self.case.raw.batch, self.case.index
         moving, turning = (float(mass[index, 0, 0]) for mass in (batch.m_j, batch.m_2))
         stated, masses = self.inputs.piston, engine.masses
-        usual = masses.piston_group if isinstance(masses, RodMasses) else PISTON_SHARE * moving
+        if isinstance(masses, RodMasses):
+            usual = masses.piston_group
+        else:  # what the assumed share of the rod leaves, as the moment of inertia has it
+            share = engine.balancing.rod_small_end_share
+            usual = max(PISTON_SHARE * moving, moving - share * turning / (1 - share))
         piston = usual if stated is None else stated
         return {
             "piston": piston, "rod": moving - piston, "cap": CAP_SHARE * turning,
@@ -258,8 +262,10 @@ class _Study:
                         f"st_{name}_N": at.force, f"st_{name}_M": at.moment,
                         f"st_{name}_MPa": stress}  # fmt: skip
         turned = parts.eye_section(SectionLoad(0.0, 0.0), 1.0, 1.0, inputs.embedding, drawn=False)
+        unit = parts.eye_top(1.0, 1.0, float(np.degrees(inputs.embedding)), drawn=False)
         return bush | scalars | {
             "st_squeeze_P_N": pressed_by, "st_squeeze_J": turned.force,
+            "st_squeeze_kN": unit.force, "st_squeeze_kM": -unit.moment,
             "st_eye_bore_mm": self.eye_bore, "st_eye_wall_mm": wall, "st_eye_mean_mm": radius,
             "st_eye_top_MPa": top, "st_eye_K": share,
             **self._fatigue("eye_top", top, 0.0), **self._fatigue("eye", stresses[0], stresses[1]),

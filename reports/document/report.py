@@ -295,7 +295,7 @@ def _whole(env: Environment, chapter: Chapter, body: Markup, *, with_sheet: bool
         load=chapter.worst("worst_main_load"),
         pin=worst_pin(terms),
         pins=pin_stems(chapter.shape),
-        verdict=closing.verdict(chapter),
+        verdict=closing.verdict(chapter, briefly=True),
         toc=chapter.writer.contents(),
         content=body,
     )

@@ -54,6 +54,7 @@ class Reason:
         by_size: the span grows with the bore as that of table 4.
         one_rod: the span is that of a throw with one rod.
         required: formulas of what the calculation allows at least, if it does.
+        least: formulas of the limit within it, and what follows between the two.
     """
 
     key: str
@@ -68,6 +69,8 @@ class Reason:
     by_size: bool = False
     one_rod: bool = False
     required: tuple[str, ...] = ()
+    least: tuple[str, ...] = ()
+    between: str = ""
 
     @property
     def place(self) -> str:
@@ -146,7 +149,8 @@ REASONS: tuple[Reason, ...] = (
     Reason("film", "Наименьшая за цикл толщина масляной плёнки", r"h_{\min}",
            ("value_oil_orbit*oil_hcr_um",), RANGES["film"], "мкм", 2,
            "подшипник нагружен слабо", "возможно касание неровностей шейки и вкладыша",
-           required=(FILM_REQUIRED,)),
+           required=(FILM_REQUIRED,), least=("oil_hcr_um",),
+           between="неровности шейки и вкладыша не касаются, но запас до касания мал"),
 )  # fmt: skip
 _BY_KEY = {reason.key: reason for reason in REASONS}
 

@@ -107,11 +107,20 @@ class Scalar(Node):
     @property
     def usual_text(self) -> str:
         """The usual span in print, ``20…150 МПа``, ``до 40 МПа``; empty where there is none."""
+        return f"{self.span_text} {self.usual_unit}" if self.usual_unit else self.span_text
+
+    @property
+    def span_text(self) -> str:
+        """The usual span without its unit, of one from zero the upper end."""
         if not self.usual:
             return ""
         low, high = map(short, self.usual)
-        span = f"до {high}" if low == "0" else f"{low}…{high}"
-        return f"{span} {self.usual_unit}" if self.usual_unit else span
+        return f"до {high}" if low == "0" else f"{low}…{high}"
+
+    @property
+    def united(self) -> str:
+        """The note with the unit of the usual span."""
+        return f"{self.note}, {self.usual_unit}" if self.usual_unit else self.note
 
     @property
     def label(self) -> str:

@@ -16,6 +16,7 @@ from kshm.nomenclature.quantity import roman
 from reports.document.chapters.chapter import worst_pin
 from reports.document.chapters.oil_hole import oil_hole
 from reports.document.figures.polar import outline
+from reports.document.page.charts import ordinate
 from reports.document.text.mathsvg import plain
 from reports.document.text.terms import Terms
 from reports.draw.canvas import (
@@ -49,6 +50,7 @@ _POLE, _FAR = 1.2, 9.0  # radius of a pole; how far its name stands without a li
 _SIDE, _FOOT = 16.0, 9.0  # room for marks left of and below a diagram
 Values = NDArray[np.float64]
 _GROUP = re.compile(r"_\(([^)]*)\)")
+_SYMBOL = re.compile(r"\$([^$]*)\$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +145,7 @@ def curves(canvas: Canvas, room: CellArea, terms: Terms, chart: ChartSpec, *, cl
               for n in chart.levels]  # fmt: skip
     if len(names) > 1:
         room = legend(canvas, room, names)
-    title = _unit(terms, drawn[0].y) if len(drawn) == 1 else chart.y_title
+    title = _SYMBOL.sub(lambda match: drawn_symbol(match[1]), ordinate(terms, chart, drawn))
     wide = width_of(_unit(terms, drawn[0].x), TEXT) + 8
     low, high = _ends([*ys, np.asarray(levels)], zero=chart.from_zero)
     left, right = min(float(each.min()) for each in xs), max(float(each.max()) for each in xs)

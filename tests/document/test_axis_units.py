@@ -8,6 +8,7 @@ from unittest import mock
 
 import pytest
 
+from reports.document.figures import polar
 from reports.document.figures.axes import Axes
 from reports.document.report import Report
 from reports.document.text.terms import Terms
@@ -18,7 +19,9 @@ from reports.tables.registry import build_model
 from tests.document.test_report_parts import NEW, SAMPLES, with_every_part
 
 # A share, an order of vibration, an amplitude in those of the first mass, a number of a mass.
-BARE = {r"$k'_{\mathrm{пв}}$", r"$\nu$", "$a$", r"$i_{\mathrm{м}}$"}
+BARE = {r"$k'_{\mathrm{пв}}$", r"$\nu$", r"$\alpha$", r"$i_{\mathrm{м}}$"}
+# Sums of amplitudes in those of the first mass, an orbit in parts of the clearance.
+BARE |= {"$x_{1}$", "$y_{1}$", "$x$ (по вращению)", "$y$"}
 _SCALES = re.compile(r", \S.* \(М [\d,]+ \S+/мм; по горизонтали [\d,]+ \S+/мм\)$")
 
 
@@ -40,8 +43,13 @@ def axes_of(name: str) -> set[str]:
 
         return name_axis
 
+    def ends_noted(*given):
+        named.update(given[-1])
+        return ends(*given)
+
+    ends = polar._ends
     draws = {each: noted(getattr(Axes, each)) for each in ("name_y", "name_x")}
-    with mock.patch.multiple(Axes, **draws):
+    with mock.patch.multiple(Axes, **draws), mock.patch.object(polar, "_ends", ends_noted):
         terms = terms_of(name)
         Report(terms.model, terms.values).page("screen")
     return named
@@ -60,3 +68,13 @@ def test_every_axis_of_the_sheet_has_its_unit(name: str):
     scales = [item.text for item in canvas.items if isinstance(item, Words) and "(М " in item.text]
     assert len(scales) > 5
     assert [text for text in scales if not _SCALES.search(text)] == []
+
+
+def test_an_axis_of_two_curves_has_the_symbols_of_both():
+    """«Me» with an «e» of plain text stood at the curves of M_e and M_р, «A» at those of L."""
+    name = "cycle-tractor-diesel"
+    canvas, *_ = sheet_items(terms_of(name))
+    words = {item.text for item in canvas.items if isinstance(item, Words)}
+    titles = {text.partition(" (М ")[0] for text in words if "(М " in text}
+    assert {"M_e, M_р, Н·м", "N_уд, S_уд, МПа", "K_уд, T_уд, МПа"} <= titles
+    assert r"$L_{\mathrm{изб}}$, $L_{\mathrm{изб.г}}$, Дж" in axes_of(name)

@@ -190,7 +190,8 @@ def test_symbols_of_the_cycle_are_those_of_its_tables(name):
     text, formulas = plain(page), " ".join(formulas_of(page))
     assert "a_N + b_N x - c_N x^2" in formulas and "a_g + b_g x + c_g x^2" in formulas
     assert "= H_z" in formulas and "левая часть уравнения" not in text
-    columns = {"w": "вес верхней формулы", "h": "отношение (Q + Uz", "Δc": "добавка к истинной",
+    assert r"{Q_{\mathrm{дог}} + U_z - U_b}" in formulas and "Здесь Qдог = " in text
+    columns = {"w": "вес верхней формулы", "h": "отношение (Qдог + Uz", "Δc": "добавка к истинной",
                "cb": "истинная теплоёмкость при tb"}  # fmt: skip
     for symbol, meaning in columns.items():
         assert f"{symbol} — {meaning}" in text, symbol

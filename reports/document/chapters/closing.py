@@ -29,17 +29,17 @@ from reports.document.chapters.oil_hole import oil_hole
 from reports.document.chapters.repeats import printed, repeated
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block
 from reports.document.page.numbering import TablePlan
+from reports.document.text.checked import allows, beside_limit, outcome, shown
 from reports.document.text.symbols import remark_html, titled_html
-from reports.document.text.terms import Terms, crankcase_scavenges, with_unit
+from reports.document.text.terms import Terms, crankcase_scavenges
 from reports.document.text.texts import of_digits
-from reports.document.text.tolerances import tolerance
 from reports.inputs.solve_input import GridError
 from reports.model.blocks import Held
 from reports.model.shape import Shape, pin_table, rays_table, rods_table
-from reports.shared.russian import NBSP, capital, fixed, joined, uncapital
+from reports.shared.russian import NBSP, capital, fixed, joined
 from reports.shared.standing import Standing
 from reports.tables.left_out import without_orders
-from reports.tables.verdicts import JudgedValue, check_value, reasons_of
+from reports.tables.verdicts import JudgedValue, reasons_of
 
 _TEXT = "— Текст : непосредственный"
 SOURCES = {
@@ -124,7 +124,6 @@ _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
 _JOURNALS = "Удельные силы, одинаковые у коренных шеек {} ({})"
 _MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
-_CHECKED = 3  # decimals of all checks, in one column
 
 
 def checks(chapter: Chapter) -> Markup:
@@ -195,19 +194,10 @@ def checked(terms: Terms) -> list[JudgedValue]:
 def failed(terms: Terms, without: Collection[str] = ()) -> list[tuple[Markup, Markup]]:
     """Title and what came out of the checks that did not pass."""
     return [
-        _outcome(each.title, check_value(each.value))
+        outcome(terms, each)
         for each in checked(terms)
         if each.standing is not Standing.INSIDE and each.name not in without
     ]
-
-
-def _outcome(title: str, value: str) -> tuple[Markup, Markup]:
-    """«Моменты равны: расхождение, %» and a value as title and «расхождение 3 %»."""
-    head, colon, result = title.rpartition(": ")
-    words, comma, unit = result.rpartition(", ")
-    if not (colon and comma):
-        return titled_html(title), Markup("получено {}").format(value)
-    return titled_html(head), Markup("{} {}").format(titled_html(words), with_unit(value, unit))
 
 
 def _check_table(terms: Terms) -> TableBlock:
@@ -220,19 +210,13 @@ def _check_table(terms: Terms) -> TableBlock:
     rows = [
         [
             titled_html(each.title),
-            fixed(each.value, _CHECKED),
-            allows(terms, each.name),
+            shown(terms, each),
+            allows(terms, each),
             "да" if each.standing is Standing.INSIDE else "нет",
         ]
         for each in checked(terms)
     ]
     return table_block(columns, rows)
-
-
-def allows(terms: Terms, key: str) -> str:
-    """Return what a check allows, in words."""
-    verdict = str(terms.model.scalars[f"check_{key}"].expr)
-    return tolerance(verdict, f"value_{key}", terms.value, terms.symbol)
 
 
 def conclusion(chapter: Chapter) -> Markup:
@@ -245,7 +229,7 @@ def conclusion(chapter: Chapter) -> Markup:
         "conclusion",
         count=chapter.input.engine.cylinders,
         failed=failed(terms, {"power"} if "torque" in chapter.relevant else ()),
-        verdict=verdict(chapter),
+        verdict=verdict(chapter, briefly=True),
         load=chapter.worst("worst_main_load"),
         loads=leaders(terms, [f"Rmain{k}_max" for k in range(1, throws + 2)]),
         names=chapter.relevant & _CONCLUDED,
@@ -284,31 +268,41 @@ def _further(chapter: Chapter) -> list[Markup]:
     return [line for line in lines if line]
 
 
-def verdict(chapter: Chapter) -> str:
-    """How many checks passed, in words; where they stand if the report has no table of them."""
-    count, bad = len(checked(chapter.terms)), len(failed(chapter.terms))
+def verdict(chapter: Chapter, *, briefly: bool = False) -> Markup:
+    """How many checks passed, in words; where they stand if the report has no table of them.
+
+    ``briefly`` counts the results that leave their limits, which the chapter of checks names.
+    """
+    terms = chapter.terms
+    count, bad = len(checked(terms)), len(failed(terms))
     absent = "checks" not in chapter.relevant
     where = f" (таблица «Проверки» {ELSEWHERE})" if absent else ""
-    beyond = _beyond(chapter.terms)
+    beyond = _beyond(terms, names=absent or not briefly)
     if bad:
-        also = f" Кроме того, {beyond}." if beyond else ""
-        return f"Проверок расчёта{where} выполнено {count - bad}{NBSP}из{NBSP}{count}.{also}"
+        also = Markup(" Кроме того, {}.").format(beyond) if beyond else ""
+        passed = f"Проверок расчёта{where} выполнено {count - bad}{NBSP}из{NBSP}{count}."
+        return Markup(passed) + also
+    share = f"({count}{NBSP}из{NBSP}{count})"
     if beyond:
-        share = f"{count}{NBSP}из{NBSP}{count}"
-        return f"Проверки хода расчёта{where} выполнены ({share}), но {beyond}."
-    return f"Все проверки расчёта{where} выполнены ({count}{NBSP}из{NBSP}{count})."
+        passed = f"Проверки хода расчёта{where} выполнены {share}, но "
+        return Markup("{}{}.").format(passed, beyond)
+    return Markup(f"Все проверки расчёта{where} выполнены {share}.")
 
 
-def _beyond(terms: Terms) -> str:
-    """Return what of the results is less than allowed, and how many leave their usual limits."""
+def _beyond(terms: Terms, *, names: bool) -> Markup:
+    """Return what of the results is not as allowed, and how many leave their usual limits."""
     outside = [each for each in terms.judged if each.standing is not Standing.INSIDE]
-    weak = [f"{uncapital(each.title)} — {fixed(each.value, 2)}"
-            for each in outside if each.held is Held.ALLOWED]  # fmt: skip
+    weak = [each for each in outside if each.held is Held.ALLOWED]
     odd = sum(each.held is Held.USUAL for each in outside)
-    parts = [f"меньше допускаемого: {'; '.join(weak)}"] if weak else []
+    parts = []
+    if weak and names:
+        named = Markup("; ").join(beside_limit(terms, each) for each in weak)
+        parts.append(Markup("не в допускаемых пределах: {}").format(named))
+    elif weak:
+        parts.append(Markup(f"результатов не в допускаемых пределах: {len(weak)}"))
     if odd:
-        parts.append(f"результатов вне обычных пределов: {odd}")
-    return "; ".join(parts)
+        parts.append(Markup(f"результатов вне обычных пределов: {odd}"))
+    return Markup("; ").join(parts)
 
 
 def sources(chapter: Chapter) -> Markup:

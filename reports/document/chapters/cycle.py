@@ -39,8 +39,9 @@ _EQUATIONS = {
     "petrol": r"\mu\, c''_{vz}\, t_z = \xi_z q + U_c = H_z",
     "diesel": r"\mu\,(c''_{vz} + R)\, t_z = "
     r"\xi_z q + U_c + R\,[\lambda_p t_c + 273\,(\lambda_p - \mu)] = H_z",
-    "n2": r"n_2 - 1 = \dfrac{R\,(T_z - T_b)}{Q + U_z - U_b},"
-    r"\quad Q = \dfrac{(\xi_b - \xi_z)\, q}{\mu},\quad T_b = \dfrac{T_z}{\delta^{n_2 - 1}}",
+    "n2": r"n_2 - 1 = \dfrac{R\,(T_z - T_b)}{Q_{\mathrm{дог}} + U_z - U_b},"
+    r"\quad Q_{\mathrm{дог}} = \dfrac{(\xi_b - \xi_z)\, q}{\mu},"
+    r"\quad T_b = \dfrac{T_z}{\delta^{n_2 - 1}}",
     "speed": r"M_e = M_{eN}\,(a_N + b_N x - c_N x^2),\quad g_e = g_{eN}\,(a_g + b_g x + c_g x^2)",
 }
 _BALANCE = ("useful", "exhaust", "incomplete", "rest")

@@ -64,6 +64,7 @@ class Judged:
     high: float
     bore_mm: float
     required: float | None = None  # what the tables allow at least
+    least: float | None = None  # the limit within it
 
     @property
     def verdict(self) -> Standing:
@@ -102,6 +103,8 @@ class Judged:
         if self.verdict is Standing.ABOVE:
             return "больше обычного", self.reason.above
         of = "допускаемого" if self.verdict is Standing.FAILED else "обычного"
+        if self.least is not None and self.value >= self.least:
+            return f"меньше {of}", self.reason.between
         return f"меньше {of}", self.reason.below_at(self.bore_mm)
 
     @property
@@ -246,8 +249,8 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
         if value is not None and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
             span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
-            required = _value(key.required, number)
-            yield Judged(key, value, other, *span, bore, required)
+            required, least = (_value(of, number) for of in (key.required, key.least))
+            yield Judged(key, value, other, *span, bore, required, least)
 
 
 def several_rods(model: InputFile) -> bool:

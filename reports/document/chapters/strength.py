@@ -21,6 +21,7 @@ from reports.document.page.charts import sketches_figure
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name, plain_number
+from reports.document.text.texts import of_digits
 from reports.inputs.sections.strength import PART_MATERIALS
 from reports.inputs.to_si.engine import to_engine
 from reports.model.blocks import ScalarTable
@@ -116,13 +117,14 @@ def _changes(terms: Terms, sizes: ChangedSizes) -> TableBlock:
 
 def _again(chapter: Chapter, sizes: ChangedSizes) -> TableBlock:
     """Values that the changes move, before and after, beside their limits."""
-    terms, rows, titles = chapter.terms, [], _titles(chapter)
-    usual = {value.expr: value.usual_text for value, _ in _block(chapter, "strength_ranges").pairs}
+    terms, rows = chapter.terms, []
+    usual = {value.expr: value for value, _ in _block(chapter, "strength_ranges").pairs}
     for each, value, _ in _ranged(chapter):
         after = sizes.after[each.key] / quantity(each.key).si
         if abs(after - value) > _MOVED * abs(value):
-            rows.append([titled_html(titles[each.key]), terms.sym(each.key), fixed(value, _RANGED),
-                         fixed(after, _RANGED), usual[each.key]])  # fmt: skip
+            title, digits = usual[each.key].united, quantity(each.key).digits
+            rows.append([titled_html(capital(title)), terms.sym(each.key), terms.num(each.key),
+                         of_digits(after, digits), usual[each.key].span_text])  # fmt: skip
     allowed = terms.num("strength_safety_allowed")
     for key in SAFETIES:
         if terms.has(key) and abs(sizes.after[key] - terms.value(key)) > _MOVED * terms.value(key):

@@ -15,6 +15,7 @@ from reports.document.chapters.record import Write
 from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
+from reports.document.text.terms import Terms
 from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
 from reports.model.book_text import cause_of, shelf_of
@@ -211,11 +212,17 @@ def _usual_table(chapter: Chapter, block: ScalarTable) -> TableBlock:
     terms = chapter.terms
     judged = {each.key: each for each in outcomes(terms.model, terms.values.scalars)}
     rows = [
-        [titled_html(capital(verdict.note)), fixed(judged[verdict.key].value, _RANGED),
-         verdict.usual_text, WORDS[judged[verdict.key].standing]]
+        [titled_html(capital(verdict.united)), _ranged(terms, judged[verdict.key]),
+         verdict.span_text, WORDS[judged[verdict.key].standing]]
         for _, verdict in block.pairs
     ]  # fmt: skip
     return table_block(
         [TableColumn("Величина", 4.2, text=True), TableColumn("Значение", 1.4),
          TableColumn("Обычно", 1.8), TableColumn("Вывод", 1.8)], rows,
     )  # fmt: skip
+
+
+def _ranged(terms: Terms, each: JudgedValue) -> str:
+    """Return a value with the digits of what it is, where it is a value of the tables."""
+    of = str(each.scalar.expr)
+    return terms.num(of) if terms.has(of) else fixed(each.value, _RANGED)

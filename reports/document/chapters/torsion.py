@@ -8,7 +8,14 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from kshm.defaults import DAMPING_SHARE, FLYWHEEL_SHARE, PULLEY_SHARE, SPEED_RANGE, SPEEDS
+from kshm.defaults import (
+    DAMPING_SHARE,
+    FLYWHEEL_SHARE,
+    OTHER_FLYWHEEL,
+    PULLEY_SHARE,
+    SPEED_RANGE,
+    SPEEDS,
+)
 from reports.document.chapters.chapter import Chapter
 from reports.document.figures.curves import Mark
 from reports.document.page.blocks import (
@@ -29,17 +36,18 @@ from reports.shared.russian import NBSP, fixed, short
 from reports.tables.torsion_members import ray_of
 
 _HOLZER = (
-    r"M_k = M_{k-1} + \omega^2 J_k\, a_k, \qquad a_{k+1} = a_k - \dfrac{M_k}{c_k}, \qquad a_1 = 1"
+    r"M_k = M_{k-1} + \Omega^2 J_k\, \alpha_k, \qquad "
+    r"\alpha_{k+1} = \alpha_k - \dfrac{M_k}{c_k}, \qquad \alpha_1 = 1"
 )
-_SUM = r"S_{\nu} = \left|\sum a_k\, e^{-j\nu\theta_k}\right|"
+_SUM = r"S_{\nu} = \left|\sum \alpha_{\mathrm{ц}i}\, e^{-j\nu\theta_i}\right|"
 _ENERGY = (
-    r"A = \dfrac{M_{\nu} S_{\nu}}{D_{\nu}}, \qquad D_{\nu} = \omega \sum b_k a_k^2 + "
-    r"\eta_{\mathrm{в}} \sum c_k \left(a_{k+1} - a_k\right)^2"
+    r"A = \dfrac{M_{\nu} S_{\nu}}{D_{\nu}}, \qquad D_{\nu} = \Omega \sum b_k \alpha_k^2 + "
+    r"\eta_{\mathrm{в}} \sum c_k \left(\alpha_{k+1} - \alpha_k\right)^2"
 )
 _MOTION = (
-    r"\left(-\omega^2 \mathbf{J} + j\omega \mathbf{b} + \mathbf{c}\,(1 + j\eta_{\mathrm{в}})\right)"
+    r"\left(-\Omega^2 \mathbf{J} + j\Omega \mathbf{b} + \mathbf{c}\,(1 + j\eta_{\mathrm{в}})\right)"
     r"\mathbf{\theta}_{\nu} = \mathbf{M}_{\nu}, \qquad "
-    r"\omega = \nu\,\Omega"
+    r"\Omega = \nu\,\omega"
 )
 _NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}
 # Rows of the train; bounds of the frequencies are of the sheet alone.
@@ -109,6 +117,7 @@ def torsion(chapter: Chapter) -> Markup:
         assumed=_assumed(section),
         range_words=_range_words(section),
         throws_share=short(FLYWHEEL_SHARE),
+        other_share=short(OTHER_FLYWHEEL),
         speeds=SPEEDS,
         free=section.ground_nm_rad + (section.masses[-1].stiffness_nm_rad
                                       if section.masses else 0) == 0,
@@ -235,7 +244,7 @@ def _beyond(terms: Terms, modes: list[int]) -> Lead | None:
 
 def _forms(terms: Terms, modes: list[int]) -> TableBlock:
     heads = [TableColumn("Масса", 2.6, text=True), TableColumn(symbol_head("J", "кг·м²"))]
-    heads += [TableColumn(symbol_head(f"a_{m}", "")) for m in modes]
+    heads += [TableColumn(symbol_head(rf"\alpha_{{\mathrm{{ф}}{m}}}", "")) for m in modes]
     grid = next(block for block in terms.model.blocks if block.id == "torsion_train")
     labels = getattr(grid, "labels", ())
     inertia = "torsion_forms.tor_J_kgm2"
@@ -276,7 +285,7 @@ def _holzer_row(terms: Terms) -> str:
     less = rf" - {to_tex(fixed(ground, 0))}" if ground else ""
     return (
         rf"M_1 = {numbers[0]}^2 \cdot {numbers[1]}{less} = {numbers[2]}\;\mathrm{{Н·м}}, \qquad "
-        rf"a_2 = 1 - \dfrac{{{numbers[2]}}}{{{numbers[3]}}} = {second}"
+        rf"\alpha_2 = 1 - \dfrac{{{numbers[2]}}}{{{numbers[3]}}} = {second}"
     )
 
 

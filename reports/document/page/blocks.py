@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -18,6 +19,7 @@ from reports.shared.russian import NBSP, capital
 _LONG = 12  # rows from which a table is worth the lines
 _DASH = "—"
 _NO_ANGLE = 1e-6  # deg
+_WORD = re.compile("[а-яё]{4,}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,8 +124,14 @@ class TableBlock:
 
 
 def table_block(columns: Sequence[TableColumn], rows: Sequence[Sequence[object]]) -> TableBlock:
-    """Build a table from written cells, bringing the numbers of each column in line."""
+    """Build a table from written cells, bringing the numbers of each column in line.
+
+    Headings of columns and rows begin with a capital letter.
+    """
     shown = [[cell if isinstance(cell, str) else str(cell) for cell in row] for row in rows]
+    for row in shown:
+        row[:1] = map(_heading, row[:1])
+    columns = [replace(column, head=_heading(column.head)) for column in columns]
     for number, column in enumerate(columns):
         texts = [row[number] for row in shown if number < len(row)]
         if column.text or len(texts) < len(shown) or any(isinstance(t, Markup) for t in texts):
@@ -131,6 +139,11 @@ def table_block(columns: Sequence[TableColumn], rows: Sequence[Sequence[object]]
         for row, text in zip(shown, aligned(texts), strict=True):
             row[number] = text
     return TableBlock(tuple(columns), tuple(map(tuple, shown)))
+
+
+def _heading(text: str) -> str:
+    """Return a heading whose first word is large; a unit, «кВт», stays what it is."""
+    return capital(text) if _WORD.match(text) else text
 
 
 def symbol_head(symbol_tex: str, unit: str = "") -> Markup:

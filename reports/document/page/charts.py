@@ -259,15 +259,12 @@ def _panel(
             np.isclose(y, y.min(), rtol=0, atol=_TIE),
         )
         rows = (*rows, ("max", int(high.argmax())), ("min", int(low.argmax())))
-    title = chart.y_tex or (
-        axis_name(terms, drawn[0].y) if len(drawn) == 1 else _tex(chart.y_title)
-    )
     return Panel(
         tuple(
             PlotCurve(_name(terms, series), column)
             for series, column in zip(drawn, columns, strict=True)
         ),
-        title,
+        ordinate(terms, chart, drawn),
         tuple(Level(f"${terms.tex(level)}$", terms.value(level)) for level in chart.levels),
         tuple(Mark(name, float(x[row]), float(y[row])) for name, row in rows),
         chart.from_zero,
@@ -324,6 +321,21 @@ def axis_name(terms: Terms, name: str) -> str:
     """Symbol and unit of a column."""
     unit = terms.unit(name)
     return f"${terms.tex(name)}${', ' if unit else ''}{unit}"
+
+
+def ordinate(terms: Terms, chart: ChartSpec, drawn: Sequence[Series]) -> str:
+    """Symbols of a chart's ordinate between dollars and its unit.
+
+    Two curves have both their symbols, more of them the word of the chart.
+    """
+    if chart.y_tex:
+        return chart.y_tex
+    symbols = list(dict.fromkeys(terms.tex(series.y) for series in drawn))
+    units = {terms.unit(series.y) for series in drawn}
+    if len(drawn) > 2 or len(units) > 1 or (len(drawn) > 1 and any(each.name for each in drawn)):
+        return _tex(chart.y_title)
+    (unit,) = units
+    return ", ".join([*(f"${tex}$" for tex in symbols), *([unit] if unit else [])])
 
 
 def _name(terms: Terms, series: Series) -> str:

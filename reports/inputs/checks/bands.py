@@ -288,12 +288,18 @@ def stated_kind(model: InputFile) -> str:
     """Kind of engine that the file states, else an empty text."""
     if model.cycle is not None:
         return model.cycle.kind
-    stated = getattr(model.gas, "kind", None) or model.masses.estimate_fuel
+    stated = getattr(model.gas, "kind", None) or model.masses.estimate_fuel or _kind_of_parts(model)
     if stated:
         return str(stated)
     name = model.engine.name.lower()
     named = [kind for kind, words in _WORDS.items() if any(word in name for word in words)]
     return named[0] if len(named) == 1 else ""
+
+
+def _kind_of_parts(model: InputFile) -> str:
+    """Kind that the strength of the parts is calculated for, where the file says it."""
+    section = model.strength
+    return section.kind if section is not None and "kind" in section.model_fields_set else ""
 
 
 def diesel_rho(model: InputFile) -> float:

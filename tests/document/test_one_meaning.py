@@ -1,0 +1,73 @@
+"""A symbol that a note explains has one meaning, whoever wrote the sentence.
+
+The symbols of the tables are compared by their keys elsewhere; those of formulas and sentences
+written by hand, «где ω — частота возмущения», are known from their explanations alone.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+from collections import defaultdict
+from itertools import combinations
+
+import pytest
+
+from tests.document.bare_pages import bare_page
+from tests.document.test_report_parts import with_every_part
+
+pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
+
+_TOLD = re.compile(r"(?:^(?:где )?|[,;(:] ?| и )([^\s,;:(]{1,12}) — ([^,;.()]+)")
+_WORD = re.compile(r"[А-Яа-яё]{5,}")
+_POINTS = "Отмечены"  # points of a diagram, not quantities
+_STEM = 4  # letters by which words are the same
+
+
+def meanings(page: str) -> dict[str, set[str]]:
+    """Explanations by symbol: of sentences, of lists, of tables with a column of symbols."""
+    told: dict[str, set[str]] = defaultdict(set)
+    for paragraph in re.findall(r"<(?:p|li)\b[^>]*>(.*?)</(?:p|li)>", page, re.DOTALL):
+        text = _bare(paragraph)
+        if _POINTS in text:
+            continue
+        for symbol, meaning in _TOLD.findall(text):
+            if not _WORD.search(symbol) and not re.match("(?:на|по|от|в|до) ", meaning):
+                told[symbol].add(meaning.strip())
+    for head, body in re.findall(r"<thead>(.*?)</thead>.*?<tbody>(.*?)</tbody>", page, re.DOTALL):
+        heads = [_bare(cell) for cell in re.findall(r"<th\b.*?</th>", head, re.DOTALL)]
+        if "Обозначение" not in heads[:2]:
+            continue
+        for row in re.findall(r"<tr.*?</tr>", body, re.DOTALL):
+            title, symbol, *_ = (_bare(cell) for cell in re.findall(r"<td.*?</td>", row, re.DOTALL))
+            told[symbol].add(title)
+    return told
+
+
+def _bare(text: str) -> str:
+    return re.sub(r"\s+", " ", html.unescape(re.sub("<[^>]+>", "", text))).strip()
+
+
+def _stems(text: str) -> set[str]:
+    return {word[:_STEM].lower() for word in re.findall(r"[А-Яа-яё]{4,}", text)}
+
+
+def differ(one: str, other: str) -> bool:
+    """Whether two explanations have hardly a word in common."""
+    first, second = _stems(one), _stems(other)
+    return not (first <= second or second <= first or len(first & second) > 1)
+
+
+@pytest.mark.parametrize(
+    "name", ["gots-diesel", "yamz-236", "two-stroke", "cycle-turbo-petrol", "V12", "one"]
+)
+def test_a_symbol_has_one_explanation(name: str):
+    """ω was the shaft's speed and the vibration's, a_k the amplitude of an order and of a throw."""
+    told = meanings(bare_page(with_every_part(name)))
+    assert len(told) > 150
+    several = {
+        symbol: sorted(said)
+        for symbol, said in told.items()
+        if symbol != "—" and any(differ(*pair) for pair in combinations(said, 2))
+    }
+    assert several == {}

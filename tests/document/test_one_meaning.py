@@ -13,8 +13,7 @@ from itertools import combinations
 
 import pytest
 
-from tests.document.bare_pages import bare_page
-from tests.document.test_report_parts import with_every_part
+from tests.document.test_report_parts import page_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
@@ -63,7 +62,7 @@ def differ(one: str, other: str) -> bool:
 )
 def test_a_symbol_has_one_explanation(name: str):
     """ω was the shaft's speed and the vibration's, a_k the amplitude of an order and of a throw."""
-    told = meanings(bare_page(with_every_part(name)))
+    told = meanings(page_of(name))
     assert len(told) > 150
     several = {
         symbol: sorted(said)

@@ -13,16 +13,11 @@ from reports.model.blocks import Held
 from reports.model.evaluation import evaluate_model
 from reports.shared.standing import Standing
 from reports.tables.registry import build_model
-from tests.document.bare_pages import bare_page, plain
-from tests.document.test_report_parts import with_every_part
+from tests.document.bare_pages import plain
+from tests.document.test_report_parts import page_of, with_every_part
 from tests.document.test_report_sentences import printed_rows
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
-
-
-@cache
-def page_of(name: str) -> str:
-    return bare_page(with_every_part(name))
 
 
 @cache

@@ -4,20 +4,13 @@ from __future__ import annotations
 
 import html
 import re
-from functools import cache
 
 import pytest
 
-from tests.document.bare_pages import bare_page
-from tests.document.test_report_parts import NEW, SAMPLES, with_every_part
+from tests.document.test_report_parts import NEW, SAMPLES, page_of
 from tests.document.test_report_sentences import printed_rows
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
-
-
-@cache
-def page_of(name: str) -> str:
-    return bare_page(with_every_part(name))
 
 
 def bare(cell: str) -> str:

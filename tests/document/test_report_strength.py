@@ -11,7 +11,7 @@ from reports.model.blocks import ScalarTable
 from reports.model.evaluation import evaluate_model
 from reports.tables.registry import build_model
 from tests.document.bare_pages import bare_page, formulas_of, plain
-from tests.document.test_report_parts import with_every_part
+from tests.document.test_report_parts import page_of, with_every_part
 from tests.document.test_report_sentences import printed_rows
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -44,7 +44,7 @@ def test_every_value_has_its_formula_with_numbers(name: str):
 @pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "two-stroke", "vaz-2106"])
 def test_the_mass_of_the_piston_is_one(name: str):
     """1.519 kg in the chapter on the moment of inertia, 1.300 kg in that on the strength."""
-    page = bare_page(with_every_part(name))
+    page = page_of(name)
     inertia = printed_rows(page, "Момент инерции и неравномерность хода")
     loads = printed_rows(page, "Силы, по которым рассчитана прочность")
     (piston,) = {row[2] for row in inertia if row[0] == "Масса поршневой группы"}

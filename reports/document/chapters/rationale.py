@@ -246,9 +246,11 @@ def judge(chapter: Chapter) -> Iterator[Judged]:
     for reason in REASONS:
         key = _of_worst_pin(reason, chapter)
         value = _value(key.value, number)
-        if value is not None and not (reason.one_rod and several):
+        of_cycle = _OF_CYCLE.get(reason.key, "")
+        unknown = section is not None and of_cycle and of_cycle not in by_cycle  # with boost
+        if value is not None and not unknown and not (reason.one_rod and several):
             other = None if prototype is None else _value(reason.value, prototype.value)
-            span = by_cycle.get(_OF_CYCLE.get(reason.key, ""), reason.span(kind, times))
+            span = by_cycle.get(of_cycle, reason.span(kind, times))
             required, least = (_value(of, number) for of in (key.required, key.least))
             yield Judged(key, value, other, *span, bore, required, least)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from kshm.nomenclature.digits import TEXT, Row, scientific
 
 ROWS: tuple[Row, ...] = (
-    ("oil_d#_mm", "d", "mm", "диаметр шейки", 3),
+    ("oil_d#_mm", "d", "mm", "диаметр шейки", 2),
     ("oil_gap#_mm", r"\Delta", "mm", "зазор по диаметру", 4),
     ("oil_psi#", r"\psi_{\Delta}", "", "относительный зазор Δ/d", 6),
     ("oil_land#_mm", r"B_{\mathrm{н}}", "mm", "ширина несущей части", 3),
@@ -39,7 +39,7 @@ ROWS: tuple[Row, ...] = (
     ("oil_more", r"\pm", "", "1 — эксцентриситет больше", 0),
     ("oil_chi#", r"\chi", "", "относительный эксцентриситет при средней нагрузке", 4),
     ("oil_temp#_C", r"t_{\mathrm{м}}", "C", "температура масла в плёнке", 1),
-    ("oil_visc#_mPas", r"\mu_{\mathrm{м}}", "mPas", "вязкость масла в плёнке", 3),
+    ("oil_visc#_mPas", r"\eta_{\mathrm{пл}}", "mPas", "вязкость масла в плёнке", 3),
     ("oil_hmin#_um", r"h_{\min}", "um", "наименьшая толщина плёнки при средней нагрузке", 2),
     ("oil_K#", r"K_h", "", "запас плёнки hmin/hкр", 2),
     ("oil_friction#_W", r"N_{\mathrm{тр}}", "W", "мощность трения при средней нагрузке", 1),

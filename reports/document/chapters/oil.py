@@ -188,19 +188,15 @@ def _beside(terms: Terms, grid: Grid, keys: Sequence[str]) -> TableBlock:
 
 
 def _steady(terms: Terms, cases: list[FilmCase]) -> TableBlock:
-    heads = [
-        TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"k_{\mathrm{ср}}",
-                                                                          "МПа")),
-        TableColumn(symbol_head(r"\chi", "")), TableColumn(symbol_head(r"t_{\mathrm{м}}", "°C")),
-        TableColumn(symbol_head(r"\mu_{\mathrm{м}}", "мПа·с")),
-        TableColumn(symbol_head(r"h_{\min}", "мкм")),
-        TableColumn(symbol_head("K_h", "")), TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
-    ]  # fmt: skip
     keys = (
         "oil_k{}_MPa", "oil_chi{}", "oil_temp{}_C", "oil_visc{}_mPas", "oil_hmin{}_um", "oil_K{}",
         "oil_friction{}_W", "oil_through{}_l_min",
     )  # fmt: skip
+    measures = [terms.quantity(key.format(cases[0].number)) for key in keys]
+    heads = [
+        TableColumn("Подшипник", 3.2, text=True),
+        *(TableColumn(symbol_head(each.tex, each.unit_label)) for each in measures),
+    ]
     rows = [
         [titled_html(case.label), *(terms.num(key.format(case.number)) for key in keys)]
         for case in cases

@@ -112,10 +112,12 @@ def inertia_results(case: Case) -> Results:
     }
     steps, torque = {}, float(raw.torque_sum[case.index][:-1].mean())
     if engine.step_deg > FINE_STEP:
+        ranges = np.array([scalars["W_fine"], scalars["W_range"]])
+        with np.errstate(divide="ignore"):  # a diagram may give no work
+            shares = ranges / torque
         steps["inertia_steps"] = {
-            "W_step_deg": np.radians([FINE_STEP, engine.step_deg]),
-            "W_step_share": np.array([scalars["W_fine"], scalars["W_range"]]) / torque,
-        }
+            "W_step_deg": np.radians([FINE_STEP, engine.step_deg]), "W_step_share": shares,
+        }  # fmt: skip
     return {"inertia": table} | steps, scalars | _rod_model(engine)
 
 

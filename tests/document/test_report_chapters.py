@@ -13,6 +13,7 @@ from reports.formula.tex import to_tex
 from reports.inputs.load import load_mapping
 from reports.inputs.solve_input import refined, solved
 from reports.new.generate import generate_engine
+from reports.shared.russian import uncapital
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, formulas_of, plain
 from tests.document.test_report_sentences import engine, page_of, printed_rows, text_of, words_of
@@ -153,7 +154,7 @@ def test_masses_about_a_node_have_names():
     named = re.findall(r"(\d+) и \d+ \(([^)]*?) и ([^)]*?)\)", " ".join(matches))
     assert named
     for k, first, second in named:
-        assert (first, second) == (names[int(k) - 1], names[int(k)])
+        assert (first, second) == (uncapital(names[int(k) - 1]), uncapital(names[int(k)]))
 
 
 def test_safety_by_bending_follows_from_the_printed_stresses():

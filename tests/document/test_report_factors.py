@@ -16,7 +16,11 @@ pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_gro
 # 100, 1000 and so on, but not within a longer number, and powers of ten.
 _FACTOR = re.compile(r"(?<![\d,}.])(?<!\\,)10{2,6}(?![\d{])(?!\\,)|10\^\{-?\d+\}")
 # Coefficients of an empirical formula, whose angle is in degrees: the text says so.
-_COEFFICIENTS = re.compile(r"(?:8|3\{,\}3) \\cdot 10\^\{-4\}")
+# So are those of expansion; a small number in brackets of its own is a power of ten itself.
+_COEFFICIENTS = re.compile(
+    r"(?:8|3\{,\}3) \\cdot 10\^\{-4\}|[12]\{,\}\d \\cdot 10\^\{-5\}"
+    r"|\\left\(-?\d+(?:\{,\}\d+)? \\cdot 10\^\{-\d\}\\right\)"
+)
 _MODULUS = re.compile(r"\}\{\d\{,\}\d+ \\cdot 10\^\{\d\}\}")  # a stiffness is a power of ten itself
 _TOLD = re.compile(r"Здесь (?:множител[ьи]|числ[оа]) (.*?) перевод[ия]т ", re.DOTALL)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,7 @@ from reports.model.blocks import Model
 from reports.new.generate import NewEngine, file_text
 from reports.shared.errors import InputError, KshmError, Problem
 from reports.tables.registry import kept_model
+from reports.workbook.lost_formulas import lost_formulas
 from reports.workbook.read import load_workbook_input
 
 HEAD = ("Исходные данные двигателя для kshm.",)
@@ -79,8 +81,17 @@ def read_toml(path: str) -> Data:
 
 
 def read_book(path: str) -> Data:
-    """Return the input that an edited workbook holds; InputError if it is none of ours or wrong."""
-    return {"raw": to_mapping(load_workbook_input(Path(path)).model)}
+    """Return the input that an edited workbook holds, and its lost formulas in words.
+
+    Raises:
+        InputError: it is none of ours, or wrong.
+    """
+    model = load_workbook_input(Path(path)).model
+    lost: tuple[Problem, ...] = ()
+    with suppress(InputError):  # what is wrong with the engine its start says
+        refuse_faults(model)
+        lost = lost_formulas(Path(path), kept_model(model))
+    return {"raw": to_mapping(model), "lost": [problem.line() for problem in lost]}
 
 
 def start(raw: Mapping[str, Any]) -> Data:

@@ -7,6 +7,7 @@ import time
 import zipfile
 from typing import Any
 
+import openpyxl
 import pytest
 from starlette.testclient import TestClient
 
@@ -30,6 +31,16 @@ def test_kinds_are_those_of_the_command() -> None:
     assert set(only.type.choices) < set(OFFERED)  # type: ignore[attr-defined]
 
 
+def typed_over(book: bytes) -> bytes:
+    """The book with a number over a formula."""
+    opened = openpyxl.load_workbook(io.BytesIO(book))
+    assert str(opened["Итоги"]["C6"].value).startswith("=")
+    opened["Итоги"]["C6"] = 5.0
+    written = io.BytesIO()
+    opened.save(written)
+    return written.getvalue()
+
+
 def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:
     raw = page.sample()
     raw["regime"]["speed_rpm"] = 3210.0
@@ -40,6 +51,9 @@ def test_workbook_down_and_up_again(page: Page, client: TestClient) -> None:
     heads = {**MARK, "content-type": "application/octet-stream"}
     back = client.post("/api/book", content=answer.content, headers=heads).json()
     assert back["raw"]["regime"]["speed_rpm"] == 3210.0
+    assert back["lost"] == []
+    typed = client.post("/api/book", content=typed_over(answer.content), headers=heads).json()
+    assert [line.partition(":")[0] for line in typed["lost"]] == ["книга.xlsx, Итоги!C6"]
     assert page.post("/api/settle", {"raw": back["raw"]})["remarks"]
     # The same once more is there at once.
     assert page.post("/api/files", {"raw": raw, "kind": "xlsx"})["id"] == job

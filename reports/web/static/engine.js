@@ -20,7 +20,7 @@ const built = async ({engine, scripts: texts}) =>
 // An input that comes from somewhere takes the page; its fields and its engine are asked for.
 // What comes anew has no `own` place among the engines yet; `stands` tells that it is kept there.
 async function fresh(coming, isNew = true, own = isNew ? {} : state.own, stands = false) {
-  const came = await coming, shape = came.raw ? await ask("api/start", came) : came;
+  const {lost = [], ...came} = await coming, shape = came.raw ? await ask("api/start", came) : came;
   if (!shape.groups) { // what is wrong is said where it is seen
     set({errors: shape.errors ?? []});
     return document.querySelector("#errors")?.scrollIntoView({block: "center"});
@@ -29,7 +29,7 @@ async function fresh(coming, isNew = true, own = isNew ? {} : state.own, stands 
   if (own !== state.own) Object.assign(state, {own: seen(own), kept: null});
   if (own.raw) Object.assign(state, {other: own.other, second: null, past: [], news: "", isNew: false}); // not what was beside it
   if (stands) state.kept = text({...state, raw: shape.raw});
-  await adopt(shape, {typed: {}, touched: null, errors: []});
+  await adopt({...shape, remarks: [...lost, ...shape.remarks ?? []]}, {typed: {}, touched: null, errors: []}); // of a workbook what it lost
   if (state.other && !state.second) set({second: await built(await ask("api/start", {raw: state.other}))});
 }
 

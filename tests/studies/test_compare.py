@@ -162,7 +162,7 @@ def test_an_edited_workbook_is_compared_with_its_file(tmp_path):
     book = tmp_path / "two-stroke.xlsx"
     code, output = run(sample, book, "-o", tmp_path / "c.html")
     assert code == 0, output
-    assert "различий нет" in (tmp_path / "c.html").read_text(encoding="utf-8")
+    assert "Различий нет" in (tmp_path / "c.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

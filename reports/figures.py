@@ -12,7 +12,7 @@ from kshm.engine.checks import takes_kinds
 from kshm.results.solution import Solution
 from reports.document.figures.curves import Level, Mark, Panel, PlotCurve, curves_figure
 from reports.document.figures.polar import polar_path, wear_diagram
-from reports.model.shape import pin_name, pin_table
+from reports.model.shape import most_loaded_pin, pin_name, pin_table, rays_table
 from reports.shared.errors import InputError, Problem
 from reports.shared.files import write_text
 
@@ -108,7 +108,8 @@ class SolutionPlots:
         >>> kshm.solve(reports.load("gots-diesel")).plot.polar(2).svg[:4]
         '<svg'
         """
-        columns = self._columns(f"P4_3_{journal}" if journal else pin_table(self._worst_pin))
+        pin = most_loaded_pin(self._solution.scalars)
+        columns = self._columns(f"P4_3_{journal}" if journal else pin_table(pin))
         keys = ("Rx_MPa", "Ry_MPa") if journal else ("T_MPa", "Krod_MPa")
         titles = (
             (r"$R_x$, МПа", r"$R_y$, МПа") if journal else (r"$T$, МПа", r"$K_{\text{ш}}$, МПа")
@@ -131,10 +132,10 @@ class SolutionPlots:
         >>> kshm.solve(reports.load("gots-diesel")).plot.wear().svg[:4]
         '<svg'
         """
-        pin = self._worst_pin
-        of = f"main_{journal}_" if journal else f"pin_{pin}_" if pin > 1 else ""
+        pin = most_loaded_pin(self._solution.scalars)
+        rays = f"table_14_main_{journal}" if journal else rays_table(pin)
         sums = self._solution.wear_sums
-        columns = self._chosen(sums, f"table_14_{of}sums")
+        columns = self._chosen(sums, f"{rays}_sums")
         scalars = self._solution.scalars
         hole = None if journal else scalars.get(f"hole_pin{pin_name(pin)}_deg")
         return SvgPicture(wear_diagram(columns["ray_sum"], columns["ray_deg"] + _AGAINST, hole))
@@ -153,10 +154,6 @@ class SolutionPlots:
         mark = Mark(r"$z$", float(volume[top]), float(pressure[top]))
         panel = Panel((PlotCurve("", pressure),), r"$p$, МПа", marks=(mark,))
         return SvgPicture(curves_figure(volume, (panel,), r"$V$, дм³", angle=False, height=100.0))
-
-    @property
-    def _worst_pin(self) -> int:
-        return round(self._solution.scalars.get("worst_pin_load", 1))
 
     def _columns(self, table: str) -> dict[str, Array]:
         return self._chosen(self._solution.columns, table)

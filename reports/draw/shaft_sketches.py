@@ -21,8 +21,8 @@ def web_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -> 
         letters: height of the letters on the drawing [mm].
         scale: size of the drawing to that of the part.
     """
-    canvas, h = LetteredCanvas(names=part.names, letters=letters), letters
-    s = {key: scale * size for key, size in part.sizes.items()}
+    canvas, h = part.canvas(letters), letters
+    s = part.scaled(scale)
     main, pin, radius = s["main"] / 2, s["crankpin"] / 2, s["radius"]
     thick, arm, half = s["web_thickness"], s["arm"], s["web_width"] / 2
     low, high = -2 * ROUND * main, radius + 2 * ROUND * pin
@@ -74,9 +74,9 @@ def crank_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -
         letters: height of the letters on the drawing [mm].
         scale: size of the drawing to that of the throw.
     """
-    canvas, h = LetteredCanvas(names=part.names, letters=letters), letters
+    canvas, h = part.canvas(letters), letters
     drawn = throw_outline(canvas, _throw(part), scale)
-    s = {key: scale * size for key, size in part.sizes.items()}
+    s = part.scaled(scale)
     (left, right), inner, radius = drawn.ends, drawn.inner, drawn.radius
     main, pin = s["main"] / 2, s["crankpin"] / 2
     canvas.line((left - h, 0.0), (right + h, 0.0), layer=AXES)

@@ -33,9 +33,13 @@ class PartSizes:
         """Return a size."""
         return self.sizes[key]
 
+    def canvas(self, letters: float) -> LetteredCanvas:
+        """Return a canvas that knows the letters."""
+        return LetteredCanvas(names=self.names, letters=letters)
 
-def _canvas(part: PartSizes, letters: float) -> LetteredCanvas:
-    return LetteredCanvas(names=part.names, letters=letters)
+    def scaled(self, scale: float) -> dict[str, float]:
+        """Return the sizes on the drawing."""
+        return {key: scale * size for key, size in self.sizes.items()}
 
 
 def piston_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -> list[Item]:
@@ -46,8 +50,8 @@ def piston_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) 
         letters: height of the letters on the drawing [mm].
         scale: size of the drawing to that of the part.
     """
-    canvas, h = _canvas(part, letters), letters
-    s = {key: scale * size for key, size in part.sizes.items()}
+    canvas, h = part.canvas(letters), letters
+    s = part.scaled(scale)
     bore, height, crown = s["bore"], s["height"], s["crown"]
     outer, groove, inner = bore / 2, s["groove"] / 2, s["inner"] / 2
     tall, land = _RING_HEIGHT * bore, s["land"]
@@ -106,8 +110,8 @@ def pin_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -> 
         letters: height of the letters on the drawing [mm].
         scale: size of the drawing to that of the part.
     """
-    canvas, h = _canvas(part, letters), letters
-    s = {key: scale * size for key, size in part.sizes.items()}
+    canvas, h = part.canvas(letters), letters
+    s = part.scaled(scale)
     length, outer, hole = s["pin_length"] / 2, s["pin"] / 2, s["pin_bore"] / 2
     eye, gap = s["eye_length"] / 2, s["bosses"] / 2
     boss, eye_high = 1.45 * outer, s["eye_outer"] / 2
@@ -148,8 +152,8 @@ def rod_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) -> 
         letters: height of the letters on the drawing [mm].
         scale: size of the drawing to that of the part.
     """
-    canvas, h = _canvas(part, letters), letters
-    s = {key: scale * size for key, size in part.sizes.items()}
+    canvas, h = part.canvas(letters), letters
+    s = part.scaled(scale)
     bearing = s["crankpin"] / 2 + s["shell"]
     half = s["bolts_apart"] / 2 + 0.95 * s["bolt"]
     long = min(s["rod"], s["eye_outer"] / 2 + _TOP * bearing + max(0.8 * s["eye_outer"], 5 * h))

@@ -19,7 +19,7 @@ from reports.inputs.messages import explain
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Block, Column, Grid, Held, Model, Scalar, ScalarTable, TableSpec
 from reports.model.charts import ChartSpec
-from reports.model.shape import Shape
+from reports.model.shape import WORST_PIN, Shape
 from reports.tables.verdicts import reasons_of
 from reports.workbook.chapters import chapter_of, contents_for, heading, ordered
 from reports.workbook.chart_parts import COLOURS
@@ -42,7 +42,6 @@ _CHART = ("id", "sheet", "title", "kind", "x_title", "y_title", "x_is_angle", "x
 _PINS = r"crankpin(_\d+)?\.Krod_MPa"
 _FIRST = (r"P4_2\.Msum_Nm", _PINS, r"P4_1\.Ps_MPa", r"gas\.p_MPa")
 _KEY_NUMBERS = (r"N_e_calc", r"M_mean", r"M_max", r"Rpin\d*_max")
-_WORST_PIN = "worst_pin_load"  # number of the most loaded crankpin
 _ODD = -1234.5  # a number that no sentence has
 
 
@@ -162,7 +161,7 @@ def key_numbers(model: Model) -> list[Data]:
     for pattern in _KEY_NUMBERS:
         rows = [{**_row(scalar), "at": _angle_of(key, model)}
                 for key, scalar in model.scalars.items() if re.fullmatch(pattern, key)]  # fmt: skip
-        several = {"alike": rows, "of": _WORST_PIN} if len(rows) > 1 else {}
+        several = {"alike": rows, "of": WORST_PIN} if len(rows) > 1 else {}
         numbers += [{**row, **several} for row in rows[:1]]
     return numbers
 
@@ -181,8 +180,8 @@ def charts(model: Model) -> list[Data]:
         alike = [c.id for c in drawn if any(re.fullmatch(pattern, s.y) for s in c.series)]
         several = pattern == _PINS and len(alike) > 1
         for pin, name in enumerate(alike if several else alike[:1], 1):
-            ranks[name] = {"first": rank, "pin": pin if several else 0}
-    return [{**_chart(each, model), **ranks.get(each.id, {"first": 0, "pin": 0})} for each in drawn]
+            ranks[name] = {"first": rank} | ({"pin": pin, "of": WORST_PIN} if several else {})
+    return [{**_chart(each, model), **ranks.get(each.id, {"first": 0})} for each in drawn]
 
 
 def _chart(chart: ChartSpec, model: Model) -> Data:

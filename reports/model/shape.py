@@ -5,14 +5,18 @@ Numbers count from 1 here, as people count cylinders, throws and journals.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 
 from kshm.engine.arrangement import Arrangement, pin_counts, pins, rods_beside, throws
 from reports.inputs.firing import arrangement_of
 from reports.inputs.sections.input_file import GeometrySection, InputFile
 from reports.model.blocks import Block, BookChapter
 from reports.model.charts import ChartSpec
+
+WORST_PIN = "worst_pin_load"  # key of the number of the most loaded crankpin
 
 FIRING = "scheme.cyl_theta"  # the beginnings of all power strokes, side by side
 TIMING = "timing_deg"  # helper column: the angle in the cycle counted on from the piston's TDC
@@ -241,6 +245,12 @@ def rods_table(throw: int) -> str:
 def pin_name(number: int) -> str:
     """Return the number of a crankpin within keys: empty for the first one."""
     return "" if number == 1 else str(number)
+
+
+def most_loaded_pin(scalars: Mapping[str, float | str]) -> int:
+    """Number of the most loaded crankpin; the first where it is alone or not found yet."""
+    worst = float(scalars.get(WORST_PIN, 1))
+    return round(worst) if isfinite(worst) else 1
 
 
 def cylinder_table_id(number: int) -> str:

@@ -14,7 +14,7 @@ from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.charts import PHI
-from reports.model.shape import pin_name, pin_table
+from reports.model.shape import most_loaded_pin, pin_name, pin_table
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import NBSP, capital, fixed, joined, short, uncapital, written
 from reports.tables.cycle_members import given_by_cycle
@@ -297,7 +297,8 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
     for engine in engines:
         scalars = engine.solution.scalars
         # Of unequal crankpins the most loaded one is told, as in the report.
-        key_of_pin = re.sub("^(R|q_)pin_", rf"\1pin{pin_name(_worst_pin(engine))}_", pattern)
+        pin = pin_name(most_loaded_pin(scalars))
+        key_of_pin = re.sub("^(R|q_)pin_", rf"\1pin{pin}_", pattern)
         names = [name for name in scalars if re.fullmatch(key_of_pin, name)]
         known = known or (names[0] if names else "")
         largest = max((float(scalars[name]) for name in names), default=None)
@@ -312,10 +313,6 @@ def _result(engines: Sequence[Compared], group: str, entry: str | tuple[str, str
     return Row(group, key, capital(title or about.title), symbol, about, numbers, smalls)
 
 
-def _worst_pin(engine: Compared) -> int:
-    return round(engine.solution.scalars.get("worst_pin_load", 1))
-
-
 def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
     """Curves of all engines over the crank angle."""
     drawn = []
@@ -323,7 +320,8 @@ def charts(engines: Sequence[Compared]) -> tuple[Chart, ...]:
         table, column = key.split(".")
         curves = []
         for number, engine in enumerate(engines):
-            of = pin_table(_worst_pin(engine)) if table == pin_table(1) else table
+            worst = most_loaded_pin(engine.solution.scalars)
+            of = pin_table(worst) if table == pin_table(1) else table
             columns = engine.solution.columns.get(of)
             if columns is None:
                 continue

@@ -11,7 +11,7 @@ from math import inf, isfinite
 from kshm.nomenclature.quantity import Quantity
 from reports.inputs.fields import Field
 from reports.model.blocks import Model
-from reports.model.shape import Shape, pin_name
+from reports.model.shape import WORST_PIN, Shape, most_loaded_pin, pin_name
 from reports.shared.russian import capital
 from reports.workbook import styles
 from reports.workbook.inputs import shown
@@ -29,7 +29,6 @@ _OF_PINS = {
     "hole_pin_deg": "hole_pin{}_deg",
 }  # fmt: skip
 NOUGHT = {"I_flywheel": "не нужен"}  # what a zero says, in words
-_WORST = "worst_pin_load"
 _WORST_PIN = (
     ("шатунную шейку", "наиболее нагруженную"), ("шатунной шейки", "наиболее нагруженной"),
 )  # fmt: skip
@@ -83,17 +82,16 @@ def nought_words(key: str) -> str:
 def _of_worst_pin(writer: BlockWriter, key: str) -> tuple[str, float | str]:
     """Return the formula and value of a scalar, of the most loaded pin where each has its own."""
     values = writer.values.scalars
-    if key not in _OF_PINS or _WORST not in values:
+    if key not in _OF_PINS or WORST_PIN not in values:
         return f"={key}", values[key]
     count = len(Shape.of(writer.layout.model.input).pins)
     keys = [_OF_PINS[key].format(pin_name(number)) for number in range(1, count + 1)]
-    return f"=CHOOSE({_WORST},{','.join(keys)})", values[keys[worst_pin(writer) - 1]]
+    return f"=CHOOSE({WORST_PIN},{','.join(keys)})", values[keys[worst_pin(writer) - 1]]
 
 
 def worst_pin(writer: BlockWriter) -> int:
     """Return the number of the most loaded pin; the first where a student is to find it."""
-    worst = float(writer.values.scalars.get(_WORST, 1))
-    return round(worst) if isfinite(worst) else 1
+    return most_loaded_pin(writer.values.scalars)
 
 
 def _finite(value: float | str) -> bool:

@@ -51,7 +51,8 @@ def add_sketches(book: Workbook, writer: BlockWriter, boxes: dict[str, list[Box]
         sheet, taken = book[block.sheet], boxes.setdefault(block.sheet, [])
         box = _place(sheet, size, _written(sheet, writer.layout), taken)
         taken.append(box)
-        _draw(sheet, box, png_of(items, area, _DPI), described(SKETCHED[name].title, items))
+        words = described(SKETCHED[name].title, items)
+        _draw(sheet, box, png_of(items, area, _DPI), words, _FIRST_ID + len(taken))
 
 
 def described(title: str, items: Sequence[Item]) -> str:
@@ -108,7 +109,7 @@ def _overlap(one: Box, other: Box) -> bool:
     )  # fmt: skip
 
 
-def _draw(sheet: Worksheet, box: Box, png: bytes, words: str) -> None:
+def _draw(sheet: Worksheet, box: Box, png: bytes, words: str, number: int) -> None:
     """Put a picture on a sheet with its words for those who do not see it."""
     from openpyxl.drawing.image import Image
 
@@ -116,7 +117,7 @@ def _draw(sheet: Worksheet, box: Box, png: bytes, words: str) -> None:
     image.anchor = anchor(sheet, box)
     frame = PictureFrame()
     look = frame.nvPicPr.cNvPr
-    look.id, look.name, look.descr = _FIRST_ID + len(sheet._images), "Эскиз", words
+    look.id, look.name, look.descr = number, "Эскиз", words
     frame.blipFill.blip = Blip()
     frame.spPr.prstGeom = PresetGeometry2D(prst="rect")
     frame.spPr.ln = None

@@ -27,7 +27,7 @@ from reports.inputs.sections.report import CHAPTERS
 from reports.inputs.solve_input import MOST_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
-from reports.model.shape import Shape, pin_name
+from reports.model.shape import Shape, most_loaded_pin, pin_name
 from reports.shared.russian import NBSP, fixed, joined, runs
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def pin_stems(shape: Shape) -> list[str]:
 
 def worst_pin(terms: Terms) -> int:
     """Return the number of the most loaded crankpin by the workbook."""
-    return round(terms.value("worst_pin_load")) if terms.has("worst_pin_load") else 1
+    return most_loaded_pin(terms.values.scalars)
 
 
 def worst_running(terms: Terms, throws: int) -> tuple[list[int], list[int]]:

@@ -130,8 +130,8 @@ function loads({phi, x, y}) { // of a journal: the greatest with its angle, the 
   return {x: x[i], y: y[i], name: `R′_max = ${printed(far[i], 3)} при ${phi[i]}°`, mean, meanName: `R′_ср = ${printed(mean, 3)}`};
 }
 
-const isOfWorstPin = ({pin}) => !pin || pin === Math.round(state.engine.main.get("worst_pin_load"));
-const drawnCharts = ({charts: all} = state.engine.data) => state.sheet === FIRST ? all.filter(each => each.first && isOfWorstPin(each)).sort((a, b) => a.first - b.first)
+const isAmongFirst = ({first, pin, of}) => first && (!of || pin === Math.round(state.engine.main.get(of))); // of several pins the most loaded one's
+const drawnCharts = ({charts: all} = state.engine.data) => state.sheet === FIRST ? all.filter(isAmongFirst).sort((a, b) => a.first - b.first)
   : all.filter(each => each.sheet === state.sheet);
 
 function sheetChoice() { // by chapters, in words

@@ -58,6 +58,13 @@ class ValidValues:
         return not any((section, key) in self.broken for key in keys)
 
 
+def journal_sizes(values: ValidValues, part: str, size: str) -> Sequence[float]:
+    """Return the sizes of all journals of a part, or the one that they share."""
+    each = values.get("crankshaft", f"{part}_{size}s_mm")
+    one = values.get("crankshaft", f"{part}_{size}_mm")
+    return tuple(each) if each else () if one is None else (one,)
+
+
 def radius_and_rod(values: ValidValues) -> tuple[float, float] | None:
     """Return (r, L) [mm] if the geometry fixes them."""
     radius = values.get("geometry", "crank_radius_mm")

@@ -18,8 +18,8 @@ from pydantic import ValidationError
 
 from reports.inputs import messages
 from reports.inputs.checks import cross_checks
-from reports.inputs.checks.bearings import check_pairs
 from reports.inputs.checks.gas import check_gas
+from reports.inputs.checks.pairs import check_pairs
 from reports.inputs.checks.plausibility import check_plausibility
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, from_cells, in_cells, key_text

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reports.formula.excel import number
-from reports.inputs.checks.bearings import PAIRS, Pair, Term, is_of, terms_of
+from reports.inputs.checks.pairs import PAIRS, Pair, Term, is_of, terms_of
 from reports.inputs.fields import Field, regime_suffix
 from reports.model.blocks import Model
 from reports.workbook.layout import Layout, column_range

@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from reports.inputs.checks.bands import LAMBDA
-from reports.inputs.checks.bearings import PAIRS, check_bearings, check_pair
+from reports.inputs.checks.bearings import check_bearings
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.layout import check_layout
 from reports.inputs.checks.masses import check_masses
+from reports.inputs.checks.pairs import PAIRS, check_pair
 from reports.inputs.checks.torsion import check_torsion
 from reports.inputs.fields import Path
 from reports.inputs.findings import Finding, ValidValues, check_accepted, radius_and_rod

@@ -18,7 +18,7 @@ from reports.shared.errors import Problem
 from reports.workbook.caches import sheet_parts
 from reports.workbook.course import short_model
 from reports.workbook.intake import check_package
-from reports.workbook.write import workbook_bytes
+from reports.workbook.write import formula_places
 
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _MOST_NAMED = 5  # addresses of a sheet
@@ -38,7 +38,7 @@ class _Cells:
 
 def lost_formulas(path: Path, model: Model) -> tuple[Problem, ...]:
     """Return the cells of an edited workbook where a number stands over a formula, by sheets."""
-    fresh = _cells(workbook_bytes(short_model(model)))
+    fresh = formula_places(short_model(model))
     edited = _cells(check_package(path))
     if fresh.keys() - edited.keys():
         return ()  # built for another structure, or not to be read
@@ -46,11 +46,11 @@ def lost_formulas(path: Path, model: Model) -> tuple[Problem, ...]:
 
 
 def _problems(
-    source: str, fresh: Mapping[str, _Cells], edited: Mapping[str, _Cells]
+    source: str, fresh: Mapping[str, _Places], edited: Mapping[str, _Cells]
 ) -> Iterator[Problem]:
-    for title, cells in fresh.items():
-        lost = cells.formulas & edited[title].numbers
-        if lost and not is_shifted(cells.formulas, edited[title].formulas):
+    for title, formulas in fresh.items():
+        lost = formulas & edited[title].numbers
+        if lost and not is_shifted(formulas, edited[title].formulas):
             names = [f"{get_column_letter(column)}{row}" for row, column in sorted(lost)]
             more = len(names) - _MOST_NAMED
             named = ", ".join(names[:_MOST_NAMED]) + (f" и ещё {more}" if more > 0 else "")

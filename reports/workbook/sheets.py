@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from math import ceil, floor, log10
@@ -73,6 +73,11 @@ class FilledColumn:
     first_row: int
     cells: Sequence[tuple[str, float]]  # formula with its =, empty for a number; value
 
+    @property
+    def formula_rows(self) -> Sequence[int]:
+        """Rows of the formulas."""
+        return [row for row, (formula, _) in enumerate(self.cells, self.first_row) if formula]
+
 
 @dataclass(frozen=True, slots=True)
 class SharedColumn:
@@ -86,6 +91,11 @@ class SharedColumn:
     formula: str
     numbers: Sequence[str]
     is_plain: bool = False  # without a look of its own
+
+    @property
+    def formula_rows(self) -> Sequence[int]:
+        """Rows of the formulas."""
+        return range(self.first_row, self.first_row + len(self.numbers))
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +118,12 @@ class CacheValues:
     ranges: dict[str, list[float]] = field(default_factory=dict)  # of charts, by their formula
     names: dict[str, str] = field(default_factory=dict)  # of their series, by the cell
     symbols: dict[str, dict[str, tuple[Runs, bool]]] = field(default_factory=dict)  # and if bold
+
+    def formulas_of(self, title: str) -> Iterator[tuple[int, int]]:
+        """Yield rows and columns of the formulas that the finishing pass writes."""
+        for column in self.columns.get(title, ()):
+            yield from ((row, column.index) for row in column.formula_rows)
+        yield from ((each.row, each.column) for each in self.bare.get(title, ()) if each.formula)
 
 
 @dataclass

@@ -7,6 +7,7 @@ from math import cos, radians, sin
 
 from lxml.etree import SerialisationError
 from openpyxl import Workbook
+from openpyxl.cell.cell import TYPE_FORMULA
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.cell_range import CellRange
@@ -157,6 +158,20 @@ def workbook_bytes(model: Model, values: Values | None = None) -> bytes:
         book = assemble(model, writer)
         write_texts(book, model)
         return saved(book, writer.caches)
+
+
+def formula_places(model: Model) -> dict[str, set[tuple[int, int]]]:
+    """Return rows and columns of the workbook's formulas, by sheets."""
+    values, model = evaluate_model(model), with_curves(model)
+    writer = BlockWriter(Layout.of(model), with_values(model, values))
+    with uncollected():
+        sheets = assemble(model, writer).worksheets
+    return {
+        sheet.title: {(cell.row, cell.column) for row in sheet.iter_rows() for cell in row
+                      if cell.data_type == TYPE_FORMULA}
+        | set(writer.caches.formulas_of(sheet.title))
+        for sheet in sheets
+    }  # fmt: skip
 
 
 def write_texts(book: Workbook, model: Model) -> None:

@@ -29,7 +29,7 @@ from reports.tables.registry import build_model
 from reports.workbook import chart_parts, write
 from reports.workbook.read import load_workbook_input
 from reports.workbook.sheets import BlockWriter
-from reports.workbook.write import workbook_bytes
+from reports.workbook.write import formula_places, workbook_bytes
 from tests.bench._figure import Figure, interleaved, median, memory, ratio
 from tools.referees.by_formualizer import Formualizer
 
@@ -165,6 +165,8 @@ def figures() -> Iterator[Figure]:
                 "all": lambda: openpyxl.load_workbook(path),
             }
         )
+    places = interleaved({"places": lambda: formula_places(solved()[0]), "book": ours})
+    yield Figure("книга / места её формул", ratio(places, "book", "places"), "раз")
     yield Figure("исходные данные из книги", median(reading["inputs"]), "с")
     yield Figure("книга целиком / исходные данные", ratio(reading, "all", "inputs"), "раз")
     yield memory("книга", "from tests.bench.workbook import ours; ours()")

@@ -9,12 +9,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from lxml import etree
+from openpyxl.utils.cell import coordinate_to_tuple
 
 from reports.exports.build import load_input
 from reports.shared.errors import Problem
 from reports.workbook.caches import sheet_parts
 from reports.workbook.lost_formulas import is_shifted
-from tests.workbook.made import coarse_book
+from reports.workbook.write import formula_places
+from tests.workbook.made import coarse_book, coarse_model
 from tools.referees.by_libreoffice import LibreOffice
 
 SHEET = "П4.1"
@@ -50,6 +53,21 @@ def typed(*addresses: str) -> Change:
         return f'<c r="{cell[1]}{cell[2]}"{cell[3]}><v>55</v></c>'
 
     return change
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "vaz-2106", "cycle-turbo-petrol"])
+def test_places_of_formulas_are_those_of_the_file(name: str) -> None:
+    places: dict[str, set[tuple[int, int]]] = {}
+    with zipfile.ZipFile(io.BytesIO(coarse_book(name))) as archive:
+        for title, part in sheet_parts(archive).items():
+            cells = etree.fromstring(archive.read(part)).iter("{*}c")
+            places[title] = {
+                coordinate_to_tuple(cell.get("r"))
+                for cell in cells
+                if cell.find("{*}f") is not None
+            }
+    assert formula_places(coarse_model(name)) == places
+    assert sum(map(len, places.values())) > 1000
 
 
 def test_an_untouched_book_has_none(tmp_path: Path) -> None:

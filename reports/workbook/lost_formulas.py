@@ -39,7 +39,7 @@ class _Cells:
 def lost_formulas(path: Path, model: Model) -> tuple[Problem, ...]:
     """Return the cells of an edited workbook where a number stands over a formula, by sheets."""
     fresh = formula_places(short_model(model))
-    edited = _cells(check_package(path))
+    edited = places_in(check_package(path))
     if fresh.keys() - edited.keys():
         return ()  # built for another structure, or not to be read
     return tuple(_problems(path.name, fresh, edited))
@@ -74,8 +74,8 @@ def is_shifted(fresh: _Places, edited: _Places) -> bool:
     return columns or (rows and len(fresh - edited) > _BLOCK)
 
 
-def _cells(data: bytes) -> dict[str, _Cells]:
-    """Cells of each sheet that can be read."""
+def places_in(data: bytes) -> dict[str, _Cells]:
+    """Return places of the cells of each sheet that can be read."""
     cells: dict[str, _Cells] = {}
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for title, part in sheet_parts(archive).items():

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 from reports.exports.book_faults import Own
 from reports.model.book_text import BookLine
-from reports.model.context import CASE_MARK, MARK
+from reports.model.context import CASE_MARK, FREE_MARK, MARK
 from reports.shared.errors import BookError
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}
-_FURTHER = (*KINDS, "src", "beyond")
+_FURTHER = (*KINDS, "src", "beyond", "member")
 _CALLED = {TABLE: "таблица", FIGURE: "рисунок"}
 _ODD_MARK = re.compile("⟦[^⟧]*⟧?")
 
@@ -50,7 +50,7 @@ def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
                 )
             if word in KINDS and KINDS[word] not in kinds_of(reading, key):
                 yield _of_another_kind(reading, line, word, key)
-        odd = _ODD_MARK.search(CASE_MARK.sub("", MARK.sub("", text)))
+        odd = _ODD_MARK.search(FREE_MARK.sub("", CASE_MARK.sub("", MARK.sub("", text))))
         if odd is not None:
             yield reading.fault(line, f"«{odd[0].strip('⟦⟧')}» не разобрано",
                             'пишите {{ val("ИМЯ") }}')  # fmt: skip

@@ -16,6 +16,7 @@ from reports.inputs.own_books import line_of_quantity, quantities_of
 from reports.model.blocks import Column, Grid, Model, TableSpec, nodes_in
 from reports.model.book_text import BookLine, BookPlaces, Shelf, at_fragment, book_faults, cause_of
 from reports.model.contents import contents_of
+from reports.model.context import CASE_MARK, FREE_MARK
 from reports.model.evaluation import Evaluation
 from reports.shared.errors import BookError, one_line
 from reports.workbook.chapters import diagrams_of, place_of
@@ -31,6 +32,7 @@ from reports.workbook.layout import (
 MOST_FORMULA, MOST_NESTED, MOST_CELLS = 8000, 60, 300_000
 _STARTS_FORMULA = ("=", "+", "@")
 _CELL_LIKE = re.compile(r"[A-Za-z]{1,3}\d{1,7}|[Rr]\d*[Cc]\d*|[RrCc]")
+_FORMULAS = re.compile(f"{CASE_MARK.pattern}|{FREE_MARK.pattern}")  # of a text, parsed elsewhere
 _PREFIX = re.compile("^(?:check|value|allowed)_")
 _SHEET = re.compile(r"sheet (?P<title>.+?)(?: in .+ \d+(?: full)?: .+)?")
 _SIZES = "geometry"  # list of the mechanism's sizes, and their section of the input
@@ -184,7 +186,7 @@ def odd_words(reading: Own) -> Iterator[BookError]:
         yield from _odd(reading, f"text {chapter.title}", [chapter.title])
         for line in chapter.lines:
             at = BookLine(line.book, line.number, line.text)
-            yield from _odd(reading, at, [line.text])
+            yield from _odd(reading, at, [_FORMULAS.sub("x", line.text)])
 
 
 def _odd(reading: Own, at: str | BookLine, texts: list[str]) -> Iterator[BookError]:

@@ -18,9 +18,12 @@ from reports.model.shape import Scope
 from reports.shared.russian import short
 
 # What a chapter's text says of a key: value with unit, number, symbol, symbol = value; places of
-# tables, figures and sources; the values of a list that are beyond its limits, each with its mend.
-TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig", "src", "beyond")
+# tables, figures and sources; the values of a list that are beyond its limits, each with its mend;
+# the words for a member.
+TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig", "src", "beyond", "member")
 MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
+# A number that the text calculates, by its decimals and formula; a place in the textbook.
+FREE_MARK = re.compile(r"⟦(calc|book) ([^⟧]+)⟧")
 # What it says by its values alone: where a condition holds, where a list is within its limits.
 CASES = ("when", "within", "outside")
 CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(end))⟧")
@@ -77,6 +80,8 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "short": short,
         "tie": TIE,
         **{word: partial(_mark, word) for word in TEXT_WORDS + CASES},
+        "calc": lambda formula, decimals: _mark("calc", f"{decimals} {formula}"),
+        "book": partial(_mark, "book"),
         "end": "⟦end⟧",
         **further,
     }

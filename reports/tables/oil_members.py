@@ -50,13 +50,18 @@ def film_cases(scope: Scope) -> list[FilmCase]:
 
 def oil_names(scope: Scope) -> dict[str, object]:
     """Bearings, oils and the rules for what the file leaves out."""
+    section = scope.input.bearings
     return {
         "cases": film_cases(scope),
         "bearings": film_bearings(scope),
         "oils": list(OILS.values()),
         "clearances": CLEARANCE_SHARES,
         "memory": MEMORY,
-    }
+        "estimated": section is not None and any(
+            getattr(section, f"{part}_clearance_{end}_mm") is None
+            for part in ("pin", "main") for end in ("min", "max")
+        ),
+    }  # fmt: skip
 
 
 def safety_names(scope: Scope) -> dict[str, object]:

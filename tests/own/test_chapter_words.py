@@ -108,9 +108,35 @@ def test_a_member_is_picked_by_its_value(written, member, number):
     assert '<p class="flush">продолжение предложения.</p>' in page
 
 
+_SAID = """pick least P3_1.s2_mm
+member 1 первого
+Угол @ и {{ calc("tip_1/tip_2 + col_max(P3_1.s_mm)", 1) }}, $\\Delta_{\\mathrm{в}}$
+    {{ book("п. 1.2") }}:
+equation a_0 = \\dfrac{b}{c},
+где b — число.
+pick largest tip_@
+conclude наибольшая скорость {{ member("@") }} вентилятора {{ val("tip_@") }}
+show fan_usual: Скорости и пределы"""
+
+
+def test_a_text_calculates_writes_symbols_and_concludes(written):
+    page, model, values = written(_SAID)
+    columns, rows = values.columns["P3_1"], model.tables["P3_1"].rows
+    number = f"{30 / 20 + columns['s_mm'].max():.1f}".replace(".", ",")
+    assert f"Угол {rows[int(columns['s2_mm'].argmin())]:g} и {number}," in words(page)
+    assert "Δ<sub>в</sub>" in page and re.search(r"\[<a[^>]*>\d+</a>,\s*п\.\s*1\.2\]", page)
+    assert re.search(r'<p class="flush">где', page)
+    conclusion = Report(model, values).page("screen")
+    said = words(conclusion[conclusion.index("Заключение</h1>") :])
+    assert "наибольшая скорость первого вентилятора 30,0 м/с" in said
+
+
 @pytest.mark.parametrize(
     ("text", "cause"),
     [
+        ('{{ member("3") }}', "нет такого имени"),
+        ('{{ calc("nobody", 1) }}', "нет такого имени"),
+        ("pick least nobody.s_mm", "нет такого имени"),
         ('{{ when("fan_limit > 1") }}Без конца.', "у условия нет"),
         ("Лишний.{{ end }}", "у end нет условия"),
         ("pick most tip_@", "пишите pick least"),

@@ -1,50 +1,23 @@
-"""Chapter on the oil film of the bearings and on the safety of the journals."""
+"""Tables of the chapter on the oil film of the bearings and on the safety of the journals."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from functools import partial
 
-import numpy as np
 from markupsafe import Markup
 
-from kshm.arrays import Array
 from reports.document.chapters.chapter import Chapter
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
 from reports.document.page.charts import sketches_figure
-from reports.document.page.numbering import TablePlan
+from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import titled_html
-from reports.document.text.terms import Terms, material_name
-from reports.formula.numeric import evaluate
-from reports.inputs.reasons import FILM_REQUIRED
-from reports.inputs.sections.bearings import MATERIALS
+from reports.document.text.terms import Terms
 from reports.model.blocks import Grid
 from reports.model.shape import Scope
-from reports.shared.russian import NBSP, capital, fixed
+from reports.shared.russian import capital, fixed
 from reports.tables.oil_members import FilmCase, film_cases
 
-_REYNOLDS = (
-    r"\dfrac{\partial}{\partial\theta}\left(H_{\Delta}^3\dfrac{\partial\bar p}"
-    r"{\partial\theta}\right) + "
-    r"\dfrac{1}{\beta_{\mathrm{п}}^2}H_{\Delta}^3\dfrac{\partial^2\bar p}{\partial\zeta^2} = "
-    r"-12\cos(\theta - \gamma_v), \quad H_{\Delta} = 1 - \chi\cos\theta, \quad \bar p \ge 0"
-)
-_MOTION = (
-    r"\chi' = \bar M\cos\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{B\,d\,\eta}, \quad "
-    r"\chi\,\delta_F' = \bar M\sin\gamma_v\dfrac{F\,\psi_{\Delta}^2}"
-    r"{B\,d\,\eta} + "
-    r"\chi\dfrac{\omega_{\mathrm{цап}} + \omega_{\mathrm{вкл}}}{2}"
-)
-_SAFETY = (
-    r"n_{\sigma} = "
-    r"\dfrac{\sigma_{-1}}{k_{\sigma}\sigma_a/\varepsilon_{\sigma} + \psi_{\sigma}|\sigma_m|}, "
-    r"\qquad n_{\mathrm{о,\,г}} = \dfrac{n_{\sigma} n_{\tau}}{\sqrt{n_{\sigma}^2 + n_{\tau}^2}}"
-)
-CLASS_RULE = 1.15  # what the rule asks of its ratio
-_TOLD = 1.05
-_CLOSED = 1e-3
 _SAFE_MAINS = ("safe_tau_a2_MPa", "safe_tau_m2_MPa", "safe_fillet2", "safe_hole2", "safe_n2")
 _SAFE_PINS = (
     "safe_pin_bend_a1_MPa", "safe_pin_bend_m1_MPa", "safe_pin_a1_MPa", "safe_pin_m1_MPa",
@@ -52,115 +25,6 @@ _SAFE_PINS = (
     "safe_pin_crank_a1_MPa", "safe_pin_crank_m1_MPa", "safe_pin_bend_fillet1",
     "safe_pin_turn_fillet1", "safe_pin_fillet1", "safe_pin_n1", "safe_Q_fillet1", "safe_Q_hole1",
 )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Worst:
-    """The bearing and clearance with the thinnest film, in words."""
-
-    words: str
-    value: float
-    text: str
-
-
-def oil(chapter: Chapter) -> Markup:
-    """Film under the mean load, orbits, angle of the oil hole, safety."""
-    terms, section = chapter.terms, chapter.input.bearings
-    if section is None:
-        return Markup("")
-    cases = film_cases(Scope(chapter.input))
-    steady = min(
-        (_worst(case, terms.value(f"oil_K{case.number}")) for case in cases),
-        key=lambda each: each.value,
-    )
-    gaps = terms.column("oil_orbits.oil_orb_h_um")
-    mean = [terms.value(f"oil_hmin{case.number}_um") for case in cases]
-    thinnest = int(gaps.argmin())
-    thin = _worst(cases[thinnest], float(gaps[thinnest]))
-    under = float(terms.column("oil_orbits.oil_under")[thinnest])
-    critical = terms.value("oil_hcr_um")
-    bearing = cases[0].bearing
-    pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
-    return chapter.page(
-        "oil",
-        section=section,
-        clearances_given=all(
-            getattr(section, f"{of}_clearance_{end}_mm") is not None
-            for of in ("pin", "main") for end in ("min", "max")
-        ),
-        material=material_name(MATERIALS[section.material].label),
-        reynolds=_REYNOLDS, motion=_MOTION, safety_tex=_SAFETY,
-        steady=TablePlan(partial(_steady, terms, cases), "Плёнка при средней нагрузке", keep=True),
-        orbits=TablePlan(partial(_orbits, terms, cases), "Плёнка за цикл по орбитам", keep=True),
-        mains=_safety(chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"),
-        pins=_safety(chapter, "safe_pins", _SAFE_PINS, "Запасы прочности шатунных шеек"),
-        crank=sketches_figure(terms, "Шейки колена, размеры", "crank"),
-        several=chapter.shape.throws > 1,
-        worst=steady,
-        enough=steady.value >= section.reserve_allowed,
-        thicker=_times(mean, gaps),
-        sizes=TablePlan(partial(_sizes, terms, cases), "Размеры подшипников и зазоры", keep=True),
-        reserve=fixed(thin.value / critical, 2),
-        carries=thin.value >= float(evaluate(FILM_REQUIRED, terms.value)),
-        given_hole=chapter.input.crankshaft.oil_hole_deg is not None,
-        thin=thin, under=fixed(under, 1), touches=thin.value < critical,
-        angle=fixed(float(terms.column("oil_orbits.oil_orb_phi_deg")[thinnest]), 0),
-        open=float(terms.column("oil_orbits.oil_open").max()) > _CLOSED,
-        shown=bearing,
-        of=f"коренного подшипника {bearing}" if bearing else "шатунного подшипника",
-        holes=terms.has("oil_load_deg"),
-        bent=terms.has("safe_class_Q"),
-        strong=min(pin, main) >= section.safety_allowed,
-        weakest=_weakest(chapter),
-        least=fixed(min(pin, main), 2),
-        class_ok=terms.has("safe_class_Q")
-        and min(terms.value("safe_class_Q"), terms.value("safe_class_Q_hole")) >= CLASS_RULE,
-    )  # fmt: skip
-
-
-def concluded(chapter: Chapter) -> Markup:
-    """Return the chapter's result in a line of the conclusion."""
-    terms, section = chapter.terms, chapter.input.bearings
-    if section is None:
-        return Markup("")
-    gaps = terms.column("oil_orbits.oil_orb_h_um")
-    thin = _worst(film_cases(Scope(chapter.input))[int(gaps.argmin())], float(gaps.min()))
-    reserve = thin.value / terms.value("oil_hcr_um")
-    side = "меньше" if reserve < section.reserve_allowed else "не меньше"
-    pin, main = terms.value("safe_n_pin"), terms.value("safe_n_main")
-    part = _weakest(chapter)
-    enough = "не меньше" if min(pin, main) >= section.safety_allowed else "меньше"
-    line = (
-        "самая тонкая масляная плёнка {} мкм — у {}, её запас {} {} допускаемого {}; "
-        "наименьший запас прочности {} — у {}, он {} допускаемого {}"
-    )
-    return Markup(line).format(
-        thin.text, thin.words, fixed(reserve, 2), side, terms.num("bearings_reserve_allowed"),
-        fixed(min(pin, main), 2), part, enough, terms.num("bearings_safety_allowed"),
-    )  # fmt: skip
-
-
-def _times(mean: Sequence[float], gaps: Array) -> str:
-    """Ratio of film thicknesses, mean load to cycle; empty below one."""
-    times = float((np.array(mean) / gaps).max())
-    return fixed(times, 1) if times >= _TOLD else ""
-
-
-def _worst(case: FilmCase, value: float) -> Worst:
-    name = f"коренного подшипника {case.bearing}" if case.bearing else "шатунного подшипника"
-    gap = "наибольшем" if case.which == 2 else "наименьшем"
-    return Worst(f"{name} при {gap} зазоре", value, fixed(value, 2))
-
-
-def _weakest(chapter: Chapter) -> str:
-    """Return the journal or crankpin with the least safety, in words and with its number."""
-    terms = chapter.terms
-    part, name = "шатунной", "pin"
-    if terms.value("safe_n_main") < terms.value("safe_n_pin"):
-        part, name = "коренной", "main"
-    several = name == "main" or chapter.shape.throws > 1
-    number = f"{NBSP}{round(terms.value(f'safe_{name}_weakest'))}" if several else ""
-    return f"{part} шейки{number}"
 
 
 def _safety(chapter: Chapter, grid: str, keys: Sequence[str], caption: str) -> TablePlan:
@@ -249,3 +113,28 @@ def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
         for k, case in enumerate(cases)
     ]
     return table_block(heads, rows)
+
+
+def _films(
+    build: Callable[[Terms, list[FilmCase]], TableBlock], caption: str
+) -> Callable[[Chapter], TablePlan]:
+    """Return a table with a line for every bearing and clearance."""
+    return lambda chapter: TablePlan(
+        partial(build, chapter.terms, film_cases(Scope(chapter.input))), caption, keep=True
+    )
+
+
+VIEWS: dict[str, Callable[[Chapter], TablePlan | Figure]] = {
+    "oil_sizes": _films(_sizes, "Размеры подшипников и зазоры"),
+    "oil_steady": _films(_steady, "Плёнка при средней нагрузке"),
+    "oil_orbits": _films(_orbits, "Плёнка за цикл по орбитам"),
+    "oil_mains": lambda chapter: _safety(
+        chapter, "safe_main", _SAFE_MAINS, "Запасы прочности коренных шеек"
+    ),
+    "oil_pins": lambda chapter: _safety(
+        chapter, "safe_pins", _SAFE_PINS, "Запасы прочности шатунных шеек"
+    ),
+    "crank_sketch": lambda chapter: sketches_figure(
+        chapter.terms, "Шейки колена, размеры", "crank"
+    ),
+}

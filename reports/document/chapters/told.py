@@ -7,19 +7,18 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 
-import numpy as np
 from markupsafe import Markup, escape
 
 from reports.document.chapters.chapter import Chapter
 from reports.document.chapters.record import Write
 from reports.document.page.blocks import TableBlock, TableColumn, grid_table, table_block
 from reports.document.page.numbering import Figure, TablePlan
-from reports.document.text.symbols import titled_html
-from reports.document.text.terms import Terms
+from reports.document.text.symbols import inline_html, titled_html
+from reports.document.text.terms import Terms, input_text
 from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
 from reports.model.book_text import cause_of, shelf_of
-from reports.model.context import CASE_MARK, MARK
+from reports.model.context import CASE_MARK, FREE_MARK, MARK
 from reports.shared.errors import BookError, KshmError, NotPrintable
 from reports.shared.russian import capital, fixed, uncapital
 from reports.shared.standing import WORDS, Standing
@@ -29,25 +28,24 @@ _KINDS = {"tab": "table", "fig": "figure", "src": "source"}
 _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "Кривые — на рисунке {}."}
 _SPARE = "взято с запасом"  # of a value below the usual
 _RANGED = 2  # decimals of values beside their usual limits
-_MEMBER = re.compile(r"(least|largest) (\w*@\w*)")
-
-
-def own(chapter: Chapter) -> Markup:
-    """All chapters of own books; nothing where there are none."""
-    return Markup("\n").join(
-        _Telling(chapter, each).whole() for each in chapter.model.chapters if not each.name
-    )
+_MEMBER = re.compile(r"(least|largest) (\w*@\w*|\w+\.\w+)")
+_TEX = re.compile(r"\$([^$]+)\$")
 
 
 def told(name: str) -> Write:
-    """Return a writer of the chapter of the report that a book of the house says."""
+    """Return a writer of a chapter that a book of the house says; without a name, of own books."""
+    return lambda chapter: Markup("\n").join(each.whole() for each in _tellings(chapter, name))
 
-    def write(chapter: Chapter) -> Markup:
-        return Markup("\n").join(
-            _Telling(chapter, each).whole() for each in chapter.model.chapters if each.name == name
-        )
 
-    return write
+def concluded(name: str) -> Write:
+    """Return a writer of what books conclude, a line of the conclusion."""
+    return lambda chapter: Markup("; ").join(
+        line for each in _tellings(chapter, name) for line in each.conclusions()
+    )
+
+
+def _tellings(chapter: Chapter, name: str) -> Iterator[_Telling]:
+    return (_Telling(chapter, each) for each in chapter.model.chapters if each.name == name)
 
 
 @dataclass
@@ -58,13 +56,14 @@ class _Telling:
     declared: BookChapter
     named: set[str] = field(default_factory=set)
     member: str = "@"
+    equations: int = 0
 
     def whole(self) -> Markup:
         """Return heading and all lines."""
         parts = [self.chapter.heading(1, self.declared.title)]
         for line in self.declared.lines:
             try:
-                text = line.text.replace("@", self.member)
+                text = self._text(line)
                 self.named |= {key for word, key in MARK.findall(text) if word in _KINDS}
                 parts += getattr(self, f"_{line.kind}")(text)
             except KshmError:
@@ -72,6 +71,18 @@ class _Telling:
             except Exception as error:
                 raise self._fault(line, error) from error
         return Markup("\n").join(parts)
+
+    def conclusions(self) -> Iterator[Markup]:
+        """Yield what the text concludes, with the members that it picked before."""
+        for line in self.declared.lines:
+            if line.kind == "pick":
+                self._pick(line.text)
+            elif line.kind == "conclude":
+                yield self._said(self._of_cases(self._text(line)).strip())
+
+    def _text(self, line: TextLine) -> str:
+        """Return a line's text of the member at hand; a pick turns from it to another."""
+        return line.text if line.kind == "pick" else line.text.replace("@", self.member)
 
     def _fault(self, line: TextLine, error: Exception) -> BookError:
         book = shelf_of(self.chapter.input.books).called(line.book)
@@ -98,6 +109,12 @@ class _Telling:
             tex = f"{chapter.terms.tex(key)} = {chapter.terms.result_tex(key)}"
             yield chapter.writer.formula(tex)
 
+    def _equation(self, text: str) -> Iterator[Markup]:
+        """Yield a formula in symbols alone, which holds no quantity of the tables."""
+        self.equations += 1
+        tex, key = text.strip().rstrip(",;."), f"{self.declared.title}:{self.equations}"
+        yield self.chapter.writer.formula(tex, key, text.strip()[len(tex) :] or ".")
+
     def _show(self, text: str) -> Iterator[Markup]:
         """Yield a block or a chart; what the text has not named yet is named before it."""
         key, _, caption = text.strip().partition(": ")
@@ -123,19 +140,34 @@ class _Telling:
         yield self.chapter.inserts[text.strip()](self.chapter)
 
     def _pick(self, text: str) -> Iterable[Markup]:
-        """Turn to the member of a row with the least or the largest value."""
+        """Turn to the member, or the row of a table, with the least or the largest value."""
         match = _MEMBER.fullmatch(text.strip())
         if match is None:
-            raise ValueError("пишите pick least КЛЮЧ@ или pick largest КЛЮЧ@")
-        terms, numbers = self.chapter.terms, list[float]()
-        while terms.has(match[2].replace("@", str(len(numbers) + 1))):
-            numbers.append(terms.value(match[2].replace("@", str(len(numbers) + 1))))
-        at = np.argmin(numbers) if match[1] == "least" else np.argmax(numbers)
-        self.member = str(int(at) + 1)
+            raise ValueError("пишите pick least КЛЮЧ@ или pick largest ТАБЛИЦА.СТОЛБЕЦ")
+        numbers = self._members(match[2])
+        self.member = (min if match[1] == "least" else max)(numbers, key=lambda n: numbers[n])
+        return ()
+
+    def _members(self, key: str) -> dict[str, float]:
+        """Values of the members of a row, or of a column's rows, by their numbers."""
+        terms = self.chapter.terms
+        if "." in key:
+            rows = self.chapter.model.tables[key.partition(".")[0]].rows
+            return {f"{row:g}": float(x) for row, x in zip(rows, terms.column(key), strict=True)}
+        alike = re.compile(key.replace("@", r"(\d+)"))
+        matches = filter(None, map(alike.fullmatch, terms.values.scalars))
+        return {match[1]: terms.value(match[0]) for match in matches}
+
+    def _member(self, _: str) -> Iterable[Markup]:
+        """Say nothing: the words for a member are said where it is named."""
         return ()
 
     def _mend(self, _: str) -> Iterable[Markup]:
         """Say nothing: a mend is told where its value is beyond its limits."""
+        return ()
+
+    def _conclude(self, _: str) -> Iterable[Markup]:
+        """Say nothing: the conclusion is a chapter of its own."""
         return ()
 
     def _table(self, key: str, caption: str) -> TablePlan:
@@ -172,8 +204,15 @@ class _Telling:
 
     def _holds(self, word: str, text: str) -> bool:
         if word == "when":
-            return bool(evaluate(text, self.chapter.terms.value))
+            return bool(self._calculated(text))
         return any(self._beyond(text)) == (word == "outside")
+
+    def _calculated(self, formula: str) -> float:
+        """Value of a formula of scalars and columns."""
+        terms = self.chapter.terms
+        return float(
+            evaluate(formula, lambda key: (terms.column if "." in key else terms.value)(key))
+        )
 
     def _beyond(self, name: str) -> list[JudgedValue]:
         """Values of a list that are beyond their limits."""
@@ -183,16 +222,28 @@ class _Telling:
 
     def _mended(self, name: str) -> str:
         """Values beyond their limits, each with what mends it."""
-        mends = dict(line.text.split(" ", 1) for line in self.declared.lines if line.kind == "mend")
+        mends = self._words("mend")
         spare, scalars = {Standing.BELOW: _SPARE}, self.chapter.model.scalars
         return "; ".join(
             f"{uncapital(scalars[each.key].note)} ({spare.get(each.standing) or mends[each.name]})"
             for each in self._beyond(name)
         )
 
+    def _words(self, kind: str) -> dict[str, str]:
+        """Words of the lines of a kind, by what they are about."""
+        return dict(line.text.split(" ", 1) for line in self.declared.lines if line.kind == kind)
+
     def _said(self, text: str) -> Markup:
-        """Return a paragraph with its keys replaced by what they stand for."""
-        return Markup(MARK.sub(self._put, str(escape(text))))
+        """Return a paragraph with its keys and symbols replaced by what they stand for."""
+        said = _TEX.sub(lambda match: str(inline_html(match[1])), str(escape(text)))
+        return Markup(MARK.sub(self._put, FREE_MARK.sub(self._put_free, said)))
+
+    def _put_free(self, match: re.Match[str]) -> str:
+        word, text = match[1], Markup(match[2]).unescape()
+        if word == "book":
+            return str(self.chapter.book(place=text))
+        decimals, _, formula = text.partition(" ")
+        return fixed(self._calculated(formula), int(decimals))
 
     def _put(self, match: re.Match[str]) -> str:
         word, key = match.groups()
@@ -203,7 +254,10 @@ class _Telling:
             return str(numbering.refer(_KINDS[word], key))  # type: ignore[arg-type]
         if word == "beyond":
             return str(titled_html(self._mended(key)))
-        value = terms.values.scalars.get(key)
+        if word == "member":
+            return str(escape(self._words(word)[key]))
+        field = terms.model.fields.get(key)
+        value = input_text(field) if field and field.choices else terms.values.scalars.get(key)
         return str(escape(value) if isinstance(value, str) else getattr(terms, word)(key))
 
 

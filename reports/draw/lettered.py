@@ -94,23 +94,23 @@ class LetteredCanvas(Canvas):
         if key not in self.names:
             return
 
-        def place(along: float, aside: float) -> Point:
+        def point_at(along: float, aside: float) -> Point:
             return (aside, along) if is_upright else (along, aside)
 
         h, (low, high) = self.letters, sorted(ends)
         if feet is not None:
             beyond = at + math.copysign(_BEYOND * h, at - feet)
             for end in (low, high):
-                self.line(place(end, feet), place(end, beyond), layer=THIN)
+                self.line(point_at(end, feet), point_at(end, beyond), layer=THIN)
         is_short = high - low < _SHORT * h
         tail = _TAIL * h if is_short else 0.0
-        self.line(place(low - tail, at), place(high + tail, at), layer=SIZES)
+        self.line(point_at(low - tail, at), point_at(high + tail, at), layer=SIZES)
         outwards = -1.0 if is_short else 1.0
         for end, way in ((low, -outwards), (high, outwards)):
-            self.arrow(place(end, at), place(way, 0.0), h)
+            self.arrow(point_at(end, at), point_at(way, 0.0), h)
         wide = width_of(self.names[key], h)
         spots = (_beside if is_upright else _over)(low, high, at, side, wide, h, is_short)
-        self._waiting.append((key, place((low + high) / 2, at), tuple(spots)))
+        self._waiting.append((key, point_at((low + high) / 2, at), tuple(spots)))
 
     def hatch(self, *rings: Sequence[Point], lean: int = 1) -> None:
         """Lines at 45° within closed polygons, of which inner ones are holes."""

@@ -193,31 +193,31 @@ def _eye(canvas: LetteredCanvas, s: Mapping[str, float], y: float) -> None:
 
 def _big_end(canvas: LetteredCanvas, s: Mapping[str, float], half: float) -> None:
     """Lower end with its cap, shells and bolts."""
-    h, journal, apart = canvas.letters, s["crankpin"] / 2, s["bolts_apart"] / 2
+    h, journal, spacing = canvas.letters, s["crankpin"] / 2, s["bolts_apart"] / 2
     bearing, bolt = journal + s["shell"], s["bolt"] / 2
     block, foot, neck = 0.7 * bearing, bearing + s["cap_wall"], s["shank_height"] / 2
     for radius, layer in ((journal, THIN), (bearing, CONTOUR)):
         canvas.circle((0.0, 0.0), radius, layer=layer)
-    upper = [(half, 0.0), (half, block), (max(apart - 1.5 * bolt, neck), block),
+    upper = [(half, 0.0), (half, block), (max(spacing - 1.5 * bolt, neck), block),
              (neck, _TOP * bearing)]  # fmt: skip
-    cap = [(-half, 0.0), (-half, -0.7 * bearing), (-0.6 * apart, -foot), (0.6 * apart, -foot),
+    cap = [(-half, 0.0), (-half, -0.7 * bearing), (-0.6 * spacing, -foot), (0.6 * spacing, -foot),
            (half, -0.7 * bearing), (half, 0.0)]  # fmt: skip
     for side in (1, -1):
         canvas.line(*((side * x, y) for x, y in upper), layer=CONTOUR)
     canvas.line(*cap, layer=CONTOUR)
     for side in (1, -1):
         canvas.line((side * bearing, 0.0), (side * half, 0.0), layer=CONTOUR)
-        middle = side * apart
+        middle = side * spacing
         for edge in (middle - bolt, middle + bolt):
             canvas.line((edge, -0.95 * bearing), (edge, block), layer=THIN)
         canvas.line((middle, -0.95 * bearing - h), (middle, block + h), layer=AXES)
     canvas.line((0.0, -foot - h), (0.0, bearing + h), layer=AXES)
-    canvas.across("bolt", block + LANE * h, (apart - bolt, apart + bolt), block)
-    canvas.down("cap_wall", 0.25 * apart, (-foot, -bearing))
+    canvas.across("bolt", block + LANE * h, (spacing - bolt, spacing + bolt), block)
+    canvas.down("cap_wall", 0.25 * spacing, (-foot, -bearing))
     canvas.across("shell", 0.0, (-bearing, -journal))
     below = -foot - _BELOW * h
     canvas.across("crankpin", below, (-journal, journal), 0.0)
-    canvas.across("bolts_apart", below - LANE * h, (-apart, apart), -0.95 * bearing)
+    canvas.across("bolts_apart", below - LANE * h, (-spacing, spacing), -0.95 * bearing)
 
 
 def _shank(

@@ -67,8 +67,8 @@ def is_shifted(fresh: _Places, edited: _Places) -> bool:
     False
     """
     rows, columns = (
-        Counter(place[axis] for place in fresh - edited)
-        == Counter(place[axis] for place in edited - fresh)
+        Counter(cell[axis] for cell in fresh - edited)
+        == Counter(cell[axis] for cell in edited - fresh)
         for axis in (0, 1)
     )
     return columns or (rows and len(fresh - edited) > _BLOCK)
@@ -87,10 +87,10 @@ def places_in(data: bytes) -> dict[str, _Cells]:
 def _cells_of(part: bytes) -> _Cells:
     cells = _Cells()
     for _, cell in etree.iterparse(io.BytesIO(part), tag=f"{_MAIN}c", resolve_entities=False):
-        place = coordinate_to_tuple(cell.attrib["r"])
+        position = coordinate_to_tuple(cell.attrib["r"])
         if cell.find(f"{_MAIN}f") is not None:
-            cells.formulas.add(place)
+            cells.formulas.add(position)
         elif cell.find(f"{_MAIN}v") is not None and cell.get("t", "n") == "n":
-            cells.numbers.add(place)
+            cells.numbers.add(position)
         cell.clear()
     return cells

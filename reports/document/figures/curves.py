@@ -287,8 +287,8 @@ def spread(wanted: Sequence[float], gap: float, low: float, high: float) -> list
         half = gap * (count - 1) / 2
         return min(max(middle, low + half), high - half)
 
-    for place in wanted:
-        runs.append((held(place, 1), 1))
+    for ordinate in wanted:
+        runs.append((held(ordinate, 1), 1))
         while len(runs) > 1:
             (one, first), (other, second) = runs[-2:]
             if other - one >= gap * (first + second) / 2 - 1e-9:

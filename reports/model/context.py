@@ -26,7 +26,7 @@ MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
 FREE_MARK = re.compile(r"⟦(calc|book) ([^⟧]+)⟧")
 # What it says by its values alone: where a condition holds, where a list is within its limits.
 CASES = ("when", "within", "outside")
-CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(end))⟧")
+CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(otherwise|end))⟧")
 _SHAPE = ("pin_table", "rays_table", "pin_figure", "pin_name", "rods_table", "central_volume_ratio")
 
 
@@ -82,6 +82,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         **{word: partial(_mark, word) for word in TEXT_WORDS + CASES},
         "calc": lambda formula, decimals: _mark("calc", f"{decimals} {formula}"),
         "book": partial(_mark, "book"),
+        "otherwise": "⟦otherwise⟧",
         "end": "⟦end⟧",
         **further,
     }

@@ -35,7 +35,7 @@ check tip_second = tip_2 | 10…40 м/с | Скорость второго ве�
 text Вентилятор
 TEXT
 """
-_TEXT = """Начало.{{ when("fan_limit > 100") }} Предел высок.{{ end }}
+_TEXT = """Начало.{{ when("fan_limit > 100") }} Предел высок.{{ otherwise }} Предел низок.{{ end }}
 {{ within("fan_usual") }}Все скорости обычны.{{ end }}
 {{ outside("fan_usual") }}Необычны: {{ beyond("fan_usual") }}.{{ end }}
 pick MEMBER tip_@
@@ -79,8 +79,8 @@ def test_the_book_is_without_a_fault_by_itself(written, tmp_path):
 
 
 def test_a_case_is_told_where_it_holds(written):
-    assert "Предел высок" not in words(written()[0])
-    assert "Начало. Предел высок." in words(written(LIMIT="200")[0])
+    assert "Начало. Предел низок. Все скорости" in words(written()[0])
+    assert "Начало. Предел высок. Все скорости" in words(written(LIMIT="200")[0])
 
 
 @pytest.mark.parametrize(
@@ -139,6 +139,7 @@ def test_a_text_calculates_writes_symbols_and_concludes(written):
         ("pick least nobody.s_mm", "нет такого имени"),
         ('{{ when("fan_limit > 1") }}Без конца.', "у условия нет"),
         ("Лишний.{{ end }}", "у end нет условия"),
+        ("Лишний.{{ otherwise }}", "у otherwise нет условия"),
         ("pick most tip_@", "пишите pick least"),
         ("insert nothing", "нет такого имени"),
         ('{{ when("nobody > 1") }}Нет.{{ end }}', "нет такого имени"),

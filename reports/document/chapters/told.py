@@ -192,10 +192,12 @@ class _Telling:
         for mark in CASE_MARK.finditer(text):
             parts += [text[start : mark.start()]] * all(holds)
             start = mark.end()
-            if mark[3] and len(holds) > 1:
-                holds.pop()
+            if mark[3] and len(holds) == 1:
+                raise ValueError(f"у {mark[3]} нет условия")
+            if mark[3] == "otherwise":
+                holds[-1] = not holds[-1]
             elif mark[3]:
-                raise ValueError("у end нет условия")
+                holds.pop()
             else:
                 holds.append(self._holds(mark[1], mark[2]))
         if len(holds) > 1:

@@ -14,9 +14,10 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError, PydanticKnownError, core_schema
 
 from kshm.nomenclature.quantity import quantity
+from kshm.nomenclature.symbols import symbol_runs
 from reports.inputs import units
 from reports.inputs.units import InputUnit
-from reports.shared.russian import capital, uncapital
+from reports.shared.russian import NBSP, capital, uncapital
 
 MAX_TEXT = 300
 USUAL = object()  # the default of a key is that of the solver
@@ -27,6 +28,13 @@ _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 def title_of(key: str) -> str:
     """Return the title that the tables give a quantity, as a heading."""
     return capital(quantity(key).title)
+
+
+def named(key: str) -> tuple[str, str]:
+    """Return title and symbol that the tables give a quantity, the index after «_»."""
+    pieces = symbol_runs(quantity(key).tex)
+    symbol = "".join(f"{level}{text}" for text, level in pieces)
+    return title_of(key), symbol.replace(NBSP, " ")
 
 
 class Strictly(BaseModel):

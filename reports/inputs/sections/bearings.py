@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from kshm.engine.bearings import Bearings, Oil, Strength
-from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
+from reports.inputs.meta import USUAL, Strictly, choice, named, number
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
 
 MEMORY = "по памяти, без источника"
@@ -90,10 +90,10 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
         "Масло", OIL_NAMES, "sae30"
     )
     viscosity_40_mpa_s: float | None = number(
-        title_of("oil_eta40"), "η_40", MPA_S, 0.5, 5000, None, solver="at_40"
+        *named("oil_eta40"), MPA_S, 0.5, 5000, None, solver="at_40"
     )
     viscosity_100_mpa_s: float | None = number(
-        title_of("oil_eta100"), "η_100", MPA_S, 0.5, 1000, None, solver="at_100"
+        *named("oil_eta100"), MPA_S, 0.5, 1000, None, solver="at_100"
     )
     oil_temperature_c: float | None = number(
         "Температура масла в плёнке (нет — по тепловому балансу)", "t_м", CELSIUS, -20, 200, None,
@@ -114,12 +114,12 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
     material: Literal["40h2n2ma", "40h", "45", "vch60", "sch35"] = choice(
         "Материал вала", MATERIAL_NAMES, "45"
     )
-    tensile_mpa: float | None = number(title_of("mat_tensile_MPa"), "σ_в", MPA, 50, 3000, None)
+    tensile_mpa: float | None = number(*named("mat_tensile_MPa"), MPA, 50, 3000, None)
     bending_limit_mpa: float | None = number(
-        title_of("mat_bending_MPa"), "σ_−1", MPA, 20, 2000, None, solver="bending"
+        *named("mat_bending_MPa"), MPA, 20, 2000, None, solver="bending"
     )
     torsion_limit_mpa: float | None = number(
-        title_of("mat_torsion_MPa"), "τ_−1", MPA, 20, 2000, None, solver="torsion"
+        *named("mat_torsion_MPa"), MPA, 20, 2000, None, solver="torsion"
     )
     mean_bending: float = number(
         "Чувствительность к асимметрии при изгибе", "ψ_σ", NONE, 0, 1, USUAL
@@ -127,7 +127,7 @@ class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
     mean_torsion: float = number(
         "Чувствительность к асимметрии при кручении", "ψ_τ", NONE, 0, 1, USUAL
     )
-    fillet_mm: float | None = number(title_of("safe_fillet1_mm"), "ρ_г", MM, 0.2, 200, None)
+    fillet_mm: float | None = number(*named("safe_fillet1_mm"), MM, 0.2, 200, None)
     pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_о.ш", MM, 0, 2000, USUAL)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_о.к", MM, 0, 2000, USUAL)
     fillet_bending: float = number("Концентрация у галтели при изгибе", "α_σг", NONE, 1, 10, USUAL)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from kshm.engine.flywheel import Flywheel
-from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
+from reports.inputs.meta import USUAL, Strictly, choice, named, number
 from reports.inputs.units import MM, NONE
 
 FLYWHEELS = {"iron": "чугун", "steel": "сталь"}
@@ -17,11 +17,11 @@ class FlywheelSection(Strictly, usual=(Flywheel,)):
     material: Literal["iron", "steel"] = choice(
         "Материал маховика", FLYWHEELS, USUAL, structural=True
     )
-    outer_mm: float | None = number(title_of("fw_outer_mm"), "D_м", MM, 20, 10000, None)
+    outer_mm: float | None = number(*named("fw_outer_mm"), MM, 20, 10000, None)
     rim_share: float = number(
         "Отношение толщины обода к диаметру маховика", "t_об/D_м", NONE, 0.01, 0.45, USUAL
     )
-    disc_mm: float | None = number(title_of("fw_disc_mm"), "h_м", MM, 0.5, 1000, None)
+    disc_mm: float | None = number(*named("fw_disc_mm"), MM, 0.5, 1000, None)
     overspeed: float = number(
         "Отношение наибольшей частоты вращения маховика к номинальной", "k_раз", NONE, 1, 2, USUAL
     )

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Strict
 
 from kshm.cycle.inputs import LIMITS, CycleInputs
-from reports.inputs.meta import USUAL, Meta, Strictly, choice, number, title_of
+from reports.inputs.meta import USUAL, Meta, Strictly, choice, named, number, title_of
 from reports.inputs.units import (
     DEG,
     KELVIN,
@@ -73,7 +73,7 @@ _SOURCE = Meta("Индикаторная диаграмма", choices=SOURCES, s
 _ROUNDED = Meta("Индикаторная диаграмма", choices={"rounded": SOURCES["rounded"]}, structural=True)
 # The same in every diagram that has them, whatever the point z is called there.
 _P_Z = ("p_z", MPA, 0.2, 60)
-_RHO = (title_of("cyc_rho"), "ρ", NONE, 1, 6)
+_RHO = (*named("cyc_rho"), NONE, 1, 6)
 
 
 def _limited(title: str, symbol: str, unit: InputUnit, field: str, default: object = ...) -> Any:  # noqa: ANN401
@@ -97,17 +97,11 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     fuel: Literal["diesel", "petrol", "ethanol", "methane", "own"] = choice(
         "Топливо", FUEL_NAMES, structural=True
     )
-    fuel_carbon: float | None = number(
-        title_of("cyc_C"), "C", NONE, 0, 1, None, solver="fuel.carbon"
-    )
-    fuel_hydrogen: float | None = number(
-        title_of("cyc_H"), "H", NONE, 0, 1, None, solver="fuel.hydrogen"
-    )
-    fuel_oxygen: float | None = number(
-        title_of("cyc_O"), "O", NONE, 0, 1, None, solver="fuel.oxygen"
-    )
+    fuel_carbon: float | None = number(*named("cyc_C"), NONE, 0, 1, None, solver="fuel.carbon")
+    fuel_hydrogen: float | None = number(*named("cyc_H"), NONE, 0, 1, None, solver="fuel.hydrogen")
+    fuel_oxygen: float | None = number(*named("cyc_O"), NONE, 0, 1, None, solver="fuel.oxygen")
     fuel_heating_value_mj_kg: float | None = number(
-        title_of("cyc_Hu"), "H_u", MJ_KG, 5, 130, None, solver="fuel.heating_value"
+        *named("cyc_Hu"), MJ_KG, 5, 130, None, solver="fuel.heating_value"
     )
     fuel_molar_mass_kg_kmol: float | None = number(
         "Молярная масса паров топлива", "m_т", KG_KMOL, 2, 1000, None,
@@ -129,7 +123,7 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     )
     recharge: float = _limited("Коэффициент дозарядки", "φ_доз", NONE, "recharge", USUAL)
     scavenging: float = _limited("Коэффициент очистки", "φ_оч", NONE, "scavenging", USUAL)
-    max_pressure_mpa: float | None = _limited(title_of("cyc_p_z"), "p_z", MPA, "p_max", None)
+    max_pressure_mpa: float | None = _limited(*named("cyc_p_z"), MPA, "p_max", None)
     xi_z: float = _limited("Коэффициент использования тепла в точке z", "ξ_z", NONE, "xi_z")
     xi_b: float = _limited("Коэффициент использования тепла в точке b", "ξ_b", NONE, "xi_b")
     fullness: float = _limited("Коэффициент полноты диаграммы", "φ_д", NONE, "fullness")
@@ -167,18 +161,18 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     speed_law: Literal["diesel", "diesel_prechamber", "diesel_swirl", "petrol"] | None = choice(
         "Коэффициенты внешней характеристики", SPEED_LAWS, None, structural=True
     )
-    adaptability: float | None = number(title_of("spd_K"), "K", NONE, 1.001, 2, None)
+    adaptability: float | None = number(*named("spd_K"), NONE, 1.001, 2, None)
     torque_speed_rpm: float | None = number(
-        title_of("reg_n_M"), "n_M", RPM, 10, 60000, None, solver="omega_torque"
+        *named("reg_n_M"), RPM, 10, 60000, None, solver="omega_torque"
     )
     idle_speed_rpm: float | None = number(
-        title_of("reg_n_idle"), "n_х", RPM, 10, 60000, None, solver="omega_idle"
+        *named("reg_n_idle"), RPM, 10, 60000, None, solver="omega_idle"
     )
     governor_irregularity: float | None = number(
-        title_of("gov_delta"), "δ_р", NONE, 0.005, 0.5, None, solver="governor.irregularity"
+        *named("gov_delta"), NONE, 0.005, 0.5, None, solver="governor.irregularity"
     )
     idle_fuel_share: float | None = number(
-        title_of("gov_idle"), "k_х", NONE, 0.05, 0.9, None, solver="governor.idle_fuel"
+        *named("gov_idle"), NONE, 0.05, 0.9, None, solver="governor.idle_fuel"
     )
 
 
@@ -195,16 +189,10 @@ class _Pressures(_Ambient):
     """Pressures and exponents of the polytropes."""
 
     intake_pressure_mpa: float = number("Давление впуска", "p_a", MPA, 0.01, 3, solver="p_intake")
-    residual_pressure_mpa: float = number(
-        title_of("cyc_p_r"), "p_r", MPA, 0.01, 3, solver="p_residual"
-    )
+    residual_pressure_mpa: float = number(*named("cyc_p_r"), MPA, 0.01, 3, solver="p_residual")
     max_pressure_mpa: float = number(title_of("cyc_p_z"), *_P_Z, solver="p_max")
-    compression_exponent: float = number(
-        title_of("cyc_n1"), "n_1", NONE, 1, 1.7, solver="n_compression"
-    )
-    expansion_exponent: float = number(
-        title_of("cyc_n2"), "n_2", NONE, 1, 1.7, solver="n_expansion"
-    )
+    compression_exponent: float = number(*named("cyc_n1"), NONE, 1, 1.7, solver="n_compression")
+    expansion_exponent: float = number(*named("cyc_n2"), NONE, 1, 1.7, solver="n_expansion")
     preexpansion_ratio: float = number(*_RHO, solver="rho")
 
 

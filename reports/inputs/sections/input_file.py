@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, SerializeAsAny
 
-from reports.inputs.meta import Strictly, borrowed, choice, number, text, title_of
+from reports.inputs.meta import Strictly, borrowed, choice, named, number, text
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
 from reports.inputs.sections.flywheel import FlywheelSection
@@ -82,12 +82,11 @@ class GeometrySection(Strictly):
     """
 
     bore_mm: float = number("Диаметр цилиндра", "D", MM, 10, 1500)
-    crank_radius_mm: float | None = number(title_of("r_crank"), "r", MM, 5, 2000, None)
-    stroke_mm: float | None = number(title_of("S_stroke"), "S", MM, 10, 4000, None)
-    rod_length_mm: float | None = number(title_of("L_rod"), "L", MM, 10, 6000, None)
+    crank_radius_mm: float | None = number(*named("r_crank"), MM, 5, 2000, None)
+    stroke_mm: float | None = number(*named("S_stroke"), MM, 10, 4000, None)
+    rod_length_mm: float | None = number(*named("L_rod"), MM, 10, 6000, None)
     lambda_: float | None = number(
-        title_of("lam"),
-        "λ",
+        *named("lam"),
         NONE,
         LAMBDA_MIN,
         LAMBDA_MAX,
@@ -113,8 +112,7 @@ class DesignGeometrySection(Strictly):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
     lambda_: float = number(
-        title_of("lam"),
-        "λ",
+        *named("lam"),
         NONE,
         LAMBDA_MIN,
         LAMBDA_MAX,
@@ -128,8 +126,8 @@ class Regime(Strictly):
     """[regime]."""
 
     name: str | None = text("Название режима", None)
-    speed_rpm: float = number(title_of("n_rpm"), "n", RPM, 10, 60000, solver="omega")
-    mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0.1, 1, 1.0)
+    speed_rpm: float = number(*named("n_rpm"), RPM, 10, 60000, solver="omega")
+    mechanical_efficiency: float = number(*named("cyc_eta_m"), NONE, 0.1, 1, 1.0)
     indicated_power_kw: float | None = number(
         "Индикаторная мощность по расчёту цикла", "N_i", KW, 0.01, 1e5, None
     )
@@ -141,7 +139,7 @@ class RegimeValues(Regime):
 
     name: str = text("Название режима")
     # None at all is left at idle speed.
-    mechanical_efficiency: float = number(title_of("cyc_eta_m"), "η_м", NONE, 0, 1, 1.0)
+    mechanical_efficiency: float = number(*named("cyc_eta_m"), NONE, 0, 1, 1.0)
 
 
 class RegimeSection(RegimeValues):

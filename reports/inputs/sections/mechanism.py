@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Strict, model_validator
 
 from kshm.engine.engine import Balancing
-from reports.inputs.meta import USUAL, Strictly, choice, number, text, title_of
+from reports.inputs.meta import USUAL, Strictly, choice, named, number, text, title_of
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.units import DEG, KG, KG_M2, KG_PER_M2, MM, NONE, PER_MIN
 
@@ -46,9 +46,9 @@ class MassesSection(Strictly):
     rod_big_end_kg: float | None = number(
         "Масса шатуна, отнесённая к кривошипу", "m_2", KG, LEAST_KG, MOST_KG, None
     )
-    piston_group_kg: float | None = number(title_of("m_piston"), "m_п", KG, LEAST_KG, MOST_KG, None)
-    rod_kg: float | None = number(title_of("m_rod"), "m_ш", KG, LEAST_KG, MOST_KG, None)
-    rod_centre_mm: float | None = number(title_of("rod_l1"), "l_ш1", MM, 1, 6000, None)
+    piston_group_kg: float | None = number(*named("m_piston"), KG, LEAST_KG, MOST_KG, None)
+    rod_kg: float | None = number(*named("m_rod"), KG, LEAST_KG, MOST_KG, None)
+    rod_centre_mm: float | None = number(*named("rod_l1"), MM, 1, 6000, None)
     rod_small_end_share: float | None = number(
         "Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8, None
     )
@@ -69,7 +69,7 @@ class MassesSection(Strictly):
     swing_edges_mm: float | None = number(
         "Расстояние между осями качаний", "l_ш3", MM, 5, 6000, None, solver="distance"
     )
-    rod_inertia_kg_m2: float | None = number(title_of("I_sh"), "I_ш", KG_M2, 1e-7, 1e5, None)
+    rod_inertia_kg_m2: float | None = number(*named("I_sh"), KG_M2, 1e-7, 1e5, None)
     estimate_fuel: Literal["petrol", "diesel"] | None = choice(
         "Оценка масс по таблице 4: двигатель", KINDS, None, structural=True, solver="fuel"
     )

@@ -7,7 +7,7 @@ from typing import Literal
 
 from kshm.engine.strength import PartStrength
 from kshm.ranges import PART_SHARES
-from reports.inputs.meta import USUAL, Strictly, choice, number, title_of
+from reports.inputs.meta import USUAL, Strictly, choice, named, number
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 
 KINDS = {"petrol": "с искровым зажиганием", "diesel": "дизель"}
@@ -42,11 +42,10 @@ PART_MATERIALS = {
 PART_NAMES = {key: material.label for key, material in PART_MATERIALS.items()}
 
 
-def _size(key: str, symbol: str) -> float | None:
+def _size(key: str) -> float | None:
     """Return a size of a part; left out it is its usual share."""
     assert key in PART_SHARES
-    title = title_of(f"st_{key}_mm")
-    return number(title, symbol, MM, 0.05, 3000, None)  # type: ignore[no-any-return]
+    return number(*named(f"st_{key}_mm"), MM, 0.05, 3000, None)  # type: ignore[no-any-return]
 
 
 class StrengthSection(Strictly, usual=(PartStrength,)):
@@ -67,15 +66,15 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
     piston_material: Literal["aluminium", "iron"] = choice(
         "Материал поршня", PISTONS, USUAL, structural=True
     )
-    piston_kg: float | None = number(title_of("st_m_piston"), "m_пк", KG, 0.001, 5000, None)
-    crown_mm: float | None = _size("crown", "δ_дн")
-    height_mm: float | None = _size("height", "H")
-    skirt_mm: float | None = _size("skirt", "h_ю")
-    head_wall_mm: float | None = _size("head_wall", "s_г")
-    land_mm: float | None = _size("land", "h_п")
-    bosses_mm: float | None = _size("bosses", "b_б")
-    ring_radial_mm: float | None = _size("ring_radial", "t")
-    ring_gap_mm: float | None = _size("ring_gap", "A_0")
+    piston_kg: float | None = number(*named("st_m_piston"), KG, 0.001, 5000, None)
+    crown_mm: float | None = _size("crown")
+    height_mm: float | None = _size("height")
+    skirt_mm: float | None = _size("skirt")
+    head_wall_mm: float | None = _size("head_wall")
+    land_mm: float | None = _size("land")
+    bosses_mm: float | None = _size("bosses")
+    ring_radial_mm: float | None = _size("ring_radial")
+    ring_gap_mm: float | None = _size("ring_gap")
     ring_play_mm: float = number("Радиальный зазор кольца в канавке", "Δt", MM, 0.05, 20, USUAL)
     oil_holes: float = number("Число масляных отверстий в канавке", "n_м", NONE, 0, 40, USUAL)
     oil_hole_mm: float = number("Диаметр масляного отверстия в канавке", "d_отв", MM, 0, 30, USUAL)
@@ -95,14 +94,14 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
         "Температура юбки поршня", "t_ю", CELSIUS, 40, 350, USUAL, solver="skirt_temperature"
     )
     ring_modulus_mpa: float = number("Модуль упругости кольца", "E_к", MPA, 2e4, 3e5, USUAL)
-    pin_mm: float | None = _size("pin", "d_п")
-    pin_bore_mm: float | None = _size("pin_bore", "d_в")
-    pin_length_mm: float | None = _size("pin_length", "l_п")
+    pin_mm: float | None = _size("pin")
+    pin_bore_mm: float | None = _size("pin_bore")
+    pin_length_mm: float | None = _size("pin_length")
     pin_share: float = number("Доля силы инерции поршня на пальце", "k_п", NONE, 0.5, 1, USUAL)
     pin_modulus_mpa: float = number("Модуль упругости пальца", "E_п", MPA, 5e4, 3e5, USUAL)
-    eye_length_mm: float | None = _size("eye_length", "l_ш")
-    eye_outer_mm: float | None = _size("eye_outer", "d_г")
-    bush_wall_mm: float | None = _size("bush_wall", "s_в")
+    eye_length_mm: float | None = _size("eye_length")
+    eye_outer_mm: float | None = _size("eye_outer")
+    bush_wall_mm: float | None = _size("bush_wall")
     bush_fit_um: float = number("Натяг втулки", "Δ_в", UM, 0, 500, USUAL)
     bush_warming_k: float = number("Нагрев верхней головки", "ΔT_г", KELVIN, 0, 300, USUAL)
     bush_modulus_mpa: float = number("Модуль упругости втулки", "E_в", MPA, 5e4, 3e5, USUAL)
@@ -126,19 +125,19 @@ class StrengthSection(Strictly, usual=(PartStrength,)):
         "Отношение коэффициента концентрации к масштабному: щека", "k/ε_щ", NONE, 0.5, 6, USUAL
     )
     mean_factor: float = number("Приведение асимметричного цикла", "α_σ", NONE, 0, 0.6, USUAL)
-    shank_height_mm: float | None = _size("shank_height", "h_ст")
-    shank_width_mm: float | None = _size("shank_width", "b_ст")
-    shank_web_mm: float | None = _size("shank_web", "a_ст")
-    shank_flange_mm: float | None = _size("shank_flange", "t_ст")
-    bolts_apart_mm: float | None = _size("bolts_apart", "c_б")
-    cap_length_mm: float | None = _size("cap_length", "l_к")
-    shell_mm: float | None = _size("shell", "t_в")
+    shank_height_mm: float | None = _size("shank_height")
+    shank_width_mm: float | None = _size("shank_width")
+    shank_web_mm: float | None = _size("shank_web")
+    shank_flange_mm: float | None = _size("shank_flange")
+    bolts_apart_mm: float | None = _size("bolts_apart")
+    cap_length_mm: float | None = _size("cap_length")
+    shell_mm: float | None = _size("shell")
     bolts: float = number("Число шатунных болтов", "i_б", NONE, 1, 8, USUAL)
-    bolt_mm: float | None = _size("bolt", "d_б")
+    bolt_mm: float | None = _size("bolt")
     bolt_pitch_mm: float = number("Шаг резьбы болта", "t_р", MM, 0.25, 10, USUAL)
     bolt_preload: float = number("Отношение затяжки к нагрузке болта", "k_з", NONE, 1, 6, USUAL)
     bolt_share: float = number("Доля нагрузки на болт", "χ_б", NONE, 0.05, 0.6, USUAL)
-    web_width_mm: float | None = number(title_of("web_width_mm"), "b_щ", MM, 2, 5000, None)
+    web_width_mm: float | None = number(*named("web_width_mm"), MM, 2, 5000, None)
     web_thickness_mm: float | None = number(
         "Толщина щеки, где её не задают размеры колена", "h_щ", MM, 1, 2000, None
     )

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Strict
 
 from kshm.engine.torsion import Torsion
-from reports.inputs.meta import USUAL, Strictly, choice, number, text, title_of
+from reports.inputs.meta import USUAL, Strictly, choice, named, number, text
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -49,7 +49,7 @@ class TorsionSection(Strictly, usual=(Torsion,)):
     throws_kg_m2: tuple[float, ...] | None = number(
         "Колено {n}: момент инерции", "J_к{n}", KG_M2, LEAST, MOST, None
     )
-    flywheel_kg_m2: float | None = number(title_of("tor_flywheel"), "J_м", KG_M2, LEAST, MOST, None)
+    flywheel_kg_m2: float | None = number(*named("tor_flywheel"), KG_M2, LEAST, MOST, None)
     driven_kg_m2: float | None = number(
         "Момент инерции за маховиком", "J_пр", KG_M2, LEAST, MOST, None
     )
@@ -76,14 +76,14 @@ class TorsionSection(Strictly, usual=(Torsion,)):
     shear_modulus_mpa: float = number("Модуль сдвига", "G", MPA, 1e4, 2e5, USUAL)
     main_bore_mm: float = number("Диаметр отверстия коренных шеек", "d_о.к", MM, 0, 2000, USUAL)
     pin_bore_mm: float = number("Диаметр отверстия шатунных шеек", "d_о.ш", MM, 0, 2000, USUAL)
-    web_width_mm: float | None = number(title_of("tor_bw"), "b_щ", MM, 2, 5000, None)
-    web_thickness_mm: float | None = number(title_of("tor_hw"), "h_щ", MM, 1, 2000, None)
+    web_width_mm: float | None = number(*named("tor_bw"), MM, 2, 5000, None)
+    web_thickness_mm: float | None = number(*named("tor_hw"), MM, 1, 2000, None)
     damping_nms_rad: float | None = number(
         "Сопротивление в каждом цилиндре", "b_ц", NMS_RAD, 0, 1e6, None
     )
     loss_factor: float = number("Коэффициент потерь вала", "η_в", NONE, 0, 0.5, USUAL)
-    speed_min_rpm: float | None = number(title_of("tor_n_min"), "n_min", RPM, 10, 60000, None)
-    speed_max_rpm: float | None = number(title_of("tor_n_max"), "n_max", RPM, 10, 60000, None)
+    speed_min_rpm: float | None = number(*named("tor_n_min"), RPM, 10, 60000, None)
+    speed_max_rpm: float | None = number(*named("tor_n_max"), RPM, 10, 60000, None)
     stress_allowed_mpa: float = number(
         "Допускаемая амплитуда напряжений кручения", "[τ]", MPA, 1, 500, 30.0
     )
@@ -92,14 +92,14 @@ class TorsionSection(Strictly, usual=(Torsion,)):
     )
     damper: Literal["viscous", "tuned"] = choice("Гаситель на первой массе", DAMPERS, "viscous")
     damper_kg_m2: float | None = number(
-        title_of("tor_ring"), "J_г", KG_M2, LEAST, MOST, None, solver="damper_inertia"
+        *named("tor_ring"), KG_M2, LEAST, MOST, None, solver="damper_inertia"
     )
     damper_nm_rad: float | None = number(
         "Жёсткость настроенного гасителя", "c_г", NM_RAD, SOFT, HARD, None,
         solver="damper_stiffness",
     )  # fmt: skip
     damper_nms_rad: float | None = number(
-        title_of("tor_damper_b"), "b_г", NMS_RAD, 0, 1e8, None, solver="damper_damping"
+        *named("tor_damper_b"), NMS_RAD, 0, 1e8, None, solver="damper_damping"
     )
     masses: Annotated[tuple[MassSection, ...], Strict(False)] = ()
     peaks: Annotated[tuple[PeakSection, ...], Strict(False)] = ()

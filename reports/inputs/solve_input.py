@@ -330,7 +330,7 @@ def webs_remark(model: InputFile) -> str:
     """Line about a size of the webs that stands beside another one which counts, or nothing."""
     drawn = {t for arms in model.crankshaft.arms for t in (arms.left_web_mm, arms.right_web_mm)}
     first = {"web_thickness_mm": ("crankshaft.arms", drawn)} if all(drawn) else {}
-    for name, section in (("torsion", model.torsion), ("strength", model.strength)):
+    for name, section in model.web_sections.items():
         for key in ("web_thickness_mm", "web_width_mm"):
             size = getattr(section, key, None)
             if size is None:

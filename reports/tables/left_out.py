@@ -79,8 +79,7 @@ def unused(model: InputFile) -> set[str]:
 def _web_sizes(model: InputFile) -> Iterator[str]:
     """Sizes of the webs that are given as such, so that no share of the bore counts."""
     arms = model.crankshaft.arms
-    sections = [each for each in (model.torsion, model.strength) if each is not None]
     for size in ("thickness", "width"):
         of_arms = size == "thickness" and all(arm.left_web_mm and arm.right_web_mm for arm in arms)
-        if of_arms or any(getattr(each, f"web_{size}_mm") for each in sections):
+        if of_arms or any(getattr(each, f"web_{size}_mm") for each in model.web_sections.values()):
             yield size

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, SerializeAsAny
+from pydantic import BaseModel, Field, SerializeAsAny
 
 from reports.inputs.meta import Strictly, borrowed, choice, named, number, text
 from reports.inputs.sections.bearings import BearingsSection
@@ -200,3 +200,10 @@ class InputFile(Strictly):
     regimes: tuple[RegimeSection, ...] = ()
     books: tuple[tuple[str, str], ...] = ()  # names and texts of own books
     own: SerializeAsAny[Strictly] | None = None  # their sections
+
+    @property
+    def web_sections(self) -> dict[str, BaseModel]:
+        """Sections that may give a size of the webs, by name."""
+        sections = ((name, getattr(self, name)) for name in type(self).model_fields)
+        return {name: section for name, section in sections if isinstance(section, BaseModel)
+                and "web_thickness_mm" in type(section).model_fields}  # fmt: skip

@@ -19,7 +19,7 @@ from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
 from reports.model.book_text import cause_of, shelf_of
 from reports.model.context import CASE_MARK, FREE_MARK, MARK
-from reports.shared.errors import BookError, KshmError, NotPrintable
+from reports.shared.errors import BookError, KshmError, NotPrintable, one_line
 from reports.shared.russian import capital, fixed, uncapital
 from reports.shared.standing import WORDS, Standing
 from reports.tables.verdicts import JudgedValue, outcomes
@@ -29,6 +29,8 @@ _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "К
 _SPARE = "взято с запасом"  # of a value below the usual
 _RANGED = 2  # decimals of values beside their usual limits
 _MEMBER = re.compile(r"(least|largest) (\w*@\w*|\w+\.\w+)")
+_MOST_TEX = 1000  # letters of an equation
+_DECIMALS = tuple("0123456789")
 _TEX = re.compile(r"\$([^$]+)\$")
 
 
@@ -111,6 +113,8 @@ class _Telling:
 
     def _equation(self, text: str) -> Iterator[Markup]:
         """Yield a formula in symbols alone, which holds no quantity of the tables."""
+        if len(text) > _MOST_TEX:
+            raise ValueError(f"формула длиннее {_MOST_TEX} знаков")
         self.equations += 1
         tex, key = text.strip().rstrip(",;."), f"{self.declared.title}:{self.equations}"
         yield self.chapter.writer.formula(tex, key, text.strip()[len(tex) :] or ".")
@@ -245,6 +249,8 @@ class _Telling:
         if word == "book":
             return str(self.chapter.book(place=text))
         decimals, _, formula = text.partition(" ")
+        if decimals not in _DECIMALS:
+            raise ValueError(f"знаков у calc «{one_line(decimals, 20)}», а можно от 0 до 9")
         return fixed(self._calculated(formula), int(decimals))
 
     def _put(self, match: re.Match[str]) -> str:

@@ -46,7 +46,7 @@ class FileSource(Source):
         """Return the numbers of own books."""
         if not self.model.books:
             return Further()
-        from reports.exports.own_books import own_numbers
+        from reports.exports.department_chapters import own_numbers
 
         numbers = own_numbers(self.model)
         scalars = {

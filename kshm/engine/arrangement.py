@@ -13,7 +13,7 @@ from functools import cache
 
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse, takes_kinds
 
-MOST_GAP = 2.0  # between two firings, over the mean: twins at 180° have 1.5
+MAX_GAP = 2.0  # between two firings, over the mean: twins at 180° have 1.5
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ from kshm.defaults import (
 from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 # Width over diameter beyond which the closed forms of the film have no table behind them.
-LEAST_WIDTH, MOST_WIDTH = 0.1, 1.0
+MIN_WIDTH, MAX_WIDTH = 0.1, 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from kshm.defaults import (
     WEB_WIDTH_SHARE,
 )
 from kshm.engine.arrangement import (
-    MOST_GAP,
+    MAX_GAP,
     Arrangement,
     ArticulatedRod,
     firing_gap,
@@ -40,7 +40,7 @@ from kshm.nomenclature.quantity import UNITS
 from kshm.ranges import RANGES
 
 Method = Literal["textbook", "exact"]
-_MOST_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
+_MAX_STEP = 60  # degrees: the fewest angles that tell the torque's lowest orders
 # Sizes beyond these are another unit's, of whatever engine.
 _STROKE_BORE = RANGES["stroke_bore"].doubtful["crosshead"]
 _PISTON_SPEED = RANGES["piston_speed"].doubtful[""]
@@ -229,8 +229,8 @@ class Engine:
         refuse(
             (self.strokes not in (2, 4), "strokes are 2 or 4"),
             (
-                not 1 <= self.step_deg <= _MOST_STEP or 180 % self.step_deg != 0,
-                f"the step must divide 180° and be at most {_MOST_STEP}°, not {self.step_deg}",
+                not 1 <= self.step_deg <= _MAX_STEP or 180 % self.step_deg != 0,
+                f"the step must divide 180° and be at most {_MAX_STEP}°, not {self.step_deg}",
             ),
             (self.rays not in (12, 18), "wear diagrams have 12 or 18 rays"),
             (
@@ -398,7 +398,7 @@ def implausible(engine: Engine) -> Iterator[str]:
                 "in turn: check the firing order"
             )
     gap, mean = firing_gap(offsets, math.degrees(engine.period))
-    if gap > MOST_GAP * mean:
+    if gap > MAX_GAP * mean:
         yield (
             f"the firings do not fill the cycle: the widest gap is {gap:g}°, the mean {mean:g}°: "
             "check the firing offsets"

@@ -13,7 +13,7 @@ from kshm.engine.checks import NOT_NEGATIVE, POSITIVE, check_numbers, refuse
 
 StiffnessFormula = Literal["wilson", "carter", "zimanenko"]
 DamperKind = Literal["viscous", "tuned"]
-MOST_MASSES = 20
+MAX_MASSES = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +110,7 @@ class Torsion:
         )  # fmt: skip
         count, speeds = len(self.masses), [speed for speed, _ in self.peaks]
         refuse(
-            (count == 1 or count > MOST_MASSES, f"a train has 2 to {MOST_MASSES} masses"),
+            (count == 1 or count > MAX_MASSES, f"a train has 2 to {MAX_MASSES} masses"),
             (
                 any(mass.stiffness == 0 for mass in self.masses[:-1]),
                 "a shaft between two masses needs a stiffness",

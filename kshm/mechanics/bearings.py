@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kshm.arrays import Array
-from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+from kshm.engine.bearings import MAX_WIDTH, MIN_WIDTH
 from kshm.errors import InputError
 from kshm.nomenclature.quantity import UNITS
 
@@ -29,8 +29,8 @@ def check_widths(width: Array) -> None:
     Raises:
         InputError: b is outside 0.1…1.
     """
-    if not np.all((width >= LEAST_WIDTH) & (width <= MOST_WIDTH)):
-        raise InputError(f"the width over the diameter must be {LEAST_WIDTH:g} to {MOST_WIDTH:g}")
+    if not np.all((width >= MIN_WIDTH) & (width <= MAX_WIDTH)):
+        raise InputError(f"the width over the diameter must be {MIN_WIDTH:g} to {MAX_WIDTH:g}")
 
 
 def _polynomial(b: Array, *coefficients: float) -> Array:

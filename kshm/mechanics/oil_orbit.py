@@ -35,17 +35,17 @@ _CUTS = 60  # more than the lines between the ends of a film: the cut moves one 
 _DEEPEST = 5.0  # artanh ε where the map ends: some nanometres of film
 _ROWS, _DIRECTIONS, _COLUMNS = 33, 37, 49
 _KEPT = 64
-_NOTHING = 1e-300
+_TINY = 1e-300
 # Cubics through two points with the slopes of the chords beside them, Catmull and Rom.
 _CUBIC = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
 
 _AROUND_CORNER = np.arange(4)[:, None] * (_COLUMNS + 2) + np.arange(4)
 CLOSED = 1e-3  # of the clearance: how near the cycle's end must come to its start
-MOST_CYCLES = 20
+MAX_CYCLES = 20
 _TOUCHES = 1e-4  # of the clearance: some nanometres, which no film is
 _TOLERANCE = 2e-4  # of the gap in a step
-_LEAST_STEP = 1e-9
-_MOST_STEP = 0.2
+_MIN_STEP = 1e-9
+_MAX_STEP = 0.2
 _MIDDLE = 1e-9
 _D, _E = 1 / (2 + np.sqrt(2)), 6 + np.sqrt(2)
 
@@ -181,7 +181,7 @@ def _weights(share: Array) -> Array:
 
 def _seen(load: Complex, e: Array) -> Array:
     """Direction of the load, stretched so that the map is even, 0…π."""
-    ahead = load.real / np.maximum(np.abs(load), _NOTHING)
+    ahead = load.real / np.maximum(np.abs(load), _TINY)
     turned: Array = np.arctan2(np.abs(load.imag), load.real * np.power(1 - e * e, (1 + ahead) / 4))
     return turned
 
@@ -262,7 +262,7 @@ def velocity(centre: Complex, load: Complex, half_speed: Array, film: MobilityMa
 
 
 def orbits(
-    phi: Array, load: Complex, half_speed: Array, width: Array, most_cycles: int = MOST_CYCLES
+    phi: Array, load: Complex, half_speed: Array, width: Array, most_cycles: int = MAX_CYCLES
 ) -> Orbits:
     """Orbits over the closed cycle, shape (bearings, angles), by Booker's mobility.
 
@@ -335,8 +335,8 @@ class _Run:
                 factor = np.clip(0.9 / np.cbrt(np.maximum(error, 1e-6)), 0.2, 3.0)
                 # A step that only the end of the cycle cut short says nothing of the next.
                 whole = ~good | (step >= self.step)
-                self.step = np.where(whole, np.minimum(step * factor, _MOST_STEP), self.step)
-                if (self.step < _LEAST_STEP).any():
+                self.step = np.where(whole, np.minimum(step * factor, _MAX_STEP), self.step)
+                if (self.step < _MIN_STEP).any():
                     raise FilmError(int(np.argmin(self.step)))
         return self._on_grid(points)
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-_MOST = 5  # significant digits of a printed value: no drawing and no gauge has more
+_MAX_DIGITS = 5  # significant digits of a printed value: no drawing and no gauge has more
 UnitRow = tuple[str, str, float]  # key, label, size in SI
 
 
@@ -27,7 +27,7 @@ class Digits:
         """As print has values up to ``largest``: five significant digits, or all whole ones."""
         if self.kind != "fixed" or not largest or not math.isfinite(largest):
             return self
-        over = int(f"{largest:.{_MOST - 1}e}".partition("e")[2]) - (_MOST - 1)
+        over = int(f"{largest:.{_MAX_DIGITS - 1}e}".partition("e")[2]) - (_MAX_DIGITS - 1)
         return replace(self, decimals=min(self.decimals, max(0, -over)))
 
 

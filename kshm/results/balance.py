@@ -20,7 +20,7 @@ ORDERS = tuple(range(1, 9))
 _KINDS = (("F", "kN"), ("L", "Nm"))
 LAST_ORDER = 8.0
 SECOND = np.array([2.0])
-_NOTHING = 1e-6  # of a vector sum of unit vectors
+_ZERO_SUM = 1e-6  # of a vector sum of unit vectors
 # Results for an engine whose torque has a second order.
 _OF_SHAFTS = frozenset(
     ("n_zone1", "n_zone2", "zone", "psi_best_nominal", "h_shafts", "h_shafts_best", "P_shafts")
@@ -213,7 +213,7 @@ def _has_motored(case: Case) -> bool:
 def _has_second_order(case: Case) -> bool:
     """Whether the torque of the engine has a second order that shafts could take away."""
     together = np.exp(-2j * np.array(case.engine.firing_offsets)).sum()
-    return bool(np.abs(together) > _NOTHING)
+    return bool(np.abs(together) > _ZERO_SUM)
 
 
 def _tangential(case: Case) -> Columns:

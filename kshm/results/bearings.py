@@ -43,7 +43,7 @@ _WEAKEST = {
     "safe_n_hole": "safe_pin_hole{}", "safe_n_fillet": "safe_pin_fillet{}",
     "safe_n_pin": "safe_pin_n{}",
 }  # fmt: skip
-_LEAST = {"safe_class_Q": "safe_Q_fillet{}", "safe_class_Q_hole": "safe_Q_hole{}"}
+_LEAST_OF = {"safe_class_Q": "safe_Q_fillet{}", "safe_class_Q_hole": "safe_Q_hole{}"}
 Number = TypeVar("Number", np.float64, np.complex128)
 CLEARANCES = 2  # the least and the largest
 _PLACES = 72  # angles of the oil hole that are tried
@@ -69,7 +69,7 @@ def safety_results(case: Case, inputs: Bearings) -> Results:
     weakest_values = {
         key: float(pins[row][int(weakest) - 1]) for key, row in _WEAKEST.items() if row in pins
     }
-    least = {key: float(pins[row].min()) for key, row in _LEAST.items() if row in pins}
+    least = {key: float(pins[row].min()) for key, row in _LEAST_OF.items() if row in pins}
     scalars = _mains(case, inputs, factors) | _numbered(pins, 1)
     return tables, factors | scalars | weakest_values | least | {"safe_pin_weakest": float(weakest)}
 

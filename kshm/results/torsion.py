@@ -28,7 +28,7 @@ from kshm.mechanics.torsion import Complex, Damper, Modes, Response, Train
 from kshm.results.case import Case
 from kshm.results.gas import peak_pressure
 
-MOST_MODES = 3
+MAX_MODES = 3
 _STILL = 1e-9  # of the speed: gas forces alone
 _TIE = 1 - 1e-9
 # What is added up to tell whether the forced vibration belongs to the data beside it; SI.
@@ -107,7 +107,7 @@ class TorsionStudy:
     def modes(self) -> Modes:
         """The first frequencies and forms."""
         modes = torsion.modes_of(self.train)
-        return Modes(modes.omega[:MOST_MODES], modes.forms[:MOST_MODES])
+        return Modes(modes.omega[:MAX_MODES], modes.forms[:MAX_MODES])
 
     @property
     def numbers(self) -> range:

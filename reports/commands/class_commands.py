@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _LEFT = "Не выдано"
 _NOTHING_WRITTEN = "Ничего не записано: это показ."
-_LEAST_CHANGE = 0.005  # points that are printed
+_MIN_CHANGE = 0.005  # points that are printed
 
 
 @click.command(cls=RussianCommand, context_settings=HELP)
@@ -137,7 +137,7 @@ def _tell_effects(effects: Sequence[tuple[str, float | None, float | None]]) -> 
     alike = 0
     for who, before, after in effects:
         change = (after or 0.0) - (before or 0.0)
-        if before is not None and abs(change) < _LEAST_CHANGE:
+        if before is not None and abs(change) < _MIN_CHANGE:
             alike += 1
             continue
         first, last = ("—" if points is None else short(points, 4) for points in (before, after))

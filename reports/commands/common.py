@@ -130,7 +130,7 @@ def tell_solved(loaded: Loaded, *, aside: bool = False, every: bool = False) -> 
 
     Failed checks are those of own books, with ``every`` those of the program too.
     """
-    from reports.exports.own_books import failed_engine_checks
+    from reports.exports.department_chapters import failed_engine_checks
     from reports.inputs.solve_input import power_problems, solution_remarks
     from reports.shared.standing import Notice, Severity
 

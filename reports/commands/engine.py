@@ -194,7 +194,7 @@ def check(source: Path, as_json: bool) -> int:
         problems: tuple[Any, ...] = ()
         warnings, accepted = loaded.warnings, loaded.accepted
         if as_json:
-            from reports.exports.own_books import failed_engine_checks
+            from reports.exports.department_chapters import failed_engine_checks
             from reports.inputs.solve_input import power_problems
 
             failed = (
@@ -254,8 +254,8 @@ def _tell_findings(source: Path, findings: Sequence[BookFinding], *, as_json: bo
 def solve(source: Path, folder: Path | None, target: str | None, **form: bool) -> int:
     """Посчитать числа без документов."""
     from kshm.nomenclature.quantity import quantity
+    from reports.exports.department_chapters import own_numbers
     from reports.exports.numbers import CsvForm, csv_text, export_tables, json_text
-    from reports.exports.own_books import own_numbers
     from reports.inputs.solve_input import solved
     from reports.inputs.to_si.engine import smallness_of
     from reports.shared.files import refuse_own, write_together

@@ -26,7 +26,7 @@ def new_book(target: Path, others: Iterable[object]) -> str:
     Raises:
         KshmError: its name has another ending, or further options are given.
     """
-    from reports.inputs.own_books import SUFFIX
+    from reports.inputs.department_chapters import SUFFIX
     from reports.shared.resources import templates_dir
 
     if target.suffix != SUFFIX:

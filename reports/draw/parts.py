@@ -22,7 +22,7 @@ from reports.draw.canvas import (
 from reports.draw.fonts import width_of
 from reports.shared.russian import fixed
 
-_MOST_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
+_MAX_WEB = 1.6  # of the shorter arm beside it: a web whose thickness the arms do not have
 ROUND = 0.7  # of a journal's diameter that a web reaches beyond its axis
 
 
@@ -178,7 +178,7 @@ def throw_outline(canvas: Canvas, throw: ThrowSizes, scale: float) -> ThrowOutli
     rod = l1 + left_web + l2
     right = rod + l3 + l4 + l5
     end = right + right_web + l6
-    room = _MOST_WEB * min(l1, l2), _MOST_WEB * min(l5, l6)
+    room = _MAX_WEB * min(l1, l2), _MAX_WEB * min(l5, l6)
     usual = [min(scale * h or 1.0, most) for h, most in zip(throw.usual, room, strict=True)]
     thickness = [left_web or usual[0], right_web or usual[1]]
     faces = [(l1 if left_web else l1 - thickness[0] / 2, thickness[0]),

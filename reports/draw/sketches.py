@@ -15,7 +15,7 @@ from reports.draw.lettered import LetteredCanvas
 
 _RINGS = 3
 _RING_HEIGHT = 0.028  # of the bore
-_LEAST_BELT = 0.05  # of the bore, of a piston above its first groove
+_MIN_BELT = 0.05  # of the bore, of a piston above its first groove
 _TOP = 1.35  # of a bearing's radius, where the shank begins
 _SECTION = 5.5  # letters: height of the shank's section, which is enlarged
 _BELOW = 3.4  # letters below the cap, for its dimension
@@ -56,7 +56,7 @@ def piston_sketch(part: PartSizes, *, letters: float = 2.5, scale: float = 1.0) 
     outer, groove, inner = bore / 2, s["groove"] / 2, s["inner"] / 2
     tall, land = _RING_HEIGHT * bore, s["land"]
     belt = min(max(height - s["skirt"], crown + 0.1 * bore), 0.8 * height)
-    free = belt - _LEAST_BELT * bore
+    free = belt - _MIN_BELT * bore
     count = next((n for n in (_RINGS, 2) if n * tall + (n - 1) * land < free), 2)
     first = max(0.5 * (belt - count * tall - (count - 1) * land), 0.03 * bore)
     tops = [-first - n * (tall + land) for n in range(count)]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from reports.exports.book_faults import Own
-from reports.model.book_text import BookLine
+from reports.model.chapter_source import BookLine
 from reports.model.context import CASE_MARK, FREE_MARK, MARK
 from reports.shared.errors import BookError
 

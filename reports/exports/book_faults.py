@@ -12,9 +12,16 @@ import numpy as np
 
 from reports.formula.excel import compile_formula
 from reports.formula.parse import parse
-from reports.inputs.own_books import line_of_quantity, quantities_of
+from reports.inputs.department_chapters import line_of_quantity, quantities_of
 from reports.model.blocks import Column, Grid, Model, TableSpec, nodes_in
-from reports.model.book_text import BookLine, BookPlaces, Shelf, at_fragment, book_faults, cause_of
+from reports.model.chapter_source import (
+    BookLine,
+    BookPlaces,
+    Shelf,
+    at_fragment,
+    book_faults,
+    cause_of,
+)
 from reports.model.contents import contents_of
 from reports.model.context import CASE_MARK, FREE_MARK
 from reports.model.evaluation import Evaluation
@@ -29,7 +36,7 @@ from reports.workbook.layout import (
     RowReferences,
 )
 
-MOST_FORMULA, MOST_NESTED, MOST_CELLS = 8000, 60, 300_000
+MAX_FORMULA, MAX_NESTED, MAX_CELLS = 8000, 60, 300_000
 _STARTS_FORMULA = ("=", "+", "@")
 _CELL_LIKE = re.compile(r"[A-Za-z]{1,3}\d{1,7}|[Rr]\d*[Cc]\d*|[RrCc]")
 _FORMULAS = re.compile(f"{CASE_MARK.pattern}|{FREE_MARK.pattern}")  # of a text, parsed elsewhere
@@ -243,10 +250,10 @@ def unfit(reading: Own) -> Iterator[BookError]:
     tables = reading.model.tables
     cells = sum(len(table.rows) for table in tables.values() for column in table.columns
                 if f"{table.id}.{column.key}" in nodes)  # fmt: skip
-    if cells + len(nodes) > MOST_CELLS:
+    if cells + len(nodes) > MAX_CELLS:
         largest = max((tables[key] for key in reading.places.blocks if key in tables),
                       key=lambda table: len(table.rows))  # fmt: skip
-        yield reading.fault(reading.places.line_of(largest.id), f"ячеек больше {MOST_CELLS}",
+        yield reading.fault(reading.places.line_of(largest.id), f"ячеек больше {MAX_CELLS}",
                             "уменьшите таблицы", largest.id)  # fmt: skip
         return
     layout = Layout.of(reading.model)
@@ -258,7 +265,7 @@ def unfit(reading: Own) -> Iterator[BookError]:
             yield reading.fault(line, f"формула «{name}» не для ячейки: {cause_of(error)}",
                             "проверьте, где имя столбца, а где число", name)  # fmt: skip
             continue
-        if len(formula) > MOST_FORMULA or _nested(parse(expr)) > MOST_NESTED:
+        if len(formula) > MAX_FORMULA or _nested(parse(expr)) > MAX_NESTED:
             yield reading.fault(line, f"формула «{name}» для ячейки Excel велика",
                             "разделите её на несколько величин", name)  # fmt: skip
 

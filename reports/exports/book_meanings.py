@@ -10,10 +10,10 @@ from jinja2 import nodes
 
 from reports.exports.book_faults import Own, short_of
 from reports.formula.parse import AGGREGATES, parse
-from reports.inputs.own_books import sections_of
+from reports.inputs.department_chapters import sections_of
 from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model, TableSpec
-from reports.model.book_text import BookLine, environment_of
+from reports.model.chapter_source import BookLine, environment_of
 from reports.model.evaluation import node_of
 from reports.shared.errors import BookError, one_line
 

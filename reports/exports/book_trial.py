@@ -11,13 +11,13 @@ from reports.document.report import Report
 from reports.document.text.mathsvg import formula
 from reports.exports.book_chapters import KINDS, kinds_of, lines_of
 from reports.exports.book_faults import Own
-from reports.exports.own_books import read_books, refuse_faults
+from reports.exports.department_chapters import read_books, refuse_faults
+from reports.inputs.department_chapters import declared, line_of_quantity, read_text
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_toml
-from reports.inputs.own_books import declared, line_of_quantity, read_text
 from reports.inputs.sections.input_file import InputFile
 from reports.model.blocks import Model
-from reports.model.book_text import BookLine, cause_of
+from reports.model.chapter_source import BookLine, cause_of
 from reports.model.context import MARK
 from reports.model.evaluation import Values, evaluate_model
 from reports.shared.errors import BookError, FormulaImageError, InputError, KshmError, Problem

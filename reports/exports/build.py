@@ -66,7 +66,7 @@ def load_input(path: Path) -> Loaded:
     else:
         loaded = load_toml(path)
     if loaded.model.books:
-        from reports.exports.own_books import refuse_faults
+        from reports.exports.department_chapters import refuse_faults
 
         refuse_faults(loaded.model)
     if loaded.model.bearings is not None:

@@ -13,7 +13,7 @@ from typing import Any, TextIO
 from kshm.nomenclature.quantity import Quantity, quantity, ray_key
 from kshm.results.reference import reference_tables
 from kshm.results.solution import Solution
-from reports.exports.own_books import OwnNumbers
+from reports.exports.department_chapters import OwnNumbers
 from reports.inputs.fields import iter_fields
 from reports.inputs.sections.input_file import InputFile
 

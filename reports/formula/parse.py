@@ -47,7 +47,7 @@ _OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow)
 _COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
 
-MOST_LETTERS, MOST_DEEP = 8000, 150  # of an expression: longer ones no spreadsheet takes
+MAX_LETTERS, MAX_DEEP = 8000, 150  # of an expression: longer ones no spreadsheet takes
 
 
 _COMMA = re.compile(r'^(?:[^"]|"[^"]*")*?(?<![\w.])\d+,\d')  # outside of texts
@@ -65,8 +65,8 @@ def parse(text: str) -> ast.expr:
     Raises:
         FormulaError: a construct or function outside the language.
     """
-    if len(text) > MOST_LETTERS:
-        problem = f"an expression of more than {MOST_LETTERS} signs"
+    if len(text) > MAX_LETTERS:
+        problem = f"an expression of more than {MAX_LETTERS} signs"
         raise FormulaError(problem, text[:40], "разделите формулу")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
@@ -99,8 +99,8 @@ class _Paired(ast.NodeTransformer):
 
 
 def _check(node: ast.expr, text: str, depth: int = 1) -> None:
-    if depth >= MOST_DEEP:  # below it the operators
-        raise FormulaError(f"an expression deeper than {MOST_DEEP}", text, "разделите формулу")
+    if depth >= MAX_DEEP:  # below it the operators
+        raise FormulaError(f"an expression deeper than {MAX_DEEP}", text, "разделите формулу")
     children: list[ast.expr] = []
     match node:
         case ast.Constant(value=bool()):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from kshm.arrays import Array
 
 
-MOST_POINTS = 1500
+MAX_POINTS = 1500
 THINNED_DEG = 0.5
 LONE_GAP = 4.0  # times the gaps on both sides
 CLOSING = 0.02  # of the greatest pressure
@@ -253,7 +253,7 @@ def _closed(
         notes.append(f"давления {cycles} циклов усреднены по углу")
     else:
         at, pressures = _single(at, pressures, refusal)
-    if len(at) > MOST_POINTS:
+    if len(at) > MAX_POINTS:
         notes.append(f"{len(at)} строк усреднены до точек через {number_text(THINNED_DEG)}°")
         at, pressures = _means(at, pressures, THINNED_DEG, period)
     notes += _gaps(at, period, refusal)

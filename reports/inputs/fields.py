@@ -35,8 +35,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from kshm.nomenclature.quantity import smallness
-from reports.inputs.meta import Key, Meta, Strictly, hints
-from reports.inputs.own_books import sections_of
+from reports.inputs.department_chapters import sections_of
+from reports.inputs.meta import Key, Meta, StrictModel, hints
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import InputFile, RegimeSection, RegimeValues
 
@@ -250,7 +250,7 @@ def _field(path: Path, section: str, meta: Meta, value: Value, optional: bool) -
 
 
 def from_cells(
-    data: dict[str, Any], models: dict[str, type[Strictly]]
+    data: dict[str, Any], models: dict[str, type[StrictModel]]
 ) -> tuple[dict[str, Any], list[Path]]:
     """Return the data in the file's types, and the paths of cells that are empty.
 
@@ -267,7 +267,7 @@ def from_cells(
     return result, empty
 
 
-def _table(part: dict[str, Any], model: type[Strictly], path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
+def _table(part: dict[str, Any], model: type[StrictModel], path: Path, empty: list[Path]) -> Any:  # noqa: ANN401
     specs = hints(model)
     result = {}
     for key, value in part.items():

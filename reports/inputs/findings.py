@@ -19,8 +19,8 @@ from reports.shared.font_coverage import REPLACEMENT, unprintable
 Keys = frozenset[str]
 Entry = TypeVar("Entry", bound=tuple[Any, ...])  # begins with a path
 _REGIME = re.compile(r"(?P<check>\w+?)_R[0-9]+")
-_MOST = 5  # signs that are listed one by one
-MOST_REGIMES = 4
+_MAX_LISTED = 5  # signs that are listed one by one
+MAX_REGIMES = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,8 +166,8 @@ def check_signs(model: InputFile) -> Iterator[Finding]:
     for text in iter_fields(model):
         signs = unprintable(text.value) if isinstance(text.value, str) else ()
         if signs:
-            listed = ", ".join(f"{sign} (U+{ord(sign):04X})" for sign in signs[:_MOST])
-            more = f" и ещё {len(signs) - _MOST}" if len(signs) > _MOST else ""
+            listed = ", ".join(f"{sign} (U+{ord(sign):04X})" for sign in signs[:_MAX_LISTED])
+            more = f" и ещё {len(signs) - _MAX_LISTED}" if len(signs) > _MAX_LISTED else ""
             problem = f"в шрифте отчёта нет: {listed}{more}"
             hint = f"уберите или замените, иначе напечатается {REPLACEMENT}"
             yield Finding(text.path, problem, hint, warning=True)
@@ -179,8 +179,8 @@ def regime_data(raw: object) -> Iterator[Finding | tuple[int, dict[str, Any]]]:
         yield Finding(("regimes",), f"нужен список разделов, а задано: {kind(raw)}",
                       "запишите [[regimes]]")  # fmt: skip
         return
-    if len(raw) > MOST_REGIMES:
-        problem = f"режимов {len(raw)}, а допустимо не больше {MOST_REGIMES}"
+    if len(raw) > MAX_REGIMES:
+        problem = f"режимов {len(raw)}, а допустимо не больше {MAX_REGIMES}"
         yield Finding(("regimes",), problem, "уберите лишние")
         return
     for index, entry in enumerate(raw):

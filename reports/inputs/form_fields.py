@@ -7,15 +7,15 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from reports.inputs.department_chapters import sections_of, texts_of
 from reports.inputs.fields import Path, key_text
-from reports.inputs.findings import MOST_REGIMES
+from reports.inputs.findings import MAX_REGIMES
 from reports.inputs.meta import Key, Meta, hints
-from reports.inputs.own_books import sections_of, texts_of
 from reports.inputs.registry import GAS_MODELS, SECTIONS
 from reports.inputs.sections.input_file import RegimeValues
 
 Data = dict[str, Any]
-_MOST_ENTRIES = 1500  # of a list are shown: an answer stays bounded, whatever was asked
+_MAX_ENTRIES = 1500  # of a list are shown: an answer stays bounded, whatever was asked
 _DRAWINGS = {"throw_angles_deg": "phases", "webs": "signs", "arms": "arms"}  # of these lists
 
 
@@ -35,7 +35,7 @@ def groups(raw: Mapping[str, Any]) -> Iterator[Data]:
         yield {"title": spec.title, "key": f"own.{name}", "whole": None,
                "entries": [list(_record(part, spec.model, ("own", name)))]}  # fmt: skip
     regimes = raw.get("regimes")
-    for index, regime in enumerate(regimes[:MOST_REGIMES] if isinstance(regimes, list) else ()):
+    for index, regime in enumerate(regimes[:MAX_REGIMES] if isinstance(regimes, list) else ()):
         path, gas = ("regimes", index), _mapping(regime).get("gas")
         yield from _section("regime", path, f"Режим {index + 2}", regime, path, RegimeValues)
         yield from _section("gas", (*path, "gas"), f"Газы режима {index + 2}", gas, path)
@@ -79,7 +79,7 @@ def _section(
         heading = lists[key].title if name == path[0] else f"{title}: {lists[key].title.lower()}"
         two_banks = key == "arms" and "bank_angle_deg" in part
         values = part.get(key)
-        entries = values[:_MOST_ENTRIES] if isinstance(values, list | tuple) else ()
+        entries = values[:_MAX_ENTRIES] if isinstance(values, list | tuple) else ()
         yield {
             "title": heading, "key": key_text((*path, key)), "path": (*path, key), "whole": whole,
             "drawing": "arms-v" if two_banks else _DRAWINGS.get(key, ""),

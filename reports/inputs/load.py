@@ -21,6 +21,14 @@ from reports.inputs.checks import cross_checks
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.pairs import check_pairs
 from reports.inputs.checks.plausibility import check_plausibility
+from reports.inputs.department_chapters import (
+    Texts,
+    checked_texts,
+    named,
+    own_model,
+    sections_of,
+    with_books,
+)
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import Path, from_cells, in_cells, key_text
 from reports.inputs.findings import (
@@ -32,16 +40,8 @@ from reports.inputs.findings import (
     regime_data,
 )
 from reports.inputs.firing import FOLLOWING, expand
-from reports.inputs.meta import Strictly, hints
+from reports.inputs.meta import StrictModel, hints
 from reports.inputs.normalise import in_types, normalise, read_text, refuse_bomb, refused
-from reports.inputs.own_books import (
-    Texts,
-    checked_texts,
-    named,
-    own_model,
-    sections_of,
-    with_books,
-)
 from reports.inputs.ranges import read_ranges, split_ranges
 from reports.inputs.reasons import PROTOTYPE_KEY
 from reports.inputs.registry import GAS_MODELS, SECTIONS
@@ -59,6 +59,7 @@ from reports.shared.errors import InputError, Problem, one_line
 
 MAX_PROBLEMS = 200
 Locate = Callable[[Path], str]
+_Section = type[StrictModel]
 _OFFSETS = re.compile(r"firing_offsets_deg(\[\d+\])?")
 
 
@@ -77,7 +78,7 @@ def check_regime(values: ValidValues, regime: ValidValues) -> Iterator[Finding]:
     yield from (finding for finding in check_pairs(both) if finding.path[0] in regime.sections)
 
 
-def joined(regime: Strictly, gas: Strictly) -> RegimeSection | None:
+def joined(regime: StrictModel, gas: StrictModel) -> RegimeSection | None:
     """Regime of its two checked parts."""
     if not isinstance(regime, RegimeValues) or isinstance(gas, CycleGasSection):
         return None
@@ -297,7 +298,7 @@ class _SectionReader:
         self.values.unsure |= {str(path[0]) for path in empty}
         return result
 
-    def sections(self, data: dict[str, Any]) -> dict[str, Strictly]:
+    def sections(self, data: dict[str, Any]) -> dict[str, StrictModel]:
         unknown = [key for key in data if key not in SECTIONS]
         self.uncounted += max(0, len(unknown) - MAX_PROBLEMS)
         unknown = unknown[:MAX_PROBLEMS]
@@ -333,7 +334,7 @@ class _SectionReader:
             self.problems += error.problems
             return ()
 
-    def own(self, raw: object, books: Texts) -> Strictly | None:
+    def own(self, raw: object, books: Texts) -> StrictModel | None:
         """Return the sections of own books, [own.SECTION] in the file."""
         declared, reader = sections_of(books), _SectionReader(self.source, self.locate)
         reader.home = ("own",)
@@ -388,7 +389,7 @@ class _SectionReader:
             return None
         return joined(parts[0], parts[1])
 
-    def _model_of(self, name: str, raw: object) -> type[Strictly] | None:
+    def _model_of(self, name: str, raw: object) -> _Section | None:
         if not isinstance(raw, dict):
             problem = f"нужен раздел [{name}], а задано: {messages.kind(raw)}"
             self.problems.append(self.problem((name,), problem))
@@ -407,7 +408,7 @@ class _SectionReader:
             self.problems.append(self.problem(("gas", "source"), problem, hint))
         return None
 
-    def _section(self, name: str, model: type[Strictly], raw: dict[str, Any]) -> Strictly | None:
+    def _section(self, name: str, model: _Section, raw: dict[str, Any]) -> StrictModel | None:
         for key, value in raw.items():
             if isinstance(value, list | tuple):
                 self.values.counts[name, key] = len(value)
@@ -421,7 +422,7 @@ class _SectionReader:
         self.values.sections[name] = {key: getattr(section, spec.name) for key, spec in keys}
         return section
 
-    def _report(self, name: str, model: type[Strictly], error: ValidationError) -> None:
+    def _report(self, name: str, model: _Section, error: ValidationError) -> None:
         errors = error.errors(include_url=False, include_context=False)
         for item in errors:
             if item["type"] == "extra_forbidden":
@@ -465,16 +466,14 @@ def _sizes_are_wanted(data: dict[str, Any]) -> bool:
     return isinstance(cycle, dict) and "power_kw" in cycle
 
 
-def _owner(model: type[Strictly], parents: Path) -> type[Strictly]:
+def _owner(model: _Section, parents: Path) -> _Section:
     for part in parents:
         if isinstance(part, str):
             model = hints(model)[part].inner or model
     return model
 
 
-def _valid_part(
-    model: type[Strictly], raw: dict[str, Any], error: ValidationError
-) -> dict[str, Any]:
+def _valid_part(model: _Section, raw: dict[str, Any], error: ValidationError) -> dict[str, Any]:
     """Return the fields that are valid by themselves, defaults filled in."""
     wrong = {item["loc"][0] for item in error.errors(include_url=False) if item["loc"]}
     validator = model.__pydantic_validator__

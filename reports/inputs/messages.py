@@ -11,7 +11,7 @@ from dataclasses import replace
 from pydantic_core import ErrorDetails
 
 from reports.inputs import units
-from reports.inputs.meta import MAX_TEXT, Key, Meta, Strictly, hints
+from reports.inputs.meta import MAX_TEXT, Key, Meta, StrictModel, hints
 from reports.inputs.normalise import is_ambiguous
 from reports.inputs.registry import homes
 from reports.shared.errors import NO_LIMITS, Problem, one_line
@@ -131,7 +131,7 @@ def _number_hint(value: object, *, in_book: bool) -> str:
     return f"напишите одно число: {number[1].replace(',', '.')}"
 
 
-def likely_key(key: str, model: type[Strictly]) -> str | None:
+def likely_key(key: str, model: type[StrictModel]) -> str | None:
     """Return the key of `model` that `key` was probably meant to be."""
     close = difflib.get_close_matches(key.lower(), list(hints(model)), n=1, cutoff=0.6)
     return close[0] if close else None
@@ -148,7 +148,7 @@ def latin(word: str) -> str:
     return word.translate(_LOOK_ALIKE)
 
 
-def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
+def unknown_key(key: str, model: type[StrictModel]) -> tuple[str, str]:
     """Return (what, hint) for a key `model` does not know."""
     problem = "неизвестный ключ"
     for home, models in homes():
@@ -162,10 +162,10 @@ def unknown_key(key: str, model: type[Strictly]) -> tuple[str, str]:
     return problem, f"возможно, имелся в виду {likely}" if likely else "удалите его"
 
 
-def meta_at(model: type[Strictly], path: tuple[str | int, ...]) -> Meta | None:
+def meta_at(model: type[StrictModel], path: tuple[str | int, ...]) -> Meta | None:
     """Return the metadata of the field at `path` inside `model`, if it is a single value."""
     spec: Key | None = None
-    current: type[Strictly] | None = model
+    current: type[StrictModel] | None = model
     for part in path:
         if isinstance(part, str):
             spec = hints(current).get(part) if current is not None else None

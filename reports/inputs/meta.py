@@ -21,7 +21,7 @@ from reports.shared.russian import NBSP, capital, uncapital
 
 MAX_TEXT = 300
 USUAL = object()  # the default of a key is that of the solver
-_MOST_LISTED = 8  # choices that a message lists one by one
+_MAX_LISTED = 8  # choices that a message lists one by one
 _REFUSED = {"Cc", "Cs", "Cn", "Zl", "Zp"}
 
 
@@ -37,7 +37,7 @@ def named(key: str) -> tuple[str, str]:
     return title_of(key), symbol.replace(NBSP, " ")
 
 
-class Strictly(BaseModel):
+class StrictModel(BaseModel):
     """Base of the input models: unknown keys, other types, nan and inf are refused."""
 
     model_config = ConfigDict(
@@ -113,7 +113,7 @@ class Meta:
             return "пока поддерживается только " + next(iter(self.choices))
         if self.choices is not None:
             names = list(self.choices.values() if labels else self.choices)
-            if names == [str(n) for n in range(1, len(names) + 1)] and len(names) > _MOST_LISTED:
+            if names == [str(n) for n in range(1, len(names) + 1)] and len(names) > _MAX_LISTED:
                 return f"допустимо от 1 до {names[-1]}"
             return "допустимо: " + ", ".join(names)
         if self.minimum is None or self.maximum is None:
@@ -203,7 +203,7 @@ class Key:
 
     name: str
     metas: tuple[Meta, ...]
-    inner: type[Strictly] | None
+    inner: type[StrictModel] | None
     types: frozenset[type]
     optional: bool
 
@@ -220,7 +220,7 @@ def _key(name: str, info: FieldInfo) -> Key:
     return Key(
         name,
         tuple(part for part in parts if isinstance(part, Meta)),
-        next((part for part in types if issubclass(part, Strictly)), None),
+        next((part for part in types if issubclass(part, StrictModel)), None),
         frozenset(types),
         not info.is_required(),
     )

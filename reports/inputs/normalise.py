@@ -14,7 +14,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from reports.inputs.meta import Key, Meta, Strictly, hints
+from reports.inputs.meta import Key, Meta, StrictModel, hints
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.gas import SOURCES
 from reports.inputs.sections.input_file import RegimeValues
@@ -174,7 +174,7 @@ def _regime(entry: object) -> object:
     return {**done, "gas": _section("gas", entry["gas"])} if "gas" in entry else done
 
 
-def in_types(part: dict[str, Any], model: type[Strictly]) -> dict[str, Any]:
+def in_types(part: dict[str, Any], model: type[StrictModel]) -> dict[str, Any]:
     """Return the values of a section in the types of its keys."""
     specs = hints(model)
     return {

@@ -18,9 +18,9 @@ from reports.shared.russian import short
 _BORE = "(2000*sqrt(F_piston/pi))"  # mm
 FILM_REQUIRED = "bearings_reserve_allowed*oil_hcr_um"  # least film that carries [µm]
 RODS = "rods_on_pin"  # a number beside the model's nodes
-_LEAST_BORE_MM = 1000 * MASSES_BORES["petrol"][0]  # of table 4
+_MIN_BORE_MM = 1000 * MASSES_BORES["petrol"][0]  # of table 4
 _SIMILAR = (
-    f"таблица 4 пособия составлена для диаметров от {short(_LEAST_BORE_MM)} мм, у подобных "
+    f"таблица 4 пособия составлена для диаметров от {short(_MIN_BORE_MM)} мм, у подобных "
     "двигателей удельная масса пропорциональна диаметру"
 )
 _HEAVY = "растут силы инерции и нагрузки на подшипники"
@@ -79,7 +79,7 @@ class Reason:
 
     def below_at(self, bore_mm: float) -> str:
         """What follows below the span; a bore below those of the table is light by similarity."""
-        small = self.by_size and bore_mm < _LEAST_BORE_MM
+        small = self.by_size and bore_mm < _MIN_BORE_MM
         return _SIMILAR if small else self.below
 
     def span(self, kind: str, heavier: float = 1.0) -> Span:

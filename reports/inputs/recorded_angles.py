@@ -12,7 +12,7 @@ from kshm.arrays import Array
 from reports.inputs.units import number_text
 
 WIDEST_GAP_DEG = 45.0  # between points of a diagram
-_LEAST_ALIKE = 0.5  # correlation of a cycle with the first one
+_MIN_ALIKE = 0.5  # correlation of a cycle with the first one
 _TIMES = {"секунды": 1.0, "миллисекунды": 1e3, "микросекунды": 1e6}
 _BEFORE, _END = r"(^|[\[(,/]\s*)", r"\.?\s*[\])]*$"
 _HEADS = {
@@ -127,7 +127,7 @@ def _are_alike(angles: Array, pressures: Array, period: float) -> bool:
         if not np.ptp(there) and not np.ptp(pressures[here]):
             continue
         with np.errstate(invalid="ignore", divide="ignore"):
-            if not np.corrcoef(there, pressures[here])[0, 1] >= _LEAST_ALIKE:
+            if not np.corrcoef(there, pressures[here])[0, 1] >= _MIN_ALIKE:
                 return False
     return True
 

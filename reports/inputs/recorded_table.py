@@ -19,7 +19,7 @@ from reports.shared.errors import InputError, UnfitTable, one_line
 from reports.shared.file_types import CALLED, TEXT, UTF16, kind_of, read_bytes
 
 MAX_BYTES = 8_000_000
-LEAST_ROWS = 3
+MIN_ROWS = 3
 # Separators between columns; of blanks any number makes one.
 _CALLED = {";": "«;»", "\t": "табуляцию", ",": "запятую", " ": "пробелы"}
 _NUMBER = re.compile(r"[-+]?(\d+([.,]\d+|\.)?|\.\d+)([eE][-+]?\d+)?")
@@ -161,7 +161,7 @@ def _read(rows: list[Row], separator: str, requested: WantedColumns) -> Recorded
     if fault is not None:
         raise fault
     body = rows[first:]
-    if len(body) < LEAST_ROWS:
+    if len(body) < MIN_ROWS:
         raise UnfitTable(0, nothing)
     if separator == "," and _torn(rows[:first], body, tuple(columns), requested.units):
         problem = "запятая стоит и между столбцами, и в дробях"
@@ -189,7 +189,7 @@ def _is_numbering(
     rows: list[Row], values: list[list[float | None]], first: int, angle: int
 ) -> bool:
     """Whether the first row of numbers numbers the columns, from 0 or from 1."""
-    if len(rows) - first < LEAST_ROWS:
+    if len(rows) - first < MIN_ROWS:
         return False
     numbers = [_value(cell) for cell in rows[first][1] if cell]
     base = numbers[0] if numbers else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from reports.inputs.meta import Strictly, hints
+from reports.inputs.meta import StrictModel, hints
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
 from reports.inputs.sections.flywheel import FlywheelSection
@@ -65,15 +65,15 @@ class InputSection:
 
     name: str
     title: str
-    model: type[Strictly]
+    model: type[StrictModel]
     optional: bool = False
     absent: bool = False
-    sources: Mapping[str, type[Strictly]] = field(default_factory=dict)
+    sources: Mapping[str, type[StrictModel]] = field(default_factory=dict)
     lists: Mapping[str, ListKey] = field(default_factory=dict)
     words: tuple[str, ...] = ()
 
     @property
-    def models(self) -> tuple[type[Strictly], ...]:
+    def models(self) -> tuple[type[StrictModel], ...]:
         """Every model that the section may have."""
         return tuple(self.sources.values()) or (self.model,)
 
@@ -272,14 +272,14 @@ SECTIONS: dict[str, InputSection] = {section.name: section for section in _ALL}
 GAS_MODELS = SECTIONS["gas"].sources
 
 
-def records(model: type[Strictly]) -> Iterator[tuple[str, type[Strictly]]]:
+def records(model: type[StrictModel]) -> Iterator[tuple[str, type[StrictModel]]]:
     """Keys of a model that hold lists of records, with the records' models."""
     for key, spec in hints(model).items():
         if spec.inner is not None:
             yield key, spec.inner
 
 
-def homes() -> Iterator[tuple[str, tuple[type[Strictly], ...]]]:
+def homes() -> Iterator[tuple[str, tuple[type[StrictModel], ...]]]:
     """Headings of the file with the models of their keys."""
     for section in SECTIONS.values():
         yield f"[{section.name}]", section.models

@@ -15,11 +15,11 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
+from reports.inputs.department_chapters import Texts, sections_of
 from reports.inputs.diagram_file import KEYS as FILE_KEYS
 from reports.inputs.firing import FOLLOWING
-from reports.inputs.meta import MAX_TEXT, Meta, Strictly
+from reports.inputs.meta import MAX_TEXT, Meta, StrictModel
 from reports.inputs.normalise import MAX_ENTRIES
-from reports.inputs.own_books import Texts, sections_of
 from reports.inputs.ranges import SECTION as VARIANTS
 from reports.inputs.registry import GAS_MODELS, SECTIONS, InputSection
 from reports.inputs.sections.input_file import (
@@ -100,7 +100,7 @@ def _diagram_file() -> Schema:
     return _closed(properties, ["source", "file"])
 
 
-def _object(model: type[Strictly]) -> Schema:
+def _object(model: type[StrictModel]) -> Schema:
     properties, required = {}, []
     for name, info in model.model_fields.items():
         key = info.alias or name
@@ -149,7 +149,7 @@ def _typed(annotation: Any, meta: Meta | None) -> Schema:  # noqa: ANN401
     if origin is tuple:
         items = [_typed(part, meta) for part in parts]
         return {"type": "array", "items": items, "minItems": len(parts), "maxItems": len(parts)}
-    if isinstance(annotation, type) and issubclass(annotation, Strictly):
+    if isinstance(annotation, type) and issubclass(annotation, StrictModel):
         return _object(annotation)
     return {"type": _TYPES[annotation], **dict(_limits(annotation, meta))}
 

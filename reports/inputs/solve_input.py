@@ -35,9 +35,9 @@ _PRINTED = {"report": ReportSection(), "sheet": None, "workbook": WorkbookSectio
 _MEND_FILM = "проверьте зазоры, вязкость и температуру масла, ширину"
 _MEND_KW = "задайте размеры вместе с мощностью (kshm new --power --bore …) или исправьте давления"
 POWER = "power"  # the check of it
-MOST_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
+MAX_POWER_ERROR = 2.0  # difference that is told, here and by the workbook [%]
 _PIN = re.compile(r"шейк\w*")  # in a title, before its number
-MOST_GRID_ERROR = 2.0  # difference that is told [%]
+MAX_GRID_ERROR = 2.0  # difference that is told [%]
 _FINEST = 9  # decimals beyond which nothing is told apart
 # Extremes and integrals of a cycle, which depend on where the rows stand; the first matter most.
 _KINDS = tuple(
@@ -51,7 +51,7 @@ _KINDS = tuple(
 )  # fmt: skip
 _USED = re.compile(r"M_(mean|max)|N_i_calc|(Rpin[_0-9]*|Rmain\d+)_max")  # told in the console
 INERTIAS = "torsion_forms", "tor_J_kgm2"  # of the train's masses: pulley, throws, flywheel
-_MOST_INERTIA = 1000.0  # times all throws; of one cylinder some hundreds, from memory
+_MAX_INERTIA = 1000.0  # times all throws; of one cylinder some hundreds, from memory
 
 
 def solved(model: InputFile, source: str = "") -> Solution:
@@ -98,7 +98,7 @@ def power_problems(model: InputFile) -> tuple[Problem, ...]:
         if number > 1:
             error, check = (regime_key(key, number) for key in (error, check))
         percent = float(scalars.get(error, 0.0))
-        if stated is None or abs(percent) <= MOST_POWER_ERROR or check in accepted:
+        if stated is None or abs(percent) <= MAX_POWER_ERROR or check in accepted:
             continue
         if _is_of_the_step(model, error):  # of that grid_errors tells
             continue
@@ -114,7 +114,7 @@ def _is_of_the_step(model: InputFile, error: str) -> bool:
         exact = solved(refined(model)).scalars
     except ValueError:
         return False
-    return abs(float(exact.get(error, 0.0))) <= MOST_POWER_ERROR
+    return abs(float(exact.get(error, 0.0))) <= MAX_POWER_ERROR
 
 
 def _told(stated: float, percent: float, efficiency: float) -> str:
@@ -251,7 +251,7 @@ def _family(results: Mapping[str, float], key: str) -> list[float]:
 def _is_off(coarse: float, fine: float, scale: float) -> bool:
     """Whether a difference exceeds 2 % and the rounding noise."""
     gap = abs(coarse - fine)
-    return bool(np.isfinite(gap)) and gap > max(MOST_GRID_ERROR / 100 * abs(fine), 1e-6 * scale)
+    return bool(np.isfinite(gap)) and gap > max(MAX_GRID_ERROR / 100 * abs(fine), 1e-6 * scale)
 
 
 def _is_pressed(hole: str, coarse: Solution, fine: Solution, rays: int) -> bool:
@@ -304,7 +304,7 @@ def flywheel_remark(model: InputFile) -> str:
         return ""
     throws = len(model.crankshaft.throw_angles_deg)
     heavy = inertias[throws + 1] / inertias[1 : throws + 1].sum()
-    if heavy > _MOST_INERTIA:
+    if heavy > _MAX_INERTIA:
         inertia = _shown(model, inertias[throws + 1])
         return (
             f"torsion.flywheel_kg_m2: момент инерции маховика {inertia} больше, чем у всех "

@@ -11,7 +11,7 @@ import tomlkit
 from tomlkit.items import Table
 
 from reports.inputs.messages import likely_word, shown
-from reports.inputs.meta import Meta, Strictly, hints
+from reports.inputs.meta import Meta, StrictModel, hints
 from reports.inputs.registry import SECTIONS, InputSection, records
 from reports.inputs.sections.input_file import DesignGeometrySection, RegimeValues
 from reports.shared.errors import InputError, Problem
@@ -113,7 +113,7 @@ def set_file(values: Mapping[str, Any]) -> str:
     return tomlkit.dumps(document)
 
 
-def _model(name: str, section: Mapping[str, Any]) -> type[Strictly]:
+def _model(name: str, section: Mapping[str, Any]) -> type[StrictModel]:
     spec = SECTIONS[name]
     if name == "geometry" and "bore_mm" not in section:
         return DesignGeometrySection
@@ -133,7 +133,7 @@ def _commented(section: InputSection) -> Iterator[str]:
             yield f"{key} = … {_note(spec.metas)}"
 
 
-def _table(model: type[Strictly], values: Mapping[str, Any], *, whole: bool = True) -> Table:
+def _table(model: type[StrictModel], values: Mapping[str, Any], *, whole: bool = True) -> Table:
     """Return the values of a section, each explained; `whole` with the keys that are not given."""
     table, lists = tomlkit.table(), {}
     defaults = model.model_construct()

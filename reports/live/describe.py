@@ -36,7 +36,7 @@ _PHASES = re.compile(
 _MAIN = ("geometry_bore_mm", "geometry_stroke_mm", "geometry_crank_radius_mm",
          "geometry_rod_length_mm", "geometry_lambda", "regime_speed_rpm",
          "gas_max_pressure_mpa", "cycle_pressure_ratio")  # fmt: skip
-_MOST_MAIN = 5
+_MAX_MAIN = 5
 _CHART = ("id", "sheet", "title", "kind", "x_title", "y_title", "x_is_angle", "x_reversed",
           "y_reversed")  # fmt: skip
 _PINS = r"crankpin(_\d+)?\.Krod_MPa"
@@ -87,7 +87,7 @@ def sentences() -> dict[str, str]:
 def main_fields(model: Model) -> list[str]:
     """Keys of the fields that stand first."""
     names = [name for name in _MAIN if name in model.fields and is_free(model.fields[name])]
-    return [key_text(model.fields[name].path) for name in names[:_MOST_MAIN]]
+    return [key_text(model.fields[name].path) for name in names[:_MAX_MAIN]]
 
 
 def sheets(model: Model) -> list[Data]:

@@ -6,13 +6,13 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 
-from reports.model.book_text import Shelf, house_shelf
+from reports.model.chapter_source import Shelf, house_shelf
 from reports.shared.errors import BookError
 
 _PLACE = re.compile(r"^place (before|chain|after|drawn) (\d+)( alone)?$", re.MULTILINE)
 _CHAPTER = re.compile(r"^chapter (.+) ([0-9A-F]{6})( smooth)?$", re.MULTILINE)
 _SHEET = re.compile(r"^sheet (.+?) in (.+) (\d+)( full)?: (.+)$", re.MULTILINE)
-MOST_TITLE = 28  # of a sheet: the number of a regime may follow
+MAX_TITLE = 28  # of a sheet: the number of a regime may follow
 _NUMBER = re.compile(r"\s*\(?\{\{.*\}\}\)?$")  # of a journal, filled in for each
 
 
@@ -87,11 +87,9 @@ def _check_chapters(shelf: Shelf, chapters: set[str]) -> None:
                 raise BookError(name, number, line.index(sheet[2]) + 1,
                                 f"главы «{sheet[2]}» в книге Excel нет",
                                 "главы: " + ", ".join(sorted(chapters)))  # fmt: skip
-            if "{{" not in title and (
-                len(title) > MOST_TITLE or re.search(r"[\\/*?:\[\]']", title)
-            ):
+            if "{{" not in title and (len(title) > MAX_TITLE or re.search(r"[\\/*?:\[\]']", title)):
                 raise BookError(name, number, 7, f"листа «{title}» в Excel быть не может",
-                                f"до {MOST_TITLE} знаков без \\ / * ? : [ ] '")  # fmt: skip
+                                f"до {MAX_TITLE} знаков без \\ / * ? : [ ] '")  # fmt: skip
 
 
 def _ordered(sheets: list[tuple[int, str, str]]) -> tuple[tuple[str, str], ...]:

@@ -18,10 +18,10 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import LoopContext, Macro
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
-MOST_STEPS = 50_000
-MOST_CALLS = 20_000
-MOST_TEXT = 20_000
-MOST_OUTPUT = 1_000_000
+MAX_STEPS = 50_000
+MAX_CALLS = 20_000
+MAX_TEXT = 20_000
+MAX_OUTPUT = 1_000_000
 SECONDS = 5.0
 _FILTERS = ("abs", "attr", "batch", "first", "int", "join", "last", "length", "list", "lower",
             "map", "max", "min", "reject", "rejectattr", "reverse", "round", "select",
@@ -38,22 +38,22 @@ _STEP, _JOIN = "_step", "_join"
 class Budget:
     """Work that a book may still do."""
 
-    steps: int = MOST_STEPS
-    calls: int = MOST_CALLS
+    steps: int = MAX_STEPS
+    calls: int = MAX_CALLS
     until: float = field(default_factory=lambda: time.process_time() + SECONDS)
 
     def step(self) -> None:
         """One step of a loop."""
         self.steps -= 1
         if self.steps < 0:
-            raise SecurityError(f"шагов циклов больше {MOST_STEPS}")
+            raise SecurityError(f"шагов циклов больше {MAX_STEPS}")
         self.in_time()
 
     def call(self) -> None:
         """One call."""
         self.calls -= 1
         if self.calls < 0:
-            raise SecurityError(f"вызовов больше {MOST_CALLS}")
+            raise SecurityError(f"вызовов больше {MAX_CALLS}")
         self.in_time()
 
     def in_time(self) -> None:
@@ -64,8 +64,8 @@ class Budget:
 
 def bounded(text: str) -> str:
     """Return a text within its length."""
-    if len(text) > MOST_TEXT:
-        raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
+    if len(text) > MAX_TEXT:
+        raise SecurityError(f"текст длиннее {MAX_TEXT} знаков")
     return text
 
 
@@ -134,12 +134,12 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
                 raise SecurityError("ширина в формате больше двух знаков")
             return bounded(super().call_binop(context, operator, left, right))
         if operator == "*" and isinstance(left, str | list | tuple) and isinstance(right, int):
-            if len(left) * right > MOST_TEXT:
-                raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
+            if len(left) * right > MAX_TEXT:
+                raise SecurityError(f"текст длиннее {MAX_TEXT} знаков")
             return super().call_binop(context, operator, left, right)
         if operator == "+" and isinstance(left, str | list | tuple):
-            if len(left) + len(right) > MOST_TEXT:
-                raise SecurityError(f"текст длиннее {MOST_TEXT} знаков")
+            if len(left) + len(right) > MAX_TEXT:
+                raise SecurityError(f"текст длиннее {MAX_TEXT} знаков")
             return super().call_binop(context, operator, left, right)
         numbers = isinstance(left, int | float) and isinstance(right, int | float)
         if not numbers or (operator == "**" and (abs(left) > 1e6 or abs(right) > 64)):
@@ -162,8 +162,8 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
 
     def _range(self, *bounds: int) -> range:
         numbers = range(*bounds)
-        if len(numbers) > MOST_STEPS:
-            raise SecurityError(f"шагов циклов больше {MOST_STEPS}")
+        if len(numbers) > MAX_STEPS:
+            raise SecurityError(f"шагов циклов больше {MAX_STEPS}")
         return numbers
 
     def _joined(self, *parts: object) -> str:
@@ -173,8 +173,8 @@ class StrictEnvironment(ImmutableSandboxedEnvironment):
         whole, old, new = str(text), str(old), str(new)
         if not old:
             raise SecurityError("replace не знает, что заменить")
-        if len(whole) + whole.count(old) * len(new) > 10 * MOST_TEXT:
-            raise SecurityError(f"текст длиннее {10 * MOST_TEXT} знаков")
+        if len(whole) + whole.count(old) * len(new) > 10 * MAX_TEXT:
+            raise SecurityError(f"текст длиннее {10 * MAX_TEXT} знаков")
         return whole.replace(old, new)
 
 
@@ -186,8 +186,8 @@ def rendered(name: str, names: Any, environment: jinja2.Environment) -> str:  # 
     parts, length = [], 0
     for part in environment.get_template(name).generate(names):
         length += len(part)
-        if length > MOST_OUTPUT:
-            raise SecurityError(f"вывод больше {MOST_OUTPUT // 1000} КБ")
+        if length > MAX_OUTPUT:
+            raise SecurityError(f"вывод больше {MAX_OUTPUT // 1000} КБ")
         parts.append(part)
     return "".join(parts)
 

@@ -13,7 +13,7 @@ from reports.inputs.to_si.engine import to_engine
 from reports.inputs.units import number_text
 
 _GOAL = "loads"
-_LEAST_SHARE = 0.15  # of a throw's rotating masses: less is not worth a part
+_MIN_SHARE = 0.15  # of a throw's rotating masses: less is not worth a part
 _SIZES = {
     "skirt_mm": "вырезы юбки под противовес",
     "inner_mm": "радиус коренной шейки",
@@ -48,7 +48,7 @@ def counterweights_for(data: Mapping[str, Any]) -> NewCounterweights:
     why = "больше сектор не берёт" if limited else "с ней сумма нагрузок коренных шеек наименьшая"
     notes = {f"counterweight.{key}": text for key, text in _SIZES.items()}
     words, reduced = f"доля {share} вращающихся масс колена: {why}", scalars["cw_reduced"]
-    if scalars["cw_taken"] < _LEAST_SHARE:
+    if scalars["cw_taken"] < _MIN_SHARE:
         words, reduced = f"нет: {words}", 0.0
     notes["crankshaft.webs.counterweight_kg"] = words
     return NewCounterweights(section, float(f"{reduced:.4g}"), notes)

@@ -21,7 +21,7 @@ from kshm.engine.masses import Estimate
 from kshm.mechanics.masses import area_masses
 from kshm.ranges import PISTON_MASSES, ROD_MASSES, THROW_MASSES
 from reports.inputs.load import load_mapping
-from reports.inputs.meta import Strictly, hints
+from reports.inputs.meta import StrictModel, hints
 from reports.inputs.reasons import with_spans
 from reports.inputs.registry import SECTIONS, records
 from reports.inputs.sections.input_file import LAYOUTS
@@ -401,7 +401,7 @@ def _section(name: str, values: Mapping[str, Any], notes: Notes) -> Iterator[str
             yield from _keys(f"{name}.{key}", entry, comments, titles, head)
 
 
-def _titles(model: type[Strictly]) -> dict[str, str]:
+def _titles(model: type[StrictModel]) -> dict[str, str]:
     titles = {}
     for key, spec in hints(model).items():
         for meta in spec.metas[:1]:

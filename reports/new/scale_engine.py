@@ -18,7 +18,7 @@ from kshm.engine.arrangement import rods_beside
 from reports.inputs.checks.bands import BANDS, stated_kind
 from reports.inputs.fields import to_mapping
 from reports.inputs.firing import arrangement_of
-from reports.inputs.meta import Strictly, hints
+from reports.inputs.meta import StrictModel, hints
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.mechanism import BalanceSection
@@ -48,7 +48,7 @@ DIGITS = 6  # of a millimetre
 _DIESEL_RATIO = 14.0
 _OFFSETS = ("crank_offset_mm", "pin_offset_mm")
 _SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
-_LEAST_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
+_MIN_BETWEEN = 1.08  # axes of neighbours over the bore: the nearest of the samples have 1.085
 _APART = ("crankshaft.main_lengths_mm", "crankshaft.arms.left_web_mm")  # what sets them apart
 _PIN_LENGTH = "pin_length_mm"
 _SINGLE = ("pin_diameter_mm", _PIN_LENGTH, "main_diameter_mm")
@@ -100,7 +100,7 @@ def _train(old: Mapping[str, Any], grown: Grown) -> dict[str, Any]:
     return retained | {key: _scaled(TorsionSection, key, old[key], by) for key, by in bores.items()}
 
 
-def _scaled(section: type[Strictly], key: str, size: float, factor: float) -> float:
+def _scaled(section: type[StrictModel], key: str, size: float, factor: float) -> float:
     """Return a size within the limits of its key [mm]."""
     (limits,) = hints(section)[key].metas
     low, high = limits.minimum, limits.maximum
@@ -230,8 +230,8 @@ def _shaft(
     pin, length, main = (retained[key] for key in _SINGLE)
     every = 2 if layout == "opposed" else 1
     between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + length)
-    if throws > every and between < _LEAST_BETWEEN * bore:
-        longer = (_LEAST_BETWEEN * bore - every * length) / (between - every * length)
+    if throws > every and between < _MIN_BETWEEN * bore:
+        longer = (_MIN_BETWEEN * bore - every * length) / (between - every * length)
         lengths, web = tuple(_up(value * longer) for value in lengths), _up(web * longer)
         notes |= dict.fromkeys(_APART, _apart_words(rule, between / bore))
     return ShaftSizes(pin, length, main, lengths, web, notes)
@@ -240,7 +240,7 @@ def _shaft(
 def _apart_words(rule: str, between: float) -> str:
     return (
         f"{rule} между осями цилиндров вышло бы {number_text(round(between, 3))} D; "
-        f"шейки и щёки удлинены до {number_text(_LEAST_BETWEEN)} D"
+        f"шейки и щёки удлинены до {number_text(_MIN_BETWEEN)} D"
     )
 
 

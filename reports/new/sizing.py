@@ -30,11 +30,11 @@ Gas = dict[str, float]
 _POWER = "regime.indicated_power_kw"
 _ADVICE = "проверьте мощность и частоту, задайте другие размеры или число цилиндров"
 _PEAK = (0.75, 1.3)  # p_z/p_c that p_z alone may take, over the usual one
-_LEAST_PEAK = 1.1  # p_z/p_c of the weakest diagram
+_MIN_PEAK = 1.1  # p_z/p_c of the weakest diagram
 _THROTTLED = 0.6  # intake pressure of a spark engine at part load, over the usual one
 _BOOSTED_MPA = {"diesel": 0.32, "petrol": 0.3}
 _BOOSTED_RHO = {"diesel": 1.7, "petrol": 1.2}
-_CLOSE = 1e-5  # of the power
+_POWER_TOLERANCE = 1e-5  # of the power
 _STEPS = 40
 
 
@@ -327,7 +327,7 @@ def _ways(model: InputFile, kind: str) -> tuple[_Way, ...]:
         }
 
     rho, (low, high) = usual.preexpansion_ratio, _PEAK
-    least = min(_LEAST_PEAK / peak, low)
+    least = min(_MIN_PEAK / peak, low)
     throttled = _THROTTLED if kind == "petrol" else 1.0
     boosted = max(_BOOSTED_MPA[kind] / usual.intake_pressure_mpa, 1.0)
     return (
@@ -368,7 +368,7 @@ def _root(
     for _ in range(_STEPS):
         part = right - above * (right - left) / ((above - below) or 1.0)
         off = power_of(way.gas(part)) - power
-        if abs(off) <= _CLOSE * power:
+        if abs(off) <= _POWER_TOLERANCE * power:
             break
         # The side that stays counts half, so that both close in.
         if off < 0:

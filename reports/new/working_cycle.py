@@ -38,7 +38,7 @@ _COMPRESSOR = {
     "compressor_efficiency": 0.72, "turbine_efficiency": 0.7, "cooler_loss_mpa": 0.005,
 }  # fmt: skip
 _COOLED_K = 240.0  # times π_к**0.286 − 1: six tenths of the heating in the compressor
-_LEAST_BOOST, _BOOST = 1.1, {"petrol": 3.2, "diesel": 3.6}  # π_к
+_MIN_BOOST, _BOOST = 1.1, {"petrol": 3.2, "diesel": 3.6}  # π_к
 _PEAK_MPA, _PEAK_BY_BOOST = 7.6, 0.8  # p_z of a diesel without boost, exponent of its rise by π_к
 _GREATEST_PEAK_MPA = 16.0
 _STEPS, _CLOSE, _DIGITS = 40, 1e-5, 5
@@ -114,7 +114,7 @@ def cycle_for(data: Mapping[str, Any], usual: Usual, kind: str, power_kw: float 
 def _ways(kind: str) -> tuple[_CycleWay, ...]:
     """Ways to reach a power: the charge alone, then boost."""
     boosted = _CycleWay(
-        "boost_ratio", _LEAST_BOOST, _BOOST[kind], lambda ratio: _turbo(kind, ratio), "наддув"
+        "boost_ratio", _MIN_BOOST, _BOOST[kind], lambda ratio: _turbo(kind, ratio), "наддув"
     )
     if kind == "diesel":
         return _CycleWay("excess_air", 2.6, 1.35, lambda _: {}, "подача топлива"), boosted

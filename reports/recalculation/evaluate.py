@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from reports.recalculation.array_functions import NOT_LIFTED, WRONG, register
 from reports.recalculation.formulas import PLACES, TEXT_NUMBER, is_doubtful
 from reports.recalculation.grid import Area, CellGrid, Run, is_backwards
-from reports.recalculation.minimal_xlsx import plain_book
+from reports.recalculation.minimal_xlsx import simple_workbook
 from reports.shared.errors import UnknownFormula
 
 if TYPE_CHECKING:
@@ -229,7 +229,7 @@ class Evaluator:
         config.max_eval_time_ms = _LIMIT_MS
         runs = [run for run in self.grid.runs() if run not in self._unknown]
         book = formualizer.Workbook.from_bytes(
-            plain_book(self.grid, runs),
+            simple_workbook(self.grid, runs),
             config=formualizer.WorkbookConfig(
                 mode=formualizer.WorkbookMode.Interactive, eval_config=config
             ),

@@ -31,7 +31,7 @@ def folded(text: str) -> str:
     return text.lower()
 
 
-def plain_book(grid: CellGrid, runs: Collection[Run]) -> bytes:
+def simple_workbook(grid: CellGrid, runs: Collection[Run]) -> bytes:
     """Return the workbook with all constants of a grid and some of its runs."""
     stream = io.BytesIO()
     numbers = range(1, len(grid.sheets) + 1)

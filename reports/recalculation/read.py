@@ -24,7 +24,7 @@ from reports.recalculation.sheets import MAIN, Forms, parse_xml, read_sheet, ric
 from reports.shared.errors import BadBook, UnknownFormula
 from reports.workbook.intake import STRICT, Package
 
-_MOST = 60  # tokens of a name: nobody calls more than that by one word
+_MAX_TOKENS = 60  # tokens of a name: nobody calls more than that by one word
 
 Meanings = Mapping[str, tuple[Token, ...]]
 Local = Mapping[str, Meanings]  # of a sheet by its title
@@ -47,7 +47,7 @@ def meanings(grid: CellGrid, root: etree._Element) -> Meanings:
             tokens = pattern(str(name.text or "").strip(), 1, 1)
         except UnknownFormula:
             continue
-        if 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid):
+        if 0 < len(tokens) <= _MAX_TOKENS and _is_fixed(tokens, grid):
             names[folded] = tokens
     return names
 
@@ -86,7 +86,7 @@ def local_names(grid: CellGrid, root: etree._Element) -> Local:
         tokens: tuple[Token, ...] = ()
         with suppress(UnknownFormula):
             tokens = pattern(str(name.text or "").strip(), 1, 1)
-        fixed = 0 < len(tokens) <= _MOST and _is_fixed(tokens, grid) and not _names(tokens)
+        fixed = 0 < len(tokens) <= _MAX_TOKENS and _is_fixed(tokens, grid) and not _names(tokens)
         names.setdefault(title, {})[folded] = tokens if fixed else _unknown(title, folded)
     return names
 

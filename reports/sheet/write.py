@@ -53,7 +53,7 @@ _NOTE = re.compile(r"\s*ПЗ$")
 _BOX_26 = (70.0, 14.0)  # [mm]
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0)}
 _GAP = 6.0
-_LEAST = (120.0, 92.0)  # of a cell [mm]
+_MIN_CELL_MM = (120.0, 92.0)  # of a cell [mm]
 _FILLERS = ("mechanism", "main_load")
 Draw = Callable[[Canvas, CellArea, Terms], None]
 _LETTERS = 0.025  # greatest height of the letters of a drawing true to size, of its extent
@@ -300,7 +300,7 @@ def _grids(width: float, height: float) -> Iterator[list[CellArea]]:
     wide, tall = width - left - right - _GAP, height - top - bottom - _GAP - head
     for columns, rows in itertools.product(range(1, 9), repeat=2):
         across, down = wide / columns, tall / rows
-        if across < _LEAST[0] or down < _LEAST[1]:
+        if across < _MIN_CELL_MM[0] or down < _MIN_CELL_MM[1]:
             continue
         taken = math.ceil((STAMP_WIDTH + _GAP) / across), math.ceil((STAMP_HEIGHT + _GAP) / down)
         yield [

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from kshm.nomenclature.quantity import Quantity, quantity
-from reports.exports.own_books import own_numbers
+from reports.exports.department_chapters import own_numbers
 from reports.inputs.fields import Field, iter_fields
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 FEWEST, MOST = 2, 6
 _ROUNDING = 1e-9  # kN, N·m: forces that cancel
 _NOUGHT = 1e-6  # of the greatest: no base for a difference in per cent
-LEAST_PERCENT = -99.95  # below it −100,0 would be printed of what is not nought
+MIN_PERCENT = -99.95  # below it −100,0 would be printed of what is not nought
 _NOT_COMPARED = ("report", "workbook", "prototype", "reference", "checks")
 # Groups of results: keys of scalars, or a pattern of them and the title of its greatest.
 _MAIN, _PIN = "по коренным шейкам", "по шатунным шейкам"

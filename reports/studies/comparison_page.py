@@ -25,7 +25,7 @@ from reports.shared.errors import InputError, Problem
 from reports.shared.files import write_bytes, write_text
 from reports.shared.russian import MINUS, NBSP, comma, fixed, grouped, short, uncapital
 from reports.studies.comparison import (
-    LEAST_PERCENT,
+    MIN_PERCENT,
     X_TITLE,
     Chart,
     Compared,
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 
 _TITLE = "Сравнение двигателей"
-_MOST_PERCENT = 900
+_MAX_PERCENT = 900
 _NONE_LEFT = -99.99  # and here hardly anything is left that a table could show
 _FEW = 4  # engines that fit beside the words at the usual size
 KEY = "report.compare"
@@ -142,7 +142,7 @@ def _change(percent: float | None) -> str:
     """Return the difference in brackets: of ten times and more nobody reads per cent."""
     if percent is None:
         return ""
-    if percent >= _MOST_PERCENT or _NONE_LEFT < percent < LEAST_PERCENT:
+    if percent >= _MAX_PERCENT or _NONE_LEFT < percent < MIN_PERCENT:
         return f"(×{NBSP}{grouped(short(float(f'{1 + percent / 100:.3g}')))})"
     if not float(f"{percent:.1f}"):
         return ""  # alike: the numbers themselves say so
@@ -294,7 +294,7 @@ def write(sources: Sequence[Path], models: Sequence[InputFile], target: Path) ->
     engines = read_engines(sources, models)
     suffix = target.suffix.lower()
     if suffix == ".xlsx":
-        from reports.studies.books import book_bytes
+        from reports.studies.workbooks import book_bytes
 
         write_bytes(target, book_bytes(engines))
         return

@@ -26,7 +26,7 @@ from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.tables.registry import kept_model
 
-MOST_POINTS = 10_000_000
+MAX_POINTS = 10_000_000
 _EXAMPLE = "пример: --vary geometry.bore_mm=84:92:9"
 Array = NDArray[np.float64]
 NOT_FINITE = "расчёт не дал конечного числа"
@@ -89,8 +89,8 @@ def make_plan(model: InputFile, source: str, vary: Sequence[str], *, pairwise: b
     if pairwise and len({len(axis.values) for axis in axes}) > 1:
         raise _wrong(vary[-1], "у ключей разное число значений, а задано --pairwise",
                      "задайте одинаковое число точек N")  # fmt: skip
-    if plan.count > MOST_POINTS:
-        raise _wrong(vary[-1], f"сочетаний {plan.count}, это больше {MOST_POINTS}",
+    if plan.count > MAX_POINTS:
+        raise _wrong(vary[-1], f"сочетаний {plan.count}, это больше {MAX_POINTS}",
                      "уменьшите число точек")  # fmt: skip
     return plan
 
@@ -131,8 +131,8 @@ def _values(text: str, span: str, *, whole: bool) -> tuple[float | int, ...]:
         ok = False
     if not ok:
         raise _wrong(text, "нужно ОТ:ДО:ЧИСЛО, числа с точкой", _EXAMPLE)
-    if count > MOST_POINTS:
-        raise _wrong(text, f"точек больше {MOST_POINTS}", "уменьшите их число")
+    if count > MAX_POINTS:
+        raise _wrong(text, f"точек больше {MAX_POINTS}", "уменьшите их число")
     step = (stop - start) / max(1, count - 1)
     values = [start + step * i for i in range(count)]
     if count > 1:

@@ -17,8 +17,8 @@ import numpy as np
 from kshm.chain.solve import chunk_size, solve_batch
 from kshm.results.chosen import ChosenQuantities, described
 from reports.exports.build import load_input
+from reports.exports.department_chapters import own_numbers
 from reports.exports.numbers import PLAIN, CsvForm, neutralised
-from reports.exports.own_books import own_numbers
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.inputs.units import number_text
 from reports.shared.background import processors
@@ -62,7 +62,7 @@ def sink(
         with path.open("w", encoding=form.encoding, newline="") as stream:
             yield _Csv(form, stream, plan, quantities)
     elif suffix == ".xlsx":
-        from reports.studies.books import StudyBook
+        from reports.studies.workbooks import StudyBook
 
         book = StudyBook(plan, quantities)
         try:

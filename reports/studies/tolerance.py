@@ -26,8 +26,8 @@ from reports.shared.russian import NBSP, capital, fixed, short, uncapital
 from reports.studies.comparison_page import NumberedBlock
 from reports.studies.quantities import choose, format_of, symbol_of
 from reports.workbook.caches import finish
-from reports.workbook.plain_book import bold, lay, new_book
 from reports.workbook.sheets import CacheValues
+from reports.workbook.simple_workbook import bold, lay, new_book
 
 SUFFIXES = (".xlsx", ".html", ".csv")
 _TITLE = "Допуски и разброс результатов"
@@ -38,7 +38,7 @@ _LEFT, _RIGHT, _ROW, _FOOT = 110.0, 20.0, 18.0, 26.0  # pt of the figure
 _WIDTH_MM, _TICKS = 165.0, 5
 _BAR, _LINE = "#9db8d9", LineStyle(1.2)
 _GRID, _AXIS = LineStyle(0.5, colour="#c8c8c8"), LineStyle(0.9)
-_MOST_BARS = 24
+_MAX_BARS = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +212,7 @@ def _sentences(study: Described) -> Iterator[str]:
 
 def bands_figure(study: Described) -> str:
     """Return the bands in per cent of the base, one below the other, as SVG."""
-    shown = [band for band in study.bands.bands if band.base][:_MOST_BARS]
+    shown = [band for band in study.bands.bands if band.base][:_MAX_BARS]
     spans = [
         (100 * (band.low / band.base - 1), 100 * (band.high / band.base - 1)) for band in shown
     ]

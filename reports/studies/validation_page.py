@@ -23,10 +23,10 @@ from reports.shared.errors import SystemPartMissing
 from reports.shared.files import make_dir, write_bytes, write_text
 from reports.shared.progress import Progress
 from reports.shared.russian import capital, fixed
-from reports.studies import validation_book as shown
-from reports.studies.validation_book import WORDS, Book, Checked, Counts, validate
+from reports.studies import validation_workbook as shown
 from reports.studies.validation_checks import Check, Verdict
 from reports.studies.validation_registry import SHORT, SOURCES
+from reports.studies.validation_workbook import WORDS, Book, Checked, Counts, validate
 
 _TITLE = "Книга сверки с печатными источниками"
 _LOWERED = re.compile("([₀-₉ⱼ]+)")

@@ -31,13 +31,13 @@ from kshm.ranges import (
 )
 from reports.inputs.sections.gas import PUMPING, ROUNDINGS, RoundedGasSection
 from reports.inputs.sections.input_file import METHODS
-from reports.inputs.solve_input import MOST_POWER_ERROR
+from reports.inputs.solve_input import MAX_POWER_ERROR
 from reports.inputs.to_si.engine import places
 from reports.inputs.to_si.masses import PIN_SHARE, ROD_SHARE, to_estimate
 from reports.inputs.units import MM, number_text
 from reports.model.blocks import nodes_in
-from reports.model.book_text import BookLine, BookPlaces, shelf_of
-from reports.model.books import read_book
+from reports.model.chapter_reader import read_book
+from reports.model.chapter_source import BookLine, BookPlaces, shelf_of
 from reports.model.contents import contents_of
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope, pin_figure, pin_name, pin_table, rays_table
@@ -129,7 +129,7 @@ def _summary(scope: Scope) -> dict[str, Any]:
     return {
         "usual_share": USUAL_SHARE,
         "is_usual_share": is_usual_share,
-        "power_gap": MOST_POWER_ERROR,
+        "power_gap": MAX_POWER_ERROR,
         "lam_limits": RANGES["lam"].doubtful[""],
         "lam_usual": RANGES["lam"].of(),
         **_surfaces(scope),

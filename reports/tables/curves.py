@@ -7,7 +7,7 @@ from dataclasses import replace
 from kshm.defaults import FINE_STEP
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model, TableSpec, scalars_of
-from reports.model.book_text import shelf_of
+from reports.model.chapter_source import shelf_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation, Values
 from reports.model.rename import sized, substituted

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
+from reports.inputs.department_chapters import Texts
 from reports.inputs.fields import Value, iter_fields, tables_shape
-from reports.inputs.own_books import Texts
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import smallness_of
 from reports.model.blocks import Model
-from reports.model.book_text import shelf_of
+from reports.model.chapter_source import shelf_of
 from reports.model.contents import contents_of
 from reports.model.rename import sized, substituted
 from reports.model.shape import Part, Scope
@@ -48,7 +48,7 @@ def build_model(model: InputFile, remarks: tuple[str, ...] = ()) -> Model:
 
 
 @dataclass(frozen=True)
-class _Like:
+class _ShapeKey:
     """An input, the same as any other whose tables are the same."""
 
     shape: tuple[tuple[str, Value | None], ...]
@@ -57,14 +57,16 @@ class _Like:
 
 
 @lru_cache(maxsize=24)
-def _built_once(like: _Like) -> Model:
+def _built_once(like: _ShapeKey) -> Model:
     return build_model(like.model)
 
 
 def kept_model(model: InputFile) -> Model:
     """As `build_model`; of inputs of one shape the tables are made once and kept."""
     fields = tuple(iter_fields(model))
-    return _built_once(_Like(tables_shape(fields), model.books, model)).with_inputs(model, fields)
+    return _built_once(_ShapeKey(tables_shape(fields), model.books, model)).with_inputs(
+        model, fields
+    )
 
 
 def _size_stand_ins(model: InputFile) -> dict[str, str]:

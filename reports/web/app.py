@@ -23,8 +23,8 @@ from starlette.routing import Mount
 from starlette.staticfiles import StaticFiles
 
 from reports.grading.issuing.register import SECRET, kept_secret
+from reports.inputs.department_chapters import OWNER
 from reports.inputs.form_fields import Data
-from reports.inputs.own_books import OWNER
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.sections.input_file import LAYOUTS, STROKES
 from reports.model.contents import contents_of
@@ -35,7 +35,7 @@ from reports.shared.resources import resource_dir
 from reports.shared.workers import Workers
 from reports.web import engine
 from reports.web.classes import Classes
-from reports.web.doors import (
+from reports.web.http_guards import (
     Desk,
     Guard,
     Settings,
@@ -48,7 +48,7 @@ from reports.web.doors import (
     read,
 )  # fmt: skip
 from reports.web.jobs import OFFERED, Jobs
-from reports.web.shares import Turns, Unfinished
+from reports.web.shared_engines import Turns, Unfinished
 from reports.workbook.chart_parts import COLOURS
 
 STATIC = Path(__file__).parent / "static"

@@ -31,7 +31,7 @@ from reports.inputs.form_fields import Data, groups
 from reports.shared.errors import InputError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_bytes, write_json, write_zip
 from reports.web import engine
-from reports.web.doors import (
+from reports.web.http_guards import (
     Rate,
     Shown,
     address_of_server,
@@ -53,7 +53,7 @@ _TITLES = {
     "moodle-feedback.zip": "Отзывы для Moodle .zip",
 }  # fmt: skip  # what a link to a file is called
 _SECRET = ("--secret", SECRET)
-_ENTERED, _MOST_ENTERED = "sessions.json", 200  # of the instructor's browsers
+_ENTERED, _MAX_ENTERED = "sessions.json", 200  # of the instructor's browsers
 
 
 def token_of(secret: bytes) -> str:
@@ -116,7 +116,7 @@ class Classes(Queue):
         return entered if isinstance(entered, list) else []
 
     def _keep(self, entered: list[str]) -> None:
-        write_json(self.folder / _ENTERED, {"sessions": entered[-_MOST_ENTERED:]})
+        write_json(self.folder / _ENTERED, {"sessions": entered[-_MAX_ENTERED:]})
 
     def _find(self, name: str) -> Path:
         if name.isalnum() and (self.folder / name / "about.json").exists():  # never a path

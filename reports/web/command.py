@@ -118,8 +118,8 @@ def _served(
     from reports.grading.issuing.register import SECRET, kept_secret
     from reports.web.app import create_app
     from reports.web.classes import token_of
-    from reports.web.doors import Settings
-    from reports.web.shares import Connection, ProxyConnection
+    from reports.web.http_guards import Settings
+    from reports.web.shared_engines import Connection, ProxyConnection
 
     wide = host in ("0.0.0.0", "::")
     hosts = (socket.gethostname(), "*") if wide else (host,)

@@ -15,12 +15,12 @@ import click
 from reports.commands.common import error_text
 from reports.commands.engine import new
 from reports.commands.new_engine import new_text
-from reports.exports.own_books import refuse_faults
+from reports.exports.department_chapters import refuse_faults
+from reports.inputs.department_chapters import OWNER
 from reports.inputs.fields import to_mapping
 from reports.inputs.form_fields import Data, absent, groups, without_foreign
 from reports.inputs.load import Loaded, load_remote, parsed
 from reports.inputs.normalise import normalise, read_text
-from reports.inputs.own_books import OWNER
 from reports.inputs.ranges import split_ranges
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.input_file import LAYOUTS

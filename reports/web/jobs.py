@@ -30,8 +30,8 @@ from reports.shared.errors import InputError, KshmError, Problem, one_line
 from reports.shared.files import make_dir, read_json, write_json, write_text, write_zip
 from reports.shared.resources import source_digest
 from reports.web import engine
-from reports.web.doors import Shown, ask, body, post, public_words, shown, visitor
-from reports.web.shares import address_of, fair
+from reports.web.http_guards import Shown, ask, body, post, public_words, shown, visitor
+from reports.web.shared_engines import address_of, fair
 
 _LINES = 40  # of what a command said
 _NO_ROOM = "на сервере не удаётся записать файл; сообщите тому, кто его держит"
@@ -57,8 +57,8 @@ _SYSTEM = (
     "SYSTEMROOT", "WINDIR", "USERPROFILE", "LOCALAPPDATA", "TEMP", "WEASYPRINT_DLL_DIRECTORIES",
 )  # fmt: skip
 Texts = Mapping[str, str]  # of files by name
-MOST_WAITING, MOST_NEAR, MOST_OWN = 500, 200, 6  # of all, of an address, of a visitor
-MOST_BYTES = 2 * 10**9  # of all files kept
+MAX_WAITING, MAX_NEAR, MAX_OWN = 500, 200, 6  # of all, of an address, of a visitor
+MAX_BYTES = 2 * 10**9  # of all files kept
 KEEP_S = 14 * 86400.0
 _BUILD = ("build", "engine.toml", "-o", "out", "--only")
 _COMPARE = ("compare", "engine.toml", "other.toml", "-o")
@@ -265,8 +265,8 @@ class Jobs(Queue):
         everybody = [*self.waiting.values(), *(who for who, _ in self.running.values())]
         count = everybody.count(visitor)
         neighbours = sum(address_of(who) == address_of(visitor) for who in everybody)
-        if len(self.waiting) >= MOST_WAITING or neighbours >= MOST_NEAR or count >= MOST_OWN:
-            problem = "очередь полна" if count < MOST_OWN else f"у вас уже {count} файлов в очереди"
+        if len(self.waiting) >= MAX_WAITING or neighbours >= MAX_NEAR or count >= MAX_OWN:
+            problem = "очередь полна" if count < MAX_OWN else f"у вас уже {count} файлов в очереди"
             raise InputError(Problem("", problem, "дождитесь их"))
         shutil.rmtree(folder, ignore_errors=True)
         self.clean()
@@ -280,7 +280,7 @@ class Jobs(Queue):
         size = 0
         for path in done:
             size += sum(each.stat().st_size for each in path.parent.rglob("*") if each.is_file())
-            if size > MOST_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
+            if size > MAX_BYTES or time.time() - path.stat().st_mtime > KEEP_S:
                 shutil.rmtree(path.parent, ignore_errors=True)
 
     def routes(self) -> list[Route]:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 from reports.model.blocks import Model
-from reports.model.book_text import shelf_of
+from reports.model.chapter_source import shelf_of
 from reports.model.contents import Contents, SheetChapter, contents_of
 
 _REGIME = re.compile(r" р(\d+)$")

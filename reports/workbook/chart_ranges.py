@@ -13,7 +13,7 @@ from reports.model.charts import ChartSpec, Series
 from reports.model.evaluation import Values
 from reports.workbook.layout import Layout, column_range, quoted
 
-_ANGLE, _MOST_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name
+_ANGLE, _MAX_NAMES = 30, 8  # degrees, and how many of a polar diagram's points have a name
 _NAME = (0.35, 0.14)  # room of such a name, of the greatest radius: across and down
 
 
@@ -152,7 +152,7 @@ def marks(spec: ChartSpec, layout: Layout, values: Values) -> list[CurveRanges]:
             or abs(ys[index] - ys[other]) > _NAME[1] * radius
             for other in rows
         )
-        if are_distant and len(rows) < _MOST_NAMES:
+        if are_distant and len(rows) < _MAX_NAMES:
             rows.append(index)
     return [
         CurveRanges(f"{angles[index]:g}°", *(

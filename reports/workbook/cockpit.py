@@ -23,7 +23,7 @@ from reports.workbook.key_values import key_values, nought_words, results_of, wo
 from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
-    MOST_COLUMN,
+    MAX_COLUMN,
     NOTE_ROW,
     VALUE_COLUMN,
     Cell,
@@ -168,7 +168,7 @@ def _verdict(sheet: Worksheet, writer: BlockWriter, row: int, verdict: BookVerdi
     text = Cell(sheet.title, row, 1).absolute
     writer.formula(inputs, here.row, here.column, f"={text}", verdict.text)
     inputs.cell(here.row, here.column).style = styles.LINE
-    colour_verdict(inputs, area(here, Cell(INPUT_SHEET, here.row, MOST_COLUMN)))
+    colour_verdict(inputs, area(here, Cell(INPUT_SHEET, here.row, MAX_COLUMN)))
     return row + 1
 
 
@@ -199,7 +199,7 @@ def _values(
 
 def charts_beside(sheet: Worksheet, model: Model, writer: BlockWriter) -> list[Box]:
     """Two diagrams that answer at once beside the input data, above the lists of records."""
-    left = sum(column_px(sheet, i) for i in range(1, MOST_COLUMN + 1)) + GAP
+    left = sum(column_px(sheet, i) for i in range(1, MAX_COLUMN + 1)) + GAP
     listed = [writer.layout.cells[item.name].row for item in model.inputs if item.listed]
     top = top_of(sheet, HEADER_ROW + 1)
     room = top_of(sheet, min(listed) - 2) - top if listed else 2 * (HIGH + GAP)

@@ -22,8 +22,8 @@ from reports.workbook import styles
 from reports.workbook.layout import (
     HEADER_ROW,
     KEY_COLUMN,
-    LEAST_COLUMN,
-    MOST_COLUMN,
+    MAX_COLUMN,
+    MIN_COLUMN,
     SYMBOL_COLUMN,
     TITLE_COLUMN,
     UNIT_COLUMN,
@@ -135,7 +135,7 @@ def _labels(sheet: Worksheet, item: Field, row: int) -> None:
     for column, text in texts.items():
         sheet.cell(row, column, text or None).style = _LOOKS.get(column, styles.TEXT)
     if item.minimum is not None and item.maximum is not None:
-        for column, limit in ((LEAST_COLUMN, item.minimum), (MOST_COLUMN, item.maximum)):
+        for column, limit in ((MIN_COLUMN, item.minimum), (MAX_COLUMN, item.maximum)):
             sheet.cell(row, column, limit).style = styles.UNIT
     key = Comment(f"{_KEY}: {texts[KEY_COLUMN]}", "kshm")
     key.width, key.height = 330, 40
@@ -150,7 +150,7 @@ def limits_of(item: Field, layout: Layout) -> tuple[str, str] | None:
     if item.listed:
         return number(item.minimum), number(item.maximum)
     row = layout.cells[item.name].row
-    least, most = (f"${get_column_letter(column)}{row}" for column in (LEAST_COLUMN, MOST_COLUMN))
+    least, most = (f"${get_column_letter(column)}{row}" for column in (MIN_COLUMN, MAX_COLUMN))
     return least, most
 
 

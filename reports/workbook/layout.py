@@ -33,7 +33,7 @@ FIRST_ROW = 6
 
 # Columns of a scalar list and of the input list.
 TITLE_COLUMN, SYMBOL_COLUMN, VALUE_COLUMN, UNIT_COLUMN, SOURCE_COLUMN = 1, 2, 3, 4, 5
-LEAST_COLUMN, MOST_COLUMN = SOURCE_COLUMN, 6  # of the limits of an input
+MIN_COLUMN, MAX_COLUMN = SOURCE_COLUMN, 6  # of the limits of an input
 KEY_COLUMN = 12  # folded, behind the widest list of records
 
 # What is changed most stands together behind what the engine is; words about the work stand last.

@@ -21,7 +21,7 @@ from reports.workbook.intake import check_package
 from reports.workbook.write import formula_places
 
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
-_MOST_NAMED = 5  # addresses of a sheet
+_MAX_NAMED = 5  # addresses of a sheet
 _BLOCK = 10  # cells from which on equal rows mean a column put in
 _FAULT = "вместо формулы вписано число, в расчёт оно не вошло"
 _HINT = "верните формулу или постройте книгу заново"
@@ -52,8 +52,8 @@ def _problems(
         lost = formulas & edited[title].numbers
         if lost and not is_shifted(formulas, edited[title].formulas):
             names = [f"{get_column_letter(column)}{row}" for row, column in sorted(lost)]
-            more = len(names) - _MOST_NAMED
-            named = ", ".join(names[:_MOST_NAMED]) + (f" и ещё {more}" if more > 0 else "")
+            more = len(names) - _MAX_NAMED
+            named = ", ".join(names[:_MAX_NAMED]) + (f" и ещё {more}" if more > 0 else "")
             yield Problem(f"{source}, {title}!{named}", _FAULT, _HINT)
 
 

@@ -21,8 +21,8 @@ from reports.workbook.layout import (
     HEADER_ROW,
     INPUT_SHEET,
     KEY_COLUMN,
-    LEAST_COLUMN,
-    MOST_COLUMN,
+    MAX_COLUMN,
+    MIN_COLUMN,
     NUMBER_ROW,
     SOURCE_COLUMN,
     VALUE_COLUMN,
@@ -67,7 +67,7 @@ _RANGE_WIDTHS = {1: 76, 2: 4, 4: 16, SOURCE_COLUMN: 42}
 _WIDTHS_WITH = {"cycle_fuel": _CYCLE_WIDTHS, "cycle_ranges": _RANGE_WIDTHS}  # by a sheet's block
 UPRIGHT = 1290  # px: wider sheets lie
 PAPER = {"portrait": (690, 1010), "landscape": (1030, 670)}  # px: A4 less its margins
-_LEAST = 0.45  # scale below which a sheet rather takes more pages, down and across
+_MIN_SCALE = 0.45  # scale below which a sheet rather takes more pages, down and across
 SURE = 0.93  # part of the paper that no program's own widths of columns go beyond
 _BEGINNING = 3  # rows of a long list that stand with its heading
 _FINE = 54  # per cent to which nothing is made smaller only to save a page
@@ -85,7 +85,7 @@ def set_widths(sheet: Worksheet, model: Model, layout: Layout, values: Values) -
         grids = bool(blocks) and all(isinstance(block, Grid) for block in blocks)
         wide = {i: _LIST[i] for i in (1, 2)} if grids else dict(_LIST)
         if sheet.title == INPUT_SHEET:
-            wide |= {LEAST_COLUMN: _LIMIT, MOST_COLUMN: _LIMIT}
+            wide |= {MIN_COLUMN: _LIMIT, MAX_COLUMN: _LIMIT}
         for block in blocks:
             wide |= _WIDTHS_WITH.get(block.id, {})
         _widths(sheet, {i: wide.get(i, 12) for i in range(1, last + 1)})
@@ -216,9 +216,9 @@ def _fit_inputs(sheet: Worksheet, model: Model, layout: Layout) -> None:
 
 
 def _wrap_text(sheet: Worksheet, cell: Cell, text: str) -> None:
-    room = sum(column_px(sheet, i) for i in range(VALUE_COLUMN, MOST_COLUMN + 1)) / DIGIT
+    room = sum(column_px(sheet, i) for i in range(VALUE_COLUMN, MAX_COLUMN + 1)) / DIGIT
     if room_of(len(text)) > room:
-        wrap_across(sheet, cell.row, VALUE_COLUMN, MOST_COLUMN)
+        wrap_across(sheet, cell.row, VALUE_COLUMN, MAX_COLUMN)
 
 
 def _hold_words(sheet: Worksheet, labels: Mapping[int, str]) -> None:
@@ -270,11 +270,11 @@ def set_page(sheet: Worksheet, boxes: Sequence[Box], *, charts_alone: bool = Fal
     page.paperSize = sheet.PAPERSIZE_A4
     scales = {name: min(w / width, h / height) for name, (w, h) in PAPER.items()}
     page.orientation = max(scales, key=lambda name: scales[name])
-    pages = int(scales[page.orientation] >= _LEAST)
+    pages = int(scales[page.orientation] >= _MIN_SCALE)
     if not pages and width > UPRIGHT:
         page.orientation = "landscape"
     w, h = PAPER[page.orientation]
-    across = ceil(width * _LEAST / w)
+    across = ceil(width * _MIN_SCALE / w)
     if not pages:
         sheets = height * min(1, across * w / width) / h
         # A few rows too many go onto the page before, or stand on one of their own.
@@ -384,7 +384,7 @@ def _part(sheet: Worksheet, height: int) -> bool:
     )
     w, h = (SURE * side for side in PAPER["portrait"])
     scale = min(w / widest, 1)
-    if scale < _LEAST:
+    if scale < _MIN_SCALE:
         return False
     down = floor(height * scale / h)
     if down and height * scale <= down * h * (1 + _SQUEEZED):

@@ -18,9 +18,9 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from reports.inputs.department_chapters import MAX_LINES, Texts, path_of_cell
 from reports.inputs.fields import POINT_KEYS, iter_fields
 from reports.inputs.load import Loaded, load_mapping
-from reports.inputs.own_books import MOST_LINES, Texts, path_of_cell
 from reports.inputs.registry import SECTIONS
 from reports.shared.errors import DeclarationError, InputError, Problem
 from reports.workbook.intake import check_package
@@ -37,7 +37,7 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
     from openpyxl.cell import ReadOnlyCell
     from openpyxl.workbook import Workbook
 
-MOST_CELLS = 500_000  # of a sheet of inputs; thousands are usual
+MAX_CELLS = 500_000  # of a sheet of inputs; thousands are usual
 _ALWAYS = "engine_cylinders"  # every book has this input
 _SUM = re.compile(r"=[0-9.()+\-*/\s]{1,200}")
 _SIGNS: dict[type[ast.operator], Callable[[float, float], float]] = {
@@ -198,7 +198,7 @@ def _books_of(cells: dict[tuple[int, int], ReadOnlyCell]) -> dict[str, str]:
             books[name] = "\n".join(lines) + "\n"
             name, lines = text.removeprefix(BOOK_MARK), []
         elif name:
-            lines += [""] * min(row - last - 1, MOST_LINES)
+            lines += [""] * min(row - last - 1, MAX_LINES)
             lines.append(text)
         last = row
     books[name] = "\n".join(lines) + "\n"
@@ -242,7 +242,7 @@ def _cells_of(book: Workbook, title: str) -> dict[tuple[int, int], ReadOnlyCell]
     seen = 0
     for row in sheet.iter_rows():
         seen += len(row)
-        if seen > MOST_CELLS:
+        if seen > MAX_CELLS:
             hint = "удалите лишнее или возьмите книгу, какой её сделала kshm"
             raise InputError(Problem(title, "на листе слишком много ячеек", hint))
         cells |= {(cell.row, cell.column): cell for cell in row if cell.value is not None}

@@ -46,7 +46,7 @@ NARROW = 9.5  # of a column of a table
 _NOTE_CHARS, _LONGEST_NOTE = 38, 240  # of a line of a comment, of a formula in it
 _DIGITS = ".14g"  # nobody is shown more; what follows takes room
 _SHORTER = ".12g"  # of values that are small in their column
-_NOTHING = 1e-13  # what is left of a zero
+_ZERO_NOISE = 1e-13  # what is left of a zero
 # Steps of a saved value from nothing to the largest: a picture needs no more, a column that only
 # serves others none at all.
 _CURVE_STEPS, _HELPER_STEPS = 900, 25
@@ -381,7 +381,7 @@ class BlockWriter:
 
 def number_text(value: float, small: float = 0.0) -> str:
     """Return a value as a cell saves it."""
-    if -_NOTHING <= value <= _NOTHING:
+    if -_ZERO_NOISE <= value <= _ZERO_NOISE:
         return "0"
     return f"{value:{_SHORTER if -small < value < small else _DIGITS}}"
 

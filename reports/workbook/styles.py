@@ -36,7 +36,7 @@ LEGEND = (
 
 # Number format of what a check measures, from what size on.
 _FEW, _FORMATS = "0.00##", ((100, "0.0"), (10, "0.00"))
-_MOST = 6  # significant digits of a typed number that count for its decimals
+_MAX_DIGITS = 6  # significant digits of a typed number that count for its decimals
 _TITLES_ROW = 3  # of tables side by side
 _SIZES = {TITLE: 14, SUBTITLE: 11}
 _COLOURS = {
@@ -98,7 +98,7 @@ def decimals_of(numbers: Iterable[object]) -> int:
 def _decimals(number: object) -> int:
     if isinstance(number, Quantity):
         return number.digits.decimals if number.digits.kind == "fixed" else 0
-    text = f"{number:.{_MOST}g}" if isinstance(number, float) else ""
+    text = f"{number:.{_MAX_DIGITS}g}" if isinstance(number, float) else ""
     return 0 if "e" in text else len(text.partition(".")[2])
 
 

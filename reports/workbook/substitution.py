@@ -31,7 +31,7 @@ SHEET = "Подстановка"
 _SYMBOL, _VALUE, _TEXT, _LINE_SYMBOL, _HEAD, _LINE = range(1, 7)  # columns of the hidden sheet
 _WIDTHS = (14, 12, 12, 14, 50, 100)
 _PLAIN = SCALE_FUNCTIONS | {"sin", "cos", "tan", "asin", "acos", "sqrt", "abs", "rad", "exp", "ln"}
-_MOST_FORMULA, _MOST_LINE = 200, 90  # letters of a formula, of an equation
+_MAX_FORMULA, _MAX_LINE = 200, 90  # letters of a formula, of an equation
 _TITLE_LETTER, _AFTER, _NARROWEST = 11, 12, 40  # px
 _START = 1 / 12  # of a table's rows, where nothing is nought: 60° of 720
 _DEGREE = "°"
@@ -120,7 +120,7 @@ def _is_told(column: Column, table: TableSpec, writer: BlockWriter) -> bool:
     used = names(column.expr)
     known = all(_is_number(name, table, writer) for name in used)
     said = writer.explained(column.quantity, column.expr, table.id)
-    return bool(used) and known and 0 < len(said) < _MOST_LINE
+    return bool(used) and known and 0 < len(said) < _MAX_LINE
 
 
 def _is_number(name: str, table: TableSpec, writer: BlockWriter) -> bool:
@@ -257,7 +257,7 @@ def _line(
     ordinal = ordinal.rpartition("!")[2]
     result = f"(ROUND(INDEX({writer.layout.range_of(key)},{ordinal}),{decimals})+0)"
     formula = f'={joined}&" = "&{result}&"{after}"'.replace(f"'{SHEET}'!", "")
-    if len(formula) > _MOST_FORMULA:
+    if len(formula) > _MAX_FORMULA:
         return None
     hidden.say(_LINE_SYMBOL, quantity.symbol)
     hidden.say(_HEAD, head)

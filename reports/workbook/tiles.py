@@ -29,7 +29,7 @@ _TILES: tuple[tuple[tuple[str, ...], tuple[str, ...]], ...] = (
     (("q_pin_max",), ("q_pin_mean",)),
 )
 _SAFETIES = (*SAFETIES, "safe_n_pin", "safe_n_main")
-_LEAST_SAFETY = "Наименьший запас прочности деталей"
+_MIN_SAFETY = "Наименьший запас прочности деталей"
 _HEIGHTS = (26.0, 22.0, 15.0)  # pt: title of two lines, value, what stands below
 _TITLE_LINE, _TITLE_SIZE, _INDENT = 12.0, styles.SIZE - 2, 10  # pt, pt, px
 _DIGITS = 4
@@ -110,7 +110,7 @@ def _least_safety(writer: BlockWriter) -> _Number | None:
     if not keys:
         return None
     least = min(float(values[key]) for key in keys)
-    return _Number(_LEAST_SAFETY, f"=MIN({','.join(keys)})", least, "", "0.00")
+    return _Number(_MIN_SAFETY, f"=MIN({','.join(keys)})", least, "", "0.00")
 
 
 def _frame(sheet: Worksheet, row: int, span: tuple[int, int]) -> None:

@@ -72,7 +72,7 @@ from reports.workbook.verdict import colour_verdicts, write_verdict
 
 _ANGLE, _WAVE = (styles.HELPER, "0.0"), (styles.HELPER, "0.0000")
 _TURNS = {"cos": cos, "sin": sin}
-_MOST_CHECKS = 40
+_MAX_CHECKS = 40
 _TEXT_WIDTH = 110
 NOTE_COLUMN, _NOTE_PX = 3, 560  # where a sheet's note may begin, and how wide it is at least
 _LINK_PX = 90  # of the link to the contents
@@ -295,7 +295,7 @@ def _blocks(sheet: Worksheet, model: Model, writer: BlockWriter) -> None:
         elif isinstance(block, ScalarTable):
             writer.list(sheet, block)
             if block.verdicts is not None:
-                colour_verdicts(sheet, HEADER_ROW, HEADER_ROW + _MOST_CHECKS, *block.verdicts)
+                colour_verdicts(sheet, HEADER_ROW, HEADER_ROW + _MAX_CHECKS, *block.verdicts)
                 draw_bars(sheet, block, writer.layout)
             if block.id == "checks":
                 # Beside its check stands why a discrepancy is accepted.

@@ -19,8 +19,8 @@ import kshm
 import reports
 from reports import figures
 from reports.api import loaded_of
+from reports.exports.department_chapters import own_numbers
 from reports.exports.numbers import json_text
-from reports.exports.own_books import own_numbers
 from reports.inputs.solve_input import solved
 from tests.api.test_api import small
 from tests.conftest import ROOT, sample_names

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from unittest import mock
 
 from reports.inputs.load import load_toml
-from reports.model import book_text, rename
+from reports.model import chapter_source, rename
 from reports.shared.resources import samples_dir
 from reports.tables.registry import build_model
 from tests.bench._figure import Figure, interleaved, median, ratio
@@ -29,15 +29,15 @@ def all_renamed() -> None:
 
 def read_anew() -> None:
     """Every book read as by a new process."""
-    book_text.environment_of.cache_clear()
+    chapter_source.environment_of.cache_clear()
     build_model(INPUTS[0])
 
 
 def compiled_anew() -> None:
     """The same, and no compiled book is kept."""
-    with mock.patch.object(book_text, "_compiled", lambda folder: None):
+    with mock.patch.object(chapter_source, "_compiled", lambda folder: None):
         read_anew()
-    book_text.environment_of.cache_clear()
+    chapter_source.environment_of.cache_clear()
 
 
 def figures() -> Iterator[Figure]:

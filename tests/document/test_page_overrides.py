@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.document.page.overrides import MOST_NESTED, find
+from reports.document.page.overrides import MAX_NESTED, find
 from reports.shared.errors import InputError
 
 NAME = "introduction.html.j2"
@@ -34,7 +34,7 @@ def test_a_link_out_of_the_folder_is_refused(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("block", ["<div>", "{% if 1 %}", "{%- for i in [1] %}"])
 def test_blocks_nested_by_thousands_are_refused(tmp_path: Path, block: str) -> None:
-    folder = folder_with(tmp_path, block * MOST_NESTED)
+    folder = folder_with(tmp_path, block * MAX_NESTED)
     assert find("t", tmp_path) == folder
     (folder / NAME).write_text(block * 3000, encoding="utf-8")
     with pytest.raises(InputError, match="вложены глубже"):

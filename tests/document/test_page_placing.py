@@ -278,7 +278,7 @@ def test_a_chapter_does_not_run_on_to_leave_a_few_lines_on_its_last_page(lines, 
     assert placed.count("<p>") == 18 + lines + 1
 
 
-LEAST_PT = 7.0
+MIN_PT = 7.0
 IMAGE = re.compile(
     r'<img class="fig" style="width:([\d.]+)mm"[^>]*? alt="([^"]*)" src="[^,]*,([^"]+)"'
 )
@@ -309,11 +309,11 @@ def test_no_type_of_a_printed_figure_is_small(name: str) -> None:
     model = build_model(sample(name))
     page = Report(model, evaluate_model(model)).page("print")
     collected = {
-        alt[:60]: min(sizes(base64.b64decode(data).decode(), float(width)), default=LEAST_PT)
+        alt[:60]: min(sizes(base64.b64decode(data).decode(), float(width)), default=MIN_PT)
         for width, alt, data in IMAGE.findall(page)
     }
     assert len(collected) > 15
-    assert {words: least for words, least in collected.items() if least < LEAST_PT} == {}
+    assert {words: least for words, least in collected.items() if least < MIN_PT} == {}
 
 
 @settings(max_examples=15)

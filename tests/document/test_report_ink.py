@@ -45,7 +45,7 @@ if ENGINES >= 30:
     SAMPLES = [(name, detail) for name in sample_names() for detail in ("course", "full")]
 NUMBER = re.compile(r"[−+]?[\d\u00a0]+(,\d+)?")
 # Blank share at the foot of a page that is not the last of a chapter: the largest and the mean.
-MOST_BLANK = (0.30, 0.06)
+MAX_BLANK = (0.30, 0.06)
 
 
 def faults(pages: list[list[ink.Word]], sheets: list) -> list[tuple[int, list[str]]]:
@@ -132,7 +132,7 @@ def test_every_sample_reads_well(name, detail, tmp_path):
     assert faults(ink.words(path), sheets) == []
     assert broken(page, "\n".join(texts)) == []
     blank = holes(texts, sheets)
-    largest, mean = MOST_BLANK
+    largest, mean = MAX_BLANK
     assert max(blank) <= largest and sum(blank) / len(blank) < mean
 
 

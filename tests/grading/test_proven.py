@@ -49,7 +49,7 @@ def test_a_right_book_is_not_calculated_again(marker, monkeypatch):
     def never(*_: object) -> bytes:
         raise AssertionError
 
-    monkeypatch.setattr(evaluate, "plain_book", never)
+    monkeypatch.setattr(evaluate, "simple_workbook", never)
     assert mark(marker, right())["points"] == 100
 
 

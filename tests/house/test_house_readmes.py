@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from reports.studies.validation_book import validate
+from reports.studies.validation_workbook import validate
 from tests.manual.pages import READMES, ROOT, blocks, commands
 
 

@@ -104,7 +104,7 @@ def test_a_new_file_names_the_schema_beside_it(tmp_path: Path) -> None:
 def test_own_books_have_their_keys(tmp_path: Path) -> None:
     book = tmp_path / "pump.book"
     assert CliRunner().invoke(main, ["new", "--book", str(book)]).exit_code == 0
-    from reports.inputs.own_books import sections_of
+    from reports.inputs.department_chapters import sections_of
 
     text = book.read_text(encoding="utf-8")
     own = input_schema((("pump", text),))["properties"]["own"]

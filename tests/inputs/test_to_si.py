@@ -13,7 +13,7 @@ from kshm.engine.masses import DirectMasses, RodMasses
 from reports.inputs import units
 from reports.inputs.firing import fitting_angle
 from reports.inputs.load import load_mapping, load_toml
-from reports.inputs.meta import USUAL, Strictly, choice, number, solver_values
+from reports.inputs.meta import USUAL, StrictModel, choice, number, solver_values
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.resources import samples_dir
 
@@ -196,7 +196,7 @@ class Spring:
     gap: float = 0.002
 
 
-class SpringSection(Strictly, usual=(Spring,)):
+class SpringSection(StrictModel, usual=(Spring,)):
     length_mm: float = number("Длина", "l", units.MM, 1, 100)
     rate_nm_rad: float = number("Жёсткость", "c", units.NM_RAD, 0, 9, solver="stiffness")
     turns_deg: tuple[float, ...] | None = number("Виток {n}", "n_{n}", units.DEG, 0, 360, None)

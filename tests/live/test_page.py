@@ -28,7 +28,7 @@ from tests.web import axe
 from tests.web.conftest import tab_to, until
 from tools.referees.by_libreoffice import LibreOffice
 
-MOST_BYTES = 3_000_000
+MAX_BYTES = 3_000_000
 SET = "([key, value]) => { try { kshm.set(key, value) } catch (e) { return e.message } }"
 MOVING = "keys => keys.filter(key => !live.isFixed(key))"
 GET = "keys => keys.map(key => kshm.get(key))"
@@ -39,7 +39,7 @@ NAMES = sparse(("gots-diesel", "articulated", "two-stroke", "yamz-238", "cycle-p
 def test_an_edit_gives_the_numbers_of_a_new_build(
     name: str, live: Opened, live_file: Callable[[str], Path]
 ) -> None:
-    assert live_file(name).stat().st_size < MOST_BYTES
+    assert live_file(name).stat().st_size < MAX_BYTES
     page, model = live(name), model_of(name)
     page.wait_for_selector("#numbers")
     assert "NaN" not in page.content().partition("<script")[0]

@@ -12,7 +12,7 @@ from click import Option
 from reports.cli import main
 from reports.document.page.style import Margins, Style, TitlePage
 from reports.inputs.load import load_toml
-from reports.inputs.meta import Strictly, hints
+from reports.inputs.meta import StrictModel, hints
 from reports.inputs.registry import SECTIONS
 from reports.inputs.sections.report import CHAPTERS, DIAGRAMS
 from reports.inputs.template import list_samples
@@ -71,7 +71,7 @@ def test_every_page_stands_in_the_contents():
 
 def test_every_key_is_explained():
     text = pages()["input.md"]
-    models: list[type[Strictly]] = [
+    models: list[type[StrictModel]] = [
         model for section in SECTIONS.values() for model in section.models
     ]
     for model in models:

@@ -16,7 +16,7 @@ import pytest
 from reports.grading.issuing.issue import assignment_for
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission
-from reports.model import book_text
+from reports.model import chapter_source
 from reports.model.contents import contents_of
 from reports.shared.resources import templates_dir
 from reports.workbook.chapters import place_of
@@ -41,7 +41,7 @@ def example(tmp_path_factory):
     kept = (contents_of, place_of)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(ROOT)
-        patch.setattr(book_text, "templates_dir", lambda: templates)
+        patch.setattr(chapter_source, "templates_dir", lambda: templates)
         for each in kept:
             each.cache_clear()
         names: dict[str, object] = {}

@@ -7,8 +7,8 @@ import pytest
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
 from reports.model.blocks import ScalarTable
-from reports.model.book_text import Shelf
-from reports.model.books import read_book
+from reports.model.chapter_reader import read_book
+from reports.model.chapter_source import Shelf
 from reports.model.context import names_of
 from reports.model.shape import Scope
 from reports.shared.errors import BookError

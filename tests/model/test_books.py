@@ -9,8 +9,8 @@ import pytest
 
 from reports.inputs.load import load_toml
 from reports.model.blocks import Grid, ScalarTable, TableSpec
-from reports.model.book_text import BookLine, Shelf, book_faults, house_shelf
-from reports.model.books import read_book
+from reports.model.chapter_reader import read_book
+from reports.model.chapter_source import BookLine, Shelf, book_faults, house_shelf
 from reports.model.contents import contents_of
 from reports.model.context import names_of
 from reports.model.shape import Part, Scope

@@ -8,7 +8,7 @@ import re
 import pytest
 
 from reports.exports.book_trial import refuse_unbuilt
-from reports.exports.own_books import refuse_faults
+from reports.exports.department_chapters import refuse_faults
 from reports.shared.errors import InputError
 from tests.cover import ALL
 from tests.manual.pages import DOCS, blocks

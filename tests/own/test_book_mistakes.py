@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from reports.cli import main
 from reports.exports.book_trial import TRIED, check_alone, refuse_unbuilt
-from reports.exports.own_books import failed_engine_checks, refuse_faults
+from reports.exports.department_chapters import failed_engine_checks, refuse_faults
 from reports.formula.mends import MEANT
 from reports.formula.parse import AGGREGATES, FUNCTIONS, SCALE_FUNCTIONS, SHIFTS, is_known_function
 from reports.inputs.fields import to_mapping

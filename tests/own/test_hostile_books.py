@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.exports.own_books import refuse_faults
+from reports.exports.department_chapters import refuse_faults
 from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping, load_text
 from reports.shared.errors import InputError

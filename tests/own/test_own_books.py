@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 
 from reports.cli import main
-from reports.exports.own_books import refuse_faults
+from reports.exports.department_chapters import refuse_faults
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.judging.marking import Marker
 from reports.grading.reading.submissions import Submission

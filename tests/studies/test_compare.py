@@ -20,7 +20,6 @@ from reports.inputs.load import load_mapping, load_text, load_toml
 from reports.inputs.to_si.engine import engine_and_cycle
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
-from reports.studies.books import CURVES, FIGURES, INPUTS, RESULTS, book_bytes
 from reports.studies.comparison import (
     Row,
     charts,
@@ -33,6 +32,7 @@ from reports.studies.comparison import (
     spread,
 )
 from reports.studies.comparison_page import comparison_page, results_block
+from reports.studies.workbooks import CURVES, FIGURES, INPUTS, RESULTS, book_bytes
 from tests.conftest import sample
 from tests.document.bare_pages import plain
 from tests.referee.compare import differences_from_caches, errors_in

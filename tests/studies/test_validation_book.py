@@ -15,11 +15,11 @@ from reports.document.page.render import render_pdf
 from reports.shared.resources import validation_dir
 from reports.studies import validation_checks
 from reports.studies import validation_page as page_module
-from reports.studies.validation_book import WORDS, Book, Checked, validate
 from reports.studies.validation_checks import Verdict, check_table
 from reports.studies.validation_lookups import solution
 from reports.studies.validation_page import HEAD, listing, markdown, validation_page
 from reports.studies.validation_registry import TABLES, table
+from reports.studies.validation_workbook import WORDS, Book, Checked, validate
 from tests import browser
 from tests.document.pdftools import pages_of
 

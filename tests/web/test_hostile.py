@@ -16,11 +16,11 @@ from starlette.testclient import TestClient
 
 from reports.grading.issuing.register import SECRET, kept_secret
 from reports.shared.errors import InputError
-from reports.web import doors, engine
+from reports.web import engine, http_guards
 from reports.web.app import STATIC, Settings, create_app
 from reports.web.classes import token_of
-from reports.web.doors import MOST_JSON, Rate
-from reports.web.shares import Turns, Unfinished
+from reports.web.http_guards import MAX_JSON, Rate
+from reports.web.shared_engines import Turns, Unfinished
 from reports.workbook import read
 from tests.grading import classroom, hostile
 from tests.grading.fill import filled_book
@@ -127,7 +127,7 @@ def test_fields_are_told_of_whatever_comes_and_stay_few(page: Page, raw: dict[st
 @pytest.mark.parametrize("path", [SOLVE, "/api/new", "/api/read", "/api/files", "/api/login"])
 def test_giant_bodies(client: TestClient, path: str) -> None:
     head = {**MARK, "content-type": "application/json"}
-    is_refused(client.post(path, content=b" " * (MOST_JSON + 1), headers=head), 413)
+    is_refused(client.post(path, content=b" " * (MAX_JSON + 1), headers=head), 413)
 
 
 TOML = [
@@ -229,7 +229,7 @@ def test_hostile_books(client: TestClient) -> None:
 def test_a_book_that_costs_too_much_is_refused_in_a_sentence(
     client: TestClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(doors, "BOOK_S", 0.01)
+    monkeypatch.setattr(http_guards, "BOOK_S", 0.01)
     book = filled_book(classroom.handout(), classroom.assignment())
     answer = client.post("/api/book", content=book, headers=FILE)
     is_refused(answer, 422)
@@ -240,7 +240,7 @@ def test_a_sheet_with_too_many_cells_is_refused_before_it_costs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "book.xlsx").write_bytes(classroom.handout())
-    monkeypatch.setattr(read, "MOST_CELLS", 100)
+    monkeypatch.setattr(read, "MAX_CELLS", 100)
     with pytest.raises(InputError, match="слишком много ячеек"):
         engine.read_book(str(tmp_path / "book.xlsx"))
 
@@ -347,12 +347,12 @@ def test_a_busy_server_turns_no_work_away(
     async def asked(*_: object, **__: object) -> dict[str, Any]:
         raise answer
 
-    monkeypatch.setattr(doors, "ask", asked)
+    monkeypatch.setattr(http_guards, "ask", asked)
     path = tmp_path / "work.xlsx"
-    routes = doors.shown(
-        "/x", lambda _: doors.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": path})
+    routes = http_guards.shown(
+        "/x", lambda _: http_guards.Shown({}, {"book": tmp_path / "issued.xlsx"}, {"work": path})
     )
-    handlers: Any = {InputError: doors.failed}
+    handlers: Any = {InputError: http_guards.failed}
     session = Middleware(SessionMiddleware, "x")
     app = Starlette(routes=routes, exception_handlers=handlers, middleware=[session])
     app.state.settings, app.state.unfinished = Settings(tmp_path), Unfinished(100)

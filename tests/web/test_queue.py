@@ -22,7 +22,7 @@ from starlette.testclient import TestClient
 from reports.shared.errors import InputError
 from reports.web import jobs as room
 from reports.web.app import Settings, create_app
-from reports.web.jobs import _KSHM, MOST_OWN, Jobs, run
+from reports.web.jobs import _KSHM, MAX_OWN, Jobs, run
 from tests.web.conftest import MARK, Page, finished, serving
 from tests.web.test_files import made
 
@@ -47,12 +47,12 @@ def test_everybodys_first_comes_before_anybodys_second(tmp_path: Path) -> None:
 
 def test_nobody_fills_the_queue_alone(tmp_path: Path) -> None:
     jobs = waiting(tmp_path)
-    added(jobs, *["a"] * MOST_OWN)
+    added(jobs, *["a"] * MAX_OWN)
     with pytest.raises(InputError, match="дождитесь"):
         jobs.add({"a": "more"}, ["solve"], "a")
     jobs.add({"a": "more"}, ["solve"], "b")
     assert jobs.add({"a": "0"}, ["solve"], "b") in jobs.waiting  # the same content: the same job
-    assert len(jobs.waiting) == MOST_OWN + 1
+    assert len(jobs.waiting) == MAX_OWN + 1
 
 
 def test_a_command_ends_with_the_server_and_takes_along_what_it_has_started() -> None:
@@ -182,7 +182,7 @@ def test_a_bug_in_a_job_stops_no_other(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_the_oldest_files_are_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "MOST_BYTES", 2500)
+    monkeypatch.setattr(room, "MAX_BYTES", 2500)
     jobs = waiting(tmp_path)
     for index in range(4):
         folder = tmp_path / f"{index}"

@@ -17,9 +17,9 @@ import pytest
 from starlette.exceptions import HTTPException
 
 from reports.shared.workers import GROWN, Workers
-from reports.web import shares
-from reports.web.doors import public_words
-from reports.web.shares import Connection, Turns, Unfinished, fair
+from reports.web import shared_engines
+from reports.web.http_guards import public_words
+from reports.web.shared_engines import Connection, Turns, Unfinished, fair
 from tests.web.conftest import MARK, Served, finished
 
 
@@ -130,7 +130,7 @@ def test_a_head_that_does_not_end_is_given_up(
     served: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The numbers of the running server stand; here the protocol alone, with less time."""
-    monkeypatch.setattr(shares, "HEAD_S", 0.2)
+    monkeypatch.setattr(shared_engines, "HEAD_S", 0.2)
 
     async def slow() -> tuple[float, bytes]:
         import uvicorn
@@ -164,7 +164,7 @@ def test_a_head_that_does_not_end_is_given_up(
 
 def test_an_address_has_no_more_than_its_connections(served: Served) -> None:
     with contextlib.ExitStack() as stack:
-        for _ in range(shares.MOST_CONNECTIONS):
+        for _ in range(shared_engines.MAX_CONNECTIONS):
             stack.enter_context(socket.create_connection(address(served)))
         time.sleep(0.5)
         with socket.create_connection(address(served)) as last:

@@ -24,7 +24,7 @@ from tools.referees.by_formualizer import Formualizer
 from tools.referees.cells import Book
 
 RECALCULATED = ("gots-diesel", "yamz-236", "d-240-bearings")
-MOST_SHEETS = 32  # open ones of the textbook's diesel
+MAX_SHEETS = 32  # open ones of the textbook's diesel
 
 
 @lru_cache(maxsize=1)
@@ -90,7 +90,7 @@ def test_sections_that_the_input_has_keep_their_sheets() -> None:
 def test_the_first_sheet_says_once_what_is_left_out_and_how_to_have_it() -> None:
     titles = opened().sheetnames
     states = [opened()[title].sheet_state for title in titles]
-    assert states.count("visible") <= MOST_SHEETS
+    assert states.count("visible") <= MAX_SHEETS
     hidden = titles[states.index("hidden") :]
     assert WAVES_SHEET in hidden
     assert {opened()[title].sheet_state for title in hidden} == {"hidden"}

@@ -7,7 +7,7 @@ import pytest
 from reports.inputs.fields import Field
 from reports.workbook import styles
 from reports.workbook.inputs import options
-from reports.workbook.layout import INPUT_SHEET, LEAST_COLUMN, MOST_COLUMN, Layout
+from reports.workbook.layout import INPUT_SHEET, MAX_COLUMN, MIN_COLUMN, Layout
 from tests.workbook.made import coarse_model, coarse_opened
 
 NAME = "gots-diesel"
@@ -22,7 +22,7 @@ def test_limits_stand_as_numbers_beside_their_inputs() -> None:
     sheet, layout = coarse_opened(NAME)[INPUT_SHEET], Layout.of(coarse_model(NAME))
     for item in limited():
         row = layout.cells[item.name].row
-        limits = [sheet.cell(row, column).value for column in (LEAST_COLUMN, MOST_COLUMN)]
+        limits = [sheet.cell(row, column).value for column in (MIN_COLUMN, MAX_COLUMN)]
         assert limits == [item.minimum, item.maximum], item.name
     assert len(limited()) > 20
 

@@ -28,7 +28,7 @@ from reports.workbook.layout import (
     CONTENTS_SHEET,
     HEADER_ROW,
     INPUT_SHEET,
-    MOST_COLUMN,
+    MAX_COLUMN,
     Layout,
     arranged,
 )
@@ -253,7 +253,7 @@ def test_no_text_of_input_data_is_cut_by_the_next_cell() -> None:
     title = layout.cells["report_title"]
     (across,) = (each for each in sheet.merged_cells.ranges if each.min_row == title.row)
     room = sum(column_px(sheet, i) for i in range(across.min_col, across.max_col + 1))
-    assert (across.min_row, across.max_col) == (title.row, MOST_COLUMN)
+    assert (across.min_row, across.max_col) == (title.row, MAX_COLUMN)
     assert _REGULAR.getlength(long) * _PX < room * (row_px(sheet, title.row) // _LINE)
     masses = [item for item in model.inputs if item.value == name]
     first = layout.cells[masses[0].name]

@@ -9,13 +9,13 @@ from pathlib import Path
 import openpyxl
 from openpyxl.worksheet.worksheet import Worksheet
 
-from reports.studies import books as study
-from reports.studies.books import CURVES, FIGURES, INPUTS, RESULTS
+from reports.studies import workbooks as study
 from reports.studies.sweep import sweep
+from reports.studies.workbooks import CURVES, FIGURES, INPUTS, RESULTS
 from reports.workbook.charts import curves_chart
 from reports.workbook.places import top_of
-from reports.workbook.plain_book import hang
 from reports.workbook.print_setup import PAPER
+from reports.workbook.simple_workbook import hang
 from tests.studies.test_compare import run, sources
 from tests.studies.test_sweep import BASE, VARY
 from tests.workbook.test_places import boxes_of, problems

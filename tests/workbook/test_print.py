@@ -23,7 +23,7 @@ from tests.workbook.made import book, coarse_opened, model
 from tests.workbook.test_places import boxes_of
 from tools.referees.by_libreoffice import LibreOffice
 
-MOST_PAGES = {"full": 60, "course": 35}
+MAX_PAGES = {"full": 60, "course": 35}
 
 
 def printed_of(book: Workbook) -> list[Worksheet]:
@@ -33,7 +33,7 @@ def printed_of(book: Workbook) -> list[Worksheet]:
 
 def test_the_textbooks_diesel_takes_few_pages(libreoffice: LibreOffice, tmp_path: Path) -> None:
     short = workbook_bytes(short_model(model()))
-    printed = zip(MOST_PAGES.items(), libreoffice.converted([book(), short], "pdf"), strict=True)
+    printed = zip(MAX_PAGES.items(), libreoffice.converted([book(), short], "pdf"), strict=True)
     for (kind, most), data in printed:
         path = tmp_path / "book.pdf"
         path.write_bytes(data)

@@ -17,7 +17,8 @@ VAGUE_TOO = ("what", "own", "given", "about", "known", "wanted", "places", "rest
 SMALL, LONG = 60, 40  # lines of a module, of a function
 CHAPTERS = {"torsion": ("torsion", "resonance"), "oil": ("oil", "bearing", "film"),
             "strength": ("strength",)}  # fmt: skip
-READER = ("books", "book_text", "sandbox", "contents", "context", "contexts")
+READER = ("books", "book_text", "chapter_reader", "chapter_source", "sandbox", "contents",
+          "context", "contexts")  # fmt: skip
 CYRILLIC = re.compile("[А-Яа-яЁё]")
 TEXT_METHODS = ("startswith", "endswith", "partition", "rpartition", "split", "removeprefix",
                 "removesuffix")  # fmt: skip

@@ -14,7 +14,7 @@ from kshm.nomenclature.quantity import nomenclature
 from kshm.results.named import NAMES
 from reports.formula.excel import compile_formula
 from reports.inputs.load import load_toml
-from reports.inputs.meta import Meta, Strictly, hints
+from reports.inputs.meta import Meta, StrictModel, hints
 from reports.inputs.registry import GAS_MODELS, SECTIONS, records
 from reports.inputs.template import list_samples
 from reports.inputs.units import number_text
@@ -22,8 +22,8 @@ from reports.model.blocks import Block, Grid, Model, ScalarTable, TableSpec
 from reports.shared.files import write_text
 from reports.shared.resources import samples_dir
 from reports.shared.russian import capital
-from reports.studies.validation_book import validate
 from reports.studies.validation_page import markdown
+from reports.studies.validation_workbook import validate
 from reports.tables.registry import build_model
 from reports.workbook.chapters import contents_for, in_course
 from reports.workbook.layout import FIRST_ROW, Layout, RowReferences, at_row
@@ -90,7 +90,7 @@ def _gases() -> Iterator[str]:
     yield table(("Ключ", "Что это"), ((f"`{key}`", text) for key, text in FILE_KEYS))
 
 
-def _section(path: str, model: type[Strictly]) -> Iterator[str]:
+def _section(path: str, model: type[StrictModel]) -> Iterator[str]:
     """Yield the keys of a section as one table, those of its lists of records as further ones."""
     inner = dict(records(model))
     yield table(_HEADER, _rows(model, skipped=inner))
@@ -100,7 +100,7 @@ def _section(path: str, model: type[Strictly]) -> Iterator[str]:
         yield table(_HEADER, _rows(item))
 
 
-def _rows(model: type[Strictly], skipped: Iterable[str] = ()) -> Iterator[tuple[str, ...]]:
+def _rows(model: type[StrictModel], skipped: Iterable[str] = ()) -> Iterator[tuple[str, ...]]:
     for key, about in hints(model).items():
         if key in skipped:
             continue
@@ -118,7 +118,7 @@ def _rows(model: type[Strictly], skipped: Iterable[str] = ()) -> Iterator[tuple[
             )
 
 
-def _of_record(model: type[Strictly]) -> bool:
+def _of_record(model: type[StrictModel]) -> bool:
     return all("{n}" in meta.title for hint in hints(model).values() for meta in hint.metas)
 
 

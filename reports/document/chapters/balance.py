@@ -28,7 +28,7 @@ from reports.inputs.sections.input_file import InputFile
 from reports.inputs.to_si.engine import to_engine
 from reports.shared.russian import MINUS, NBSP, fixed, joined, short, written
 
-_MOST_ORDERS = 8
+_MAX_ORDERS = 8
 _FLYWHEEL = ("fw_outer_mm", "fw_bore_mm", "fw_disc_mm", "fw_rim_mm", "fw_density", "fw_I",
              "fw_mass_disc", "fw_mass_rim", "fw_mass", "fw_outer_most_mm")  # fmt: skip
 
@@ -62,7 +62,7 @@ _LEFT = ["F_left_kN", "M_left_Nm"]  # behind balance shafts
 _SHAFTS = {"first_shafts": "первого", "second_shafts": "второго"}
 _ORDERS_OF_BANKS = ["order", "order_amplitude", "F_order_kN", "F_order_min_kN", "F_order_dir_deg",
                     "M_order_Nm", "M_order_min_Nm", "M_order_dir_deg"]  # fmt: skip
-_NOTHING = 2e-3  # of what it is measured by: no table and no curve shows it
+_ZERO_SHARE = 2e-3  # of what it is measured by: no table and no curve shows it
 # Definitions that no single formula of the sheets states.
 _COMPANION_FORMULAS = {
     "harmonic": r"t_k = t_k^a \sin\left(k\varphi + \gamma_k\right)",
@@ -282,7 +282,7 @@ def _is_balanced(
 
 def _are_nothing(terms: Terms, columns: Sequence[str], scale: float) -> bool:
     """Whether columns are zero compared with a scale in their unit."""
-    return all(np.abs(terms.column(name)).max() <= _NOTHING * scale for name in columns)
+    return all(np.abs(terms.column(name)).max() <= _ZERO_SHARE * scale for name in columns)
 
 
 def _over_turn(terms: Terms, *, after: bool) -> list[str]:
@@ -374,7 +374,7 @@ def _firing(chapter: Chapter) -> TableBlock:
             fixed(ranked.half_order if np.abs(ranked.half_order) > 1e-9 else 0.0, 3),
             of_digits(ranked.journal_load / 1000, load.digits),
         )
-        for ranked in rank_firing_orders(to_engine(chapter.input))[:_MOST_ORDERS]
+        for ranked in rank_firing_orders(to_engine(chapter.input))[:_MAX_ORDERS]
     ]
     return table_block(columns, rows)
 

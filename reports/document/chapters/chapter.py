@@ -24,7 +24,7 @@ from reports.document.text.texts import of_digits
 from reports.inputs.firing import order_text, strokes_at
 from reports.inputs.sections.input_file import EngineSection, InputFile
 from reports.inputs.sections.report import CHAPTERS
-from reports.inputs.solve_input import MOST_GRID_ERROR, GridError, refined, solved
+from reports.inputs.solve_input import MAX_GRID_ERROR, GridError, refined, solved
 from reports.model.blocks import Grid, Model
 from reports.model.charts import Series
 from reports.model.shape import Shape, most_loaded_pin, pin_name
@@ -130,7 +130,7 @@ def swing_errors(model: InputFile, throws: int) -> list[GridError]:
         GridError(name, float(np.ptp(coarse[key])), float(np.ptp(fine[key])))
         for name, key in keys.items()
     ]
-    return [error for error in errors if abs(error.percent) > MOST_GRID_ERROR]
+    return [error for error in errors if abs(error.percent) > MAX_GRID_ERROR]
 
 
 @dataclass(frozen=True, slots=True)

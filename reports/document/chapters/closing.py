@@ -123,7 +123,7 @@ SOURCES = {
 _CONCLUDED = {"cycle", "kinematics", "dynamics", "torque", "crankpin", "journals", "running"}
 _TEXTBOOKS = re.compile(r"П[\d.]+")  # numbers of the textbook's tables
 _JOURNALS = "Удельные силы, одинаковые у коренных шеек {} ({})"
-_MOST_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
+_MAX_PERCENT = 1000.0  # of a value near zero a difference in percent says nothing
 
 
 def checks(chapter: Chapter) -> Markup:
@@ -182,7 +182,7 @@ def _grid_table(chapter: Chapter) -> TableBlock:
 
 def difference(percent: float, fine: str) -> str:
     """Return a difference from a value as printed; none from a value that is printed as zero."""
-    comparable = abs(percent) < _MOST_PERCENT and fine.strip("0,−")
+    comparable = abs(percent) < _MAX_PERCENT and fine.strip("0,−")
     return fixed(percent, 1) if comparable else "—"
 
 

@@ -30,7 +30,7 @@ from reports.shared.russian import capital, fixed, short, uncapital
 from reports.shared.standing import Standing
 from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
-_MOST_DECIMALS = 8  # of values in passes
+_MAX_DECIMALS = 8  # of values in passes
 
 # Equations of the method that the sheets solve in passes or in parts.
 _EQUATIONS = {
@@ -203,7 +203,7 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
         q = row.quantity
         tex = q.tex.replace("n -", f"n_{name[-1]} -")  # of n₁ or n₂
         columns.append(TableColumn(symbol_head(tex, q.unit_label)))
-        digits = replace(q.digits, decimals=min(q.digits.decimals, _MOST_DECIMALS))
+        digits = replace(q.digits, decimals=min(q.digits.decimals, _MAX_DECIMALS))
         cells.append([of_digits(terms.value(c.key), digits) for c in row.cells if c is not None])
     rows = list(zip(*cells, strict=True))
     while len(rows) > 2 and rows[-1][1:] == rows[-2][1:] == rows[-3][1:]:

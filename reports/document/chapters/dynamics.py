@@ -60,7 +60,7 @@ _RATIOS = {"area_piston": "piston_mass", "area_rod": "rod_mass", "area_throw": "
            "rod_share": "rod_share"}  # fmt: skip
 _BY_FORMULA = ("geometry", "masses")  # lists whose values stand behind their formulas
 _PRESSURE = "gas.p_MPa"
-_MOST_PANELS = 2
+_MAX_PANELS = 2
 
 
 def kinematics(chapter: Chapter) -> Markup:
@@ -453,7 +453,7 @@ def _statics(terms: Terms, count: int) -> dict[str, tuple[Series, ...]]:
 
 def _figures(charts: list[str]) -> list[list[str]]:
     """Charts in as few figures as will do, as many in each."""
-    count = -(-len(charts) // _MOST_PANELS)
+    count = -(-len(charts) // _MAX_PANELS)
     size = -(-len(charts) // count)
     return [charts[start : start + size] for start in range(0, len(charts), size)]
 

@@ -43,8 +43,8 @@ _HALVES = "; половины шеек: л — левого ряда, п — п�
 _SUM_DIGITS = 2
 _SUM_COLUMNS = 7  # the most journals in one table of sums
 # Columns of a table of loads: key of the scalar, symbol, unit.
-_MOST = (("R{}_max", r"R'_{\max}", "МПа"), ("phi_R{}_max_deg", r"\varphi_{\max}", "°"))
-_LEAST = (("R{}_min", r"R'_{\min}", "МПа"), ("phi_R{}_min_deg", r"\varphi_{\min}", "°"))
+_LARGEST_ROWS = (("R{}_max", r"R'_{\max}", "МПа"), ("phi_R{}_max_deg", r"\varphi_{\max}", "°"))
+_SMALLEST_ROWS = (("R{}_min", r"R'_{\min}", "МПа"), ("phi_R{}_min_deg", r"\varphi_{\min}", "°"))
 _MEAN = (
     ("R{}_mean", r"R'_{\mathrm{ср}}", "МПа"),
     ("R{}_max_kN", r"R_{\max}", "кН"),
@@ -52,7 +52,7 @@ _MEAN = (
     ("q_{}_mean", r"q_{\mathrm{ср}}", "МПа"),
     ("hole_{}_deg", r"\alpha_{\mathrm{м}}", "°"),
 )
-_MOST_SHOWN = 3
+_MAX_SHOWN = 3
 _THREE_MOMENTS = (
     r"X_{k-1} l_{k-1} + 2 X_k (l_{k-1} + l_k) + X_{k+1} l_k ="
     r" -\sum P \dfrac{u\,(l_{k-1}^2 - u^2)}{l_{k-1}}"
@@ -70,7 +70,7 @@ def crankpin(chapter: Chapter) -> Markup:
     numbers = range(1, len(pins) + 1)
     names, worst = pin_stems(chapter.shape), worst_pin(terms)
     others, name = [n for n in numbers if n != worst], names[worst - 1]
-    loads = partial(_loads, terms, names, (*_MOST, *_MEAN), 1.0)
+    loads = partial(_loads, terms, names, (*_LARGEST_ROWS, *_MEAN), 1.0)
     number = f" {worst}" if others else ""
     head = rf"\Sigma R'_{{\mathrm{{ш.ш}}{number.strip()}}}"
     sums = partial(_ray_sums, terms, [name], [head], rays)
@@ -91,7 +91,7 @@ def crankpin(chapter: Chapter) -> Markup:
         same_curves=_are_alike(terms, [f"{pin_table(n)}.Rpin_MPa" for n in numbers]),
         same_loads=all(
             len(leaders(terms, [key.format(name) for name in names])) == len(names)
-            for key, _, _ in (_MOST[0], *_MEAN)
+            for key, _, _ in (_LARGEST_ROWS[0], *_MEAN)
         ),
         same_gaps=_have_equal_gaps(chapter),
         pin_loads=TablePlan(loads, "Нагрузки на шатунные шейки", size="dense"),
@@ -172,7 +172,7 @@ def journals(chapter: Chapter) -> Markup:
     share = -(-len(numbers) // -(-len(numbers) // _SUM_COLUMNS))  # of each of as few tables
     size = "" if throws <= 5 else "dense" if throws <= 7 else "tiny"
     loads = partial(
-        _loads, terms, [f"main{n}" for n in numbers], (*_MOST, *_LEAST, *_MEAN), 0.8
+        _loads, terms, [f"main{n}" for n in numbers], (*_LARGEST_ROWS, *_SMALLEST_ROWS, *_MEAN), 0.8
     )  # fmt: skip
     idle = _idle_forces(chapter)
     return chapter.page(
@@ -339,4 +339,4 @@ def _supports(terms: Terms) -> list[int]:
     """Supports whose greatest loads the two schemes find most apart."""
     count = sum(key.startswith("dRc") and key.endswith("_max") for key in terms.model.scalars)
     order = sorted(range(1, count + 1), key=lambda k: -abs(terms.value(f"dRc{k}_max")))
-    return sorted(order[:_MOST_SHOWN])
+    return sorted(order[:_MAX_SHOWN])

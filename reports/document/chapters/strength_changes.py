@@ -16,7 +16,7 @@ from kshm.results.strength import strength_results
 from reports.tables.strength_members import SAFETIES, UsualStress
 
 _STEPS = 40  # of halving the range of a size
-_MOST = 3.0  # times the size, or its third part
+_MAX_RATIO = 3.0  # times the size, or its third part
 _ROUNDS = 4
 _SPARE = 1e-6
 _SMALL, _COARSE, _FINE = 1e-3, 1e-4, 1e-6  # m: sizes to tenths of a millimetre, fits to 1 µm
@@ -159,7 +159,7 @@ def _mended(case: Case, limit: _Limit) -> Case | None:
         smaller, key = name.startswith("-"), name.removeprefix("-")
 
         def tried(share: float, key: str = key, smaller: bool = smaller) -> Case:
-            span = 1 + share * (_MOST - 1)
+            span = 1 + share * (_MAX_RATIO - 1)
             return _with(case, key, 1 / span if smaller else span)
 
         share = _least(tried, limit)

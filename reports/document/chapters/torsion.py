@@ -52,14 +52,14 @@ _MOTION = (
 _NAMED = {"wilson": "Кер-Вильсона", "carter": "Картера", "zimanenko": "Зиманенко"}
 # Rows of the train; bounds of the frequencies are of the sheet alone.
 _TRAIN = ("tor_J_kgm2", "tor_c_Nm_rad", "tor_W_cm3", "tor_b_Nms_rad")
-_LEAST_DIGITS, _MOST_DIGITS = 5, 12  # of numbers put into the chain
+_MIN_DIGITS, _MAX_DIGITS = 5, 12  # of numbers put into the chain
 _FORM_DECIMALS = 5
 _DIGITS = 3  # of an energy, which is 4896 J for a ship's engine and 0.0012 J for a model's
 _NEAR = 0.02  # of a stress: a difference that changes no conclusion
 _ALIKE = 0.5  # per cent between first frequencies: the formula of stiffness does not tell in them
 _SURE = 4  # digits of a frequency that formulas find some per cent apart
-_MOST_ROWS = 12
-_MOST_RAYS = 8  # lines of a figure that are told apart
+_MAX_ROWS = 12
+_MAX_RAYS = 8  # lines of a figure that are told apart
 _FLANK = 0.6  # of a critical speed: from there on a resonance multiplies the twist by 1.5
 
 
@@ -278,10 +278,10 @@ def _holzer_row(terms: Terms) -> str:
     moment = omega**2 * inertia - terms.value("torsion_ground_nm_rad")
     ground, form = terms.value("torsion_ground_nm_rad"), terms.column("torsion_forms.tor_theta1")
     second = to_tex(fixed(float(form[1]), _FORM_DECIMALS))
-    tried = range(_LEAST_DIGITS, _MOST_DIGITS)
-    digits = next((n for n in tried if _gives(n, omega, inertia, ground, spring)), _LEAST_DIGITS)
+    tried = range(_MIN_DIGITS, _MAX_DIGITS)
+    digits = next((n for n in tried if _gives(n, omega, inertia, ground, spring)), _MIN_DIGITS)
     numbers = [number_tex(each, digits) for each in (omega, inertia, moment, spring)]
-    numbers[2] = number_tex(moment, _LEAST_DIGITS)
+    numbers[2] = number_tex(moment, _MIN_DIGITS)
     less = rf" - {to_tex(fixed(ground, 0))}" if ground else ""
     return (
         rf"M_1 = {numbers[0]}^2 \cdot {numbers[1]}{less} = {numbers[2]}\;\mathrm{{Н·м}}, \qquad "
@@ -293,7 +293,7 @@ def _gives(digits: int, omega: float, inertia: float, ground: float, spring: flo
     """Whether the step with numbers of so many digits gives what is printed."""
     first, second, third = (as_put_in(each, digits) for each in (omega, inertia, spring))
     moment = omega**2 * inertia - ground
-    near, shown = (as_put_in(each, _LEAST_DIGITS) for each in (first**2 * second - ground, moment))
+    near, shown = (as_put_in(each, _MIN_DIGITS) for each in (first**2 * second - ground, moment))
     ends = (fixed(1 - each, _FORM_DECIMALS) for each in (shown / third, moment / spring))
     return near == shown and len(set(ends)) == 1
 
@@ -311,13 +311,13 @@ def _resonances(terms: Terms, modes: list[int]) -> list[tuple[int, int]]:
     for m in modes:
         stresses = terms.column(f"torsion_critical.tor_in{m}_MPa")
         resonances += [(float(stresses[k]), m, int(k)) for k in np.flatnonzero(stresses)]
-    return [(m, k) for _, m, k in sorted(resonances, reverse=True)[:_MOST_ROWS]]
+    return [(m, k) for _, m, k in sorted(resonances, reverse=True)[:_MAX_ROWS]]
 
 
 def _rays(terms: Terms, resonances: list[tuple[int, int]]) -> tuple[Series, ...]:
     """Lines of the Campbell diagram: the orders of the strongest resonances."""
     orders = terms.column("torsion_critical.tor_order")
-    strongest = [*dict.fromkeys(float(orders[k]) for _, k in resonances)][:_MOST_RAYS]
+    strongest = [*dict.fromkeys(float(orders[k]) for _, k in resonances)][:_MAX_RAYS]
     return tuple(
         Series(
             "torsion_campbell.tor_speed_rpm",

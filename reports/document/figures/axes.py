@@ -16,7 +16,7 @@ from reports.document.figures.labels import Box, line_box, shown, text_size
 from reports.shared.russian import fixed
 
 _ANGLE_STEPS = (5.0, 10.0, 15.0, 30.0, 60.0, 90.0, 120.0, 180.0)
-_MOST_ANGLES = 13
+_MAX_ANGLES = 13
 _FACTORS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _BEYOND, _GAP = 11.0, 3.0  # pt from the end of an axis and from its last text to its name
 _MARK_GAP = 3.0  # between the texts of neighbouring marks [pt]
@@ -82,9 +82,9 @@ def angle_ticks(low: float, high: float, *, step: float | None = None) -> Ticks:
     """Return marks of an axis of crank angles [deg]; the axis ends where the curves do."""
     span = high - low
     if step is None:
-        step = next((s for s in _ANGLE_STEPS if s >= 30 and span / s < _MOST_ANGLES), 360.0)
+        step = next((s for s in _ANGLE_STEPS if s >= 30 and span / s < _MAX_ANGLES), 360.0)
         if span / step < 3:
-            step = next(s for s in _ANGLE_STEPS if span / s < _MOST_ANGLES)
+            step = next(s for s in _ANGLE_STEPS if span / s < _MAX_ANGLES)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     marks = {index * step: fixed(index * step, 0) for index in range(first, last + 1)}
     for end in (low, high):

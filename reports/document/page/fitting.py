@@ -36,7 +36,7 @@ _UNBROKEN = re.compile(r'class="(?:nb|ref)"')
 # After a hyphen, a dash or a stroke before a letter a line may end.
 _PARTS = re.compile(r"(?<=[^\W\d]-)(?=[^\W\d])|(?<=–)(?=[^\s])|(?<=[^\W\d]/)(?=[^\W\d]|\()")
 _LETTERS = re.compile(r"[^\W\d_]+")
-_LEAST_PT = 5.0
+_MIN_PT = 5.0
 _LINE = 1.12  # of the type
 
 
@@ -150,7 +150,7 @@ def type_pt(text: str, width_mm: float, height_mm: float, usual_pt: float) -> fl
     # A line may end after a hyphen too.
     words = [text_em(word) for word in re.split(r"\s+|(?<=\w-)(?=\w)", text.strip()) if word]
     whole = sum(words) + 0.25 * max(0, len(words) - 1)
-    count = round((usual_pt - _LEAST_PT) / 0.5) + 1
+    count = round((usual_pt - _MIN_PT) / 0.5) + 1
     sizes = [usual_pt - 0.5 * step for step in range(count)]
     if height_mm < 2 * usual_pt * _LINE * 25.4 / 72:  # a cell of one line
         sizes.sort(key=lambda size: whole * size / 72 * 25.4 > width_mm)

@@ -30,7 +30,7 @@ _SIZE = re.compile(r'data-size="([\d.]+)/([\d.]+)"')
 
 _SIZES = ("height", "most", "size")  # what the drawing functions call their size [mm]
 _TRIES = 8
-_CLOSE = 0.995  # of the height that there is
+_FULL_SHARE = 0.995  # of the height that there is
 _WITH_LETTERS = 0.92  # part of its size that a picture keeps whose letters shrink: 7.7 to 7 pt
 _FIGURE = re.compile(r'<figure id="([^"]+)"')
 _TAG = re.compile(r"<(/?)(p|h[1-3]|div|figure|ul|ol|nav|section)\b([^>]*)>")
@@ -66,7 +66,7 @@ def redrawn(body: str, figures: Mapping[str, Figure], pictured: Callable[[str, s
     def anew(match: re.Match[str]) -> str:
         share = float(match["width"]) * PT_PER_MM / float(match["wide"])
         plan = figures.get(match["name"])
-        if plan is None or share >= _CLOSE:
+        if plan is None or share >= _FULL_SHARE:
             return match.group()
         svg = smaller(plan.draw, share * float(match["tall"]))
         if svg is None:
@@ -88,7 +88,7 @@ def smaller(draw: Callable[[], str], height: float) -> str | None:
         if tall <= height:
             return svg
         # The room of the type around the field does not shrink.
-        share = (_CLOSE * height - margins) / (tall - margins)
+        share = (_FULL_SHARE * height - margins) / (tall - margins)
         if share <= 0:
             break
         size *= share

@@ -63,7 +63,7 @@ _TOKENS = {
     "integer": "число", "float": "число", "string": "текст в кавычках",
 }  # fmt: skip
 KEY = "report.templates"
-MOST_NESTED = 100  # blocks of Jinja or elements of the page: the report's own have nine
+MAX_NESTED = 100  # blocks of Jinja or elements of the page: the report's own have nine
 _OPENING = re.compile(
     r"(?P<kind>\{%-?\s*|<)(?P<end>end|/)?"
     r"(?:if|for|block|macro|call|filter|with|div|span|section|table|ul|ol|b|i|em|strong|figure"
@@ -137,8 +137,8 @@ def _refuse_nesting(path: Path) -> None:
     for word in _OPENING.finditer(path.read_text(encoding="utf-8", errors="replace")):
         kind = word["kind"][:2].strip()
         depth[kind] = max(0, depth[kind] + (-1 if word["end"] else 1))
-        if depth[kind] > MOST_NESTED:
-            problem = f"{path}: блоки вложены глубже {MOST_NESTED}"
+        if depth[kind] > MAX_NESTED:
+            problem = f"{path}: блоки вложены глубже {MAX_NESTED}"
             raise InputError(Problem(KEY, problem, "исправьте шаблон или уберите его из папки"))
 
 

@@ -18,7 +18,7 @@ from reports.shared.standing import Standing
 from reports.tables.verdicts import JudgedValue
 
 _LARGE, _SMALL = 2, 3  # decimals of values from 1 on and of those below
-_MOST = 10  # decimals after which a value is the limit itself
+_MAX_DECIMALS = 10  # decimals after which a value is the limit itself
 _NOISE = 1e-5  # a smaller error is one of arithmetic
 
 
@@ -33,7 +33,7 @@ def shown(terms: Terms, each: JudgedValue) -> str:
     if _counts(terms, each.scalar):
         return fixed(value, 0)
     first = 0 if abs(value) < _NOISE else _LARGE if abs(value) >= 1 else _SMALL
-    digits = next((n for n in range(first, _MOST) if _alike(terms, each, n)), first)
+    digits = next((n for n in range(first, _MAX_DECIMALS) if _alike(terms, each, n)), first)
     return fixed(value, digits)
 
 

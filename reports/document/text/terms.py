@@ -43,7 +43,7 @@ _SYMBOLS = {
 _EXTREME = re.compile(r"col_(max|min)\(([\w.]+)\)")
 _TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
-_SIGNIFICANT, _MOST_SIGNIFICANT = 5, 8  # digits of a number put into a formula
+_SIGNIFICANT, _MAX_SIGNIFICANT = 5, 8  # digits of a number put into a formula
 _EXACT = 17  # digits, and decimals, of a number that is not rounded
 _NO_SPACE = {"°"}
 _GIVEN = 8  # significant digits of an input that nobody would write by hand
@@ -342,7 +342,7 @@ class Terms:
     def _precision(self, name: str, expr: str, at: float | None) -> tuple[int, int]:
         """Fewest digits of the numbers put in, decimals of the speeds, that give the result."""
         for decimals in (self._speed_decimals, _EXACT):
-            for digits in range(_SIGNIFICANT, _MOST_SIGNIFICANT + 1):
+            for digits in range(_SIGNIFICANT, _MAX_SIGNIFICANT + 1):
                 try:
                     if self._fits(name, expr, at, digits, decimals):
                         return digits, decimals

@@ -14,7 +14,7 @@ from reports.shared.russian import short
 
 _DIGITS = 10  # significant digits of a limit
 _NOISE = 1e-5  # a limit below it is an error of arithmetic
-_MOST_SPANS = 3
+_MAX_SPANS = 3
 
 
 def tolerance(verdict: str, value: str, resolve: Resolver, symbol: Callable[[str], str]) -> str:
@@ -31,7 +31,7 @@ def tolerance(verdict: str, value: str, resolve: Resolver, symbol: Callable[[str
         tree = tree.test
     condition = ast.unparse(tree)
     spans = spans_of(condition, value, resolve)
-    if spans and len(spans) <= _MOST_SPANS:
+    if spans and len(spans) <= _MAX_SPANS:
         if len(spans) == 2 and spans[0].high == spans[1].low and _is_all_else(spans):
             return f"не равно {_short(spans[0].high)}"
         words = [_words(span) for span in spans]

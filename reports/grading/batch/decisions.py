@@ -26,7 +26,7 @@ from reports.shared.files import write_text
 
 FILE = "decisions.json"
 WHOLE = ""  # in the place of an item: the whole work
-_MOST = 500  # signs of a remark
+_LONGEST = 500  # signs of a remark
 _WHOLE_WORDS = ("", "-", "всё", "все", "работа", "*")
 _ANOTHER = "после решения преподавателя сдан другой файл: решите о нём заново"
 _ANOTHER_COLUMN = "после решения преподавателя сдан другой файл, решите заново о столбцах: "
@@ -206,7 +206,7 @@ def decided(
         file = work.sha256 if work else ""
         _refuse_idle(said.who, award, item, file, work)
         entry = Decision(
-            book.number, item, award.points, one_line(said.remark, _MOST), one_line(author, 100),
+            book.number, item, award.points, one_line(said.remark, _LONGEST), one_line(author, 100),
             datetime.now().isoformat(timespec="minutes"), file, award.word, said.group,
         )  # fmt: skip
         entries[entry.key] = entry
@@ -271,7 +271,7 @@ def from_gradebook(
     problems: list[Problem] = []
     for row, line in enumerate(lines[1:], 2):
         number, points = line[number_at], str("" if line[points_at] is None else line[points_at])
-        text = one_line(str(line[remark_at] or ""), _MOST)
+        text = one_line(str(line[remark_at] or ""), _LONGEST)
         if not isinstance(number, (int, float)):
             if points.strip():
                 hint = "назовите файл фамилией студента и проверьте ещё раз"

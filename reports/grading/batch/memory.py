@@ -18,7 +18,7 @@ from reports.shared.files import make_dir, write_text
 
 _FORMAT, _VERSION = "kshm-memory", 1
 _FIELDS = 5  # of a trait
-_MOST_BYTES = 50_000_000
+_MAX_BYTES = 50_000_000
 
 
 def remembered(folder: Path, batch: str) -> list[PastWork]:
@@ -72,7 +72,7 @@ def keep_past(path: Path, past: Sequence[PastWork]) -> None:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        if path.stat().st_size > _MOST_BYTES:
+        if path.stat().st_size > _MAX_BYTES:
             raise ValueError
         data = json.loads(path.read_text(encoding="utf-8"))
         whole = data["format"] == _FORMAT and data["version"] == _VERSION

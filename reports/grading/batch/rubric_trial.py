@@ -29,7 +29,7 @@ from reports.model.evaluation import Evaluation
 from reports.shared.errors import InputError, Problem
 from reports.workbook.layout import Cell, Layout, RowReferences, at_row
 
-_CLOSE = 0.05  # points: what is given in the file is rounded by hand
+_POINTS_TOLERANCE = 0.05  # points: what is given in the file is rounded by hand
 Names = Annotated[tuple[str, ...], Field(max_length=100)]
 Content = str | float | None
 
@@ -57,7 +57,7 @@ class TrialResult:
     @property
     def is_as_expected(self) -> bool:
         """Whether the points are those of the sample."""
-        return abs(self.points - self.sample.points) <= _CLOSE
+        return abs(self.points - self.sample.points) <= _POINTS_TOLERANCE
 
 
 def try_rubric(

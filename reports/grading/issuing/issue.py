@@ -16,7 +16,7 @@ from typing import Any
 
 import tomlkit
 
-from reports.exports.own_books import refuse_faults
+from reports.exports.department_chapters import refuse_faults
 from reports.grading.issuing.assignment import Assignment, assignment_of
 from reports.grading.issuing.handout import check_for_leaks, handout_bytes
 from reports.grading.issuing.names import latin
@@ -31,11 +31,11 @@ from reports.grading.issuing.register import (
 from reports.grading.issuing.reissue import reissue
 from reports.grading.issuing.roster import Student, roster_of
 from reports.grading.issuing.rubric import Rubric, load_rubric
+from reports.inputs.department_chapters import with_books
 from reports.inputs.diagram_file import with_points
 from reports.inputs.fields import iter_fields, set_value, tables_shape
 from reports.inputs.load import Loaded, load_mapping, load_text, tables_of
 from reports.inputs.normalise import read_text
-from reports.inputs.own_books import with_books
 from reports.inputs.ranges import SECTION, ParameterRange, read_ranges, split_ranges
 from reports.shared.background import processors
 from reports.shared.errors import InputError, Problem

@@ -23,14 +23,14 @@ if TYPE_CHECKING:  # openpyxl is loaded when a book is read
     from openpyxl.worksheet.worksheet import Worksheet
 
 MAX_BYTES, MAX_FIELD = 2_000_000, 200
-_MOST_COLUMNS, _MOST_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
+_MAX_COLUMNS, _MAX_ROWS = 100, 10_000  # one cell at the edge makes a sheet 17,000,000,000 cells
 _FIRST_LINES = 20  # by which the delimiter is known
 _AS_FORMULA = re.compile(r'="([^"]*)"')
 # Other encodings of Russian lists: of Windows, of its command line, of old Unix, of a Mac.
 _ENCODINGS = ("cp1251", "cp866", "koi8-r", "mac-cyrillic")
 _WORD = re.compile(r"[А-ЯЁ][а-яё]+|[А-ЯЁ]+|[а-яё]+")
 _LETTERS = re.compile(r"[^\W\d_]+")
-_LEAST_RUSSIAN = 0.6  # of the words that are no plain Latin
+_MIN_RUSSIAN = 0.6  # of the words that are no plain Latin
 _USUAL = frozenset("километр вода суп нить")  # all letters that are usual
 # A fill that says nothing, as some programs write it: openpyxl reads no such book.
 _STYLES = "xl/styles.xml"
@@ -115,7 +115,7 @@ def _text(path: Path, data: bytes) -> str:
     texts = (data.decode(encoding, errors="replace") for encoding in _ENCODINGS)
     scores = sorted(((_russian(text), text) for text in texts), reverse=True)
     (best, text), (second, other) = scores[:2]
-    if best < _LEAST_RUSSIAN or (best == second and text != other):
+    if best < _MIN_RUSSIAN or (best == second and text != other):
         problem = "кодировка не UTF-8 и не Windows-1251, cp866, KOI8-R или Mac"
         raise refused(path, problem, "сохраните как «CSV UTF-8»")
     return text
@@ -200,7 +200,7 @@ def _sheet_lines(cached: Worksheet, written: Worksheet) -> Iterator[RosterLine]:
     """Lines of a sheet with the saved values of its formulas."""
     for sheet in (cached, written):
         sheet.reset_dimensions()  # a claim of the file, and often a wrong one
-    edge = {"max_row": _MOST_ROWS, "max_col": _MOST_COLUMNS}
+    edge = {"max_row": _MAX_ROWS, "max_col": _MAX_COLUMNS}
     rows = (sheet.iter_rows(**edge) for sheet in (cached, written))
     for number, (values, sources) in enumerate(zip(*rows, strict=True), 1):
         faults = {

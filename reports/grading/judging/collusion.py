@@ -41,7 +41,7 @@ _WHOLE_FORMS = 24  # rare forms that hold by themselves though all are of one ma
 _RARE = 2.0  # bits of such a form
 _SPELT = 0.8  # share of the common forms that must be spelt alike for that
 _NEAR = 12.0  # bits from which works may be of one ring, before it is seen whose traits they are
-_RING, _LEAST_RING = 5, 4  # a ring is at most a fifth of a class; what more share is common
+_RING, _MIN_RING = 5, 4  # a ring is at most a fifth of a class; what more share is common
 _PAIR = 2
 _CLASS = 12  # students in whose class a form may be rare at all
 _FORMS_BESIDE = 8.0  # bits that forms add to other evidence at most
@@ -156,7 +156,7 @@ def _as_ring(
     What a whole subgroup has of its lecturer stays common: a ring is a small part of a class.
     """
     size = len({_owner(everyone[index]) for index in group})
-    if not _PAIR < size <= max(_LEAST_RING, count // _RING):
+    if not _PAIR < size <= max(_MIN_RING, count // _RING):
         return dict(evidence)
     inside = _owners([everyone[index] for index in group])
     outside = {key: n - max(0, inside.get(key, 0) - _PAIR) for key, n in owners.items()}

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from reports.grading.judging.judgement import Array, Judgement
 from reports.model.blocks import TableSpec
 
-_LEAST = 3  # values of an item that one of them is told distance from
+_MIN_VALUES = 3  # values of an item that one of them is told distance from
 
 
 def moved(right: Array, values: Array, by: int) -> Array:
@@ -33,7 +33,7 @@ def slips(judgement: Judgement, good: NDArray[np.bool_]) -> list[int]:
     rows = list(judgement.rows)
     ready = set(judgement.typed)
     wrong = [i for i in rows if np.isfinite(judgement.values[i]) and not (i in ready and good[i])]
-    few = len(good) >= _LEAST and 0 < len(rows) <= len(good) / 2
+    few = len(good) >= _MIN_VALUES and 0 < len(rows) <= len(good) / 2
     return rows if few and wrong == rows else []
 
 

@@ -41,7 +41,7 @@ WORDS = {
 PART = "part"  # block of the lines that a person marks: note, defence, sheet
 
 E = TypeVar("E")
-_MOST_LABELS = 8
+_MAX_LABELS = 8
 _ENOUGH, _SAME = 3, 1e-7  # of fewer wrong rows the values must be the very same
 _CLEAR = 50  # tolerances that a number has at least which tells its cause alone
 
@@ -64,7 +64,7 @@ def part_remark(names: Sequence[str]) -> str:
 
 def unread_remark(labels: Sequence[str]) -> str:
     """Tell what is said of a work some of whose items a person has to look at."""
-    return "не удалось проверить: " + ", ".join(labels[:_MOST_LABELS])
+    return "не удалось проверить: " + ", ".join(labels[:_MAX_LABELS])
 
 
 @dataclass(frozen=True)

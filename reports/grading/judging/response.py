@@ -31,7 +31,7 @@ Mask = NDArray[np.bool_]
 # What is said of a cell.
 RIGHT, ROUNDED, COARSE, PARTLY, STILL, WRONG, NOTHING, UNKNOWN, PASTED, IDLE = "prctsw-uli"
 _FEW = 2  # wrong rows of a formula that is right in the others
-_MOST = 0.5  # share of a column from which it is a list, or none
+_MAX_SHARE = 0.5  # share of a column from which it is a list, or none
 _NEARLY = 0.1  # of a change: digits that are left out do not make a list of a formula
 _INSIDE = 2e-3  # share of a column that roundings inside a formula may cost
 
@@ -321,12 +321,12 @@ class FormulaResponse:
             whole = bool(good[at].all())
             rounded = not whole and bool(fine[at].all())
             # One or two wrong rows cost their share; what is nought by itself proves nothing.
-            few = (~good)[at].sum() <= _FEW and (good & ~same)[at].mean() >= _MOST
+            few = (~good)[at].sum() <= _FEW and (good & ~same)[at].mean() >= _MAX_SHARE
             marks["formula"][at] = True
             marks["right"][at], marks["rounded"][at] = whole, rounded
             marks["few"][at] = few & good[at]
             marks["coarse"][at] = exact[at].all()
-            marks["moves"][at] = turn is not None and turn[1][at].mean() >= _MOST
+            marks["moves"][at] = turn is not None and turn[1][at].mean() >= _MAX_SHARE
             marks["listed"][at] = listed_run and made_up
         stands &= ~marks.pop("moves")
         # A friend's numbers fit exactly, too; what refers to nothing is numbers anyway.
@@ -336,7 +336,7 @@ class FormulaResponse:
                                     made_up=made_up)  # fmt: skip
         if (evidence.formula & (evidence.unsure | (evidence.follows & made_up))).any():
             turn = turn or self._turned(item, node)
-            return replace(evidence, own_rows=bool(turn[0].mean() >= _MOST))
+            return replace(evidence, own_rows=bool(turn[0].mean() >= _MAX_SHARE))
         return evidence
 
     def _runs_at(self, node: str, lists: set[int]) -> Iterator[tuple[list[int], bool]]:

@@ -8,7 +8,7 @@ from typing import ClassVar, TypeGuard
 
 from reports.formula.parse import SCALE_FUNCTIONS, parse
 
-_MOST_FACTORS = 3  # round a sum, of which each may be on either side
+_MAX_FACTORS = 3  # round a sum, of which each may be on either side
 LEAST = 2  # exponent, below which there is no power
 
 
@@ -75,7 +75,7 @@ def loose(tree: ast.expr, text: str) -> Iterator[ast.expr]:
     yield parse(ast.unparse(tree).replace(f"({text})", text, 1))
     parts = _product(tree)
     others = [part for part in parts if ast.unparse(part) != text]
-    if len(others) != len(parts) - 1 or len(others) > _MOST_FACTORS:
+    if len(others) != len(parts) - 1 or len(others) > _MAX_FACTORS:
         return
     for right in range(2 ** len(others)):
         before = [part for at, part in enumerate(others) if not right >> at & 1]

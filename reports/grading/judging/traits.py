@@ -28,11 +28,11 @@ from reports.workbook.layout import Layout
 FORM, SLIP, ERROR, IDLE, HELPER, TEXT, LAYOUT, NAME = (
     "form", "slip", "error", "idle", "helper", "text", "layout", "name",
 )  # fmt: skip
-_MOST_HELPERS = 300  # runs outside the tables that are looked at
+_MAX_HELPERS = 300  # runs outside the tables that are looked at
 _LONGEST = 300  # signs of a formula that a person compares
 _PASTED = 6  # formulas of the program on a sheet that green cells only refer to
 _TELLING = 6  # tokens of a formula that may tell who wrote it
-_MOST_NAMES = 100  # sets of names for which trees are kept
+_MAX_NAMES = 100  # sets of names for which trees are kept
 Names = frozenset[tuple[str, tuple[str, int, int]]]
 _PLAIN_TITLES = ("лист", "sheet", "таблица")
 _ISSUED_NAMES = ("col_", "cell_", "_xlnm", "_xlfn", "_xlpm", "kshm", "print_", "_filter")
@@ -188,7 +188,7 @@ class OwnFormulas:
         grid = self.student.grid
         areas = ((name, (a.sheet, a.first_row, a.first_column)) for name, a in grid.areas.items())
         names = frozenset((*grid.names.items(), *areas))
-        if len(self.book.names_of) > _MOST_NAMES:  # a class must not fill the memory
+        if len(self.book.names_of) > _MAX_NAMES:  # a class must not fill the memory
             self.book.names_of.clear()
             self.book.known.clear()
         return self.book.names_of.setdefault(names, names)
@@ -201,7 +201,7 @@ class OwnFormulas:
             for run in self.student.grid.runs()
             if run.formula is not None and self.node_at(run.sheet, run.first, run.column) is None
         )
-        return [run for run, _ in zip(runs, range(_MOST_HELPERS), strict=False)]
+        return [run for run, _ in zip(runs, range(_MAX_HELPERS), strict=False)]
 
 
 def traits_of(formulas: OwnFormulas, lines: Sequence[Mapping[str, Any]]) -> list[Trait]:
@@ -279,7 +279,7 @@ def _name_traits(formulas: OwnFormulas) -> list[Trait]:
         (NAME, "", digest(name), digest(name), "")
         for name in sorted(names)
         if len(name) > 1 and not name.startswith(_ISSUED_NAMES)
-    ][:_MOST_HELPERS]
+    ][:_MAX_HELPERS]
 
 
 def _main(runs: Sequence[Run]) -> Run | None:

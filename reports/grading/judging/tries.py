@@ -18,7 +18,7 @@ from reports.grading.reading.student import StudentBook
 from reports.shared.russian import plural
 
 Spelling = tuple[str, str]  # digests of an item's formulas without their numbers, of these numbers
-_NOTHING: Spelling = ("", "")
+_NO_SPELLING: Spelling = ("", "")
 _FEW = 2  # items that change between two tries of one who tries values
 _AGAIN, _ALONE = 2, 3  # pairs of tries in which the same item changes, in which only one does
 _NAMED = 4
@@ -114,6 +114,6 @@ def _changed(before: Work, after: Work) -> Iterator[tuple[str, bool]]:
     """Items that were filled in before and are otherwise now, and whether by numbers alone."""
     earlier = {entry.id: entry.spelling for entry in before.items}
     for entry in after.items:
-        was = earlier.get(entry.id, _NOTHING)
-        if _NOTHING not in (was, entry.spelling) and was != entry.spelling:
+        was = earlier.get(entry.id, _NO_SPELLING)
+        if _NO_SPELLING not in (was, entry.spelling) and was != entry.spelling:
             yield entry.id, was[0] == entry.spelling[0]

@@ -26,7 +26,7 @@ from reports.workbook.cell_patch import Value, with_cells
 from reports.workbook.intake import check_data
 
 MAX_BYTES = 20_000_000
-_MOST_ROWS = 2000
+_MAX_ROWS = 2000
 Row = Mapping[str, Any]
 
 
@@ -107,7 +107,7 @@ def _places(
     """Row of the form for each student, and who is not in it."""
     sheet = form.sheet
     column = column_index_from_string(letters or "B")
-    last = min(sheet.max_row, first + _MOST_ROWS)
+    last = min(sheet.max_row, first + _MAX_ROWS)
     named = {at: str(sheet.cell(at, column).value or "").strip() for at in range(first, last + 1)}
     named = {at: name for at, name in named.items() if any(map(str.isalpha, name))}
     if not named:

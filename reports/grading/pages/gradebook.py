@@ -29,7 +29,7 @@ _WIDTHS = (3.2, 20.0, 7.0, 5.0, 11.0)  # in digits of the default font, for lett
 _TABLE = 4.2  # width of a table's points
 _SIZE_PT, _PAGE = 5.6, 142.0  # size of the letters, width of a page
 _HEAD_PT, _PAGE_PT = 56.0, 538.0  # heights: of the titles, of a page without margins
-_LEAST_PT, _MOST_PT = 6.8, 13.0  # height of a row
+_MIN_PT, _MAX_PT = 6.8, 13.0  # height of a row
 _LARGE = 42  # students on one page; more take two, as many as these hold
 
 
@@ -232,7 +232,7 @@ def add_printed(
     sheet = book.create_sheet(TITLE)
     sheet.append([*_PRINTED, *(block.removeprefix("Таблица ") for block in blocks)])
     on_page = len(rows) if len(rows) <= _LARGE else -(-len(rows) // 2)
-    height = min(_MOST_PT, max(_LEAST_PT, (_PAGE_PT - _HEAD_PT) / max(1, on_page)))
+    height = min(_MAX_PT, max(_MIN_PT, (_PAGE_PT - _HEAD_PT) / max(1, on_page)))
     for row, of in zip(rows, shares, strict=True):
         sheet.append([row["number"], row["student"], row["group"], row["points"], row["status"],
                       *(of.get(block) for block in blocks)])  # fmt: skip
@@ -265,7 +265,7 @@ def add_printed(
     sheet.freeze_panes = sheet.cell(2, 3)
     sheet.page_setup.orientation, sheet.page_setup.paperSize = "landscape", sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = 1
-    fits = on_page * _LEAST_PT <= _PAGE_PT - _HEAD_PT
+    fits = on_page * _MIN_PT <= _PAGE_PT - _HEAD_PT
     sheet.page_setup.fitToHeight = (1 if on_page == len(rows) else 2) if fits else 0
     sheet.sheet_properties.pageSetUpPr.fitToPage = True
     sheet.print_title_rows = "1:1"

@@ -23,7 +23,7 @@ from reports.shared.russian import capital
 _COLOURS = {RIGHT: "D5EBDD", CARRIED: "FBE9C4", TYPED: "FBE9C4", UNKNOWN: "DDDEF5"}
 _WRONG = "F6CBCE"
 _AUTHOR = "Проверка"
-_MOST_CELLS = 20_000
+_MAX_CELLS = 20_000
 _SIDE = (320, 170)  # px of a comment
 
 
@@ -31,7 +31,7 @@ def marked_copy(data: bytes, result: dict[str, Any], rubric: Rubric) -> bytes:
     """Return the book with its cells coloured by verdict and a comment at each column."""
     with warnings.catch_warnings(action="ignore"):  # of what a copy does not need
         book = load_workbook(io.BytesIO(data), rich_text=True)
-    left, looks = _MOST_CELLS, dict[tuple[Any, ...], Any]()
+    left, looks = _MAX_CELLS, dict[tuple[Any, ...], Any]()
     for line in result["items"]:
         colour = _COLOURS.get(line["verdict"], _WRONG)
         for index, area in enumerate(line["where"] or line.get("at", ())):

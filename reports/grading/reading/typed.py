@@ -18,7 +18,7 @@ TEXT_FORMULA = "формула записана текстом: таблица �
 DATE = "вместо числа стоит дата: 1.5 таблица приняла за первое мая"
 
 _EARLIEST = 10_000  # as dates are counted, May of 1927: what «5.27» becomes
-_DIGITS, _MOST_DIGITS = 4, 300  # of a text that carries a number: titles have fewer
+_DIGITS, _MAX_DIGITS = 4, 300  # of a text that carries a number: titles have fewer
 _LONG = 100  # signs of a text that may be counted
 _PLAIN = str.maketrans({"\u00a0": " ", "\u202f": " ", "\u2009": " ", "−": "-", "–": "-"})
 _NUMBER = re.compile(
@@ -43,7 +43,7 @@ def carried(value: object) -> float | None:
     digits = "".join(filter(str.isdecimal, value))
     if len(digits) >= _DIGITS:
         number = number_of(value)
-        return float(digits[:_MOST_DIGITS]) if number is None else number
+        return float(digits[:_MAX_DIGITS]) if number is None else number
     return len(value) + 0.5 if len(value) >= _LONG else None  # not whole: no angle
 
 

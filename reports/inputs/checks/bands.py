@@ -271,7 +271,7 @@ POWER = Band("regime.indicated_power_kw", "", "N_i к работе диагра�
 MEAN_PRESSURE = Band("gas.max_pressure_mpa", "", "p_i диаграммы", 0.2, 3.5, unit="МПа")
 MEAN_PRESSURE_OF_POWER = Band("regime.indicated_power_kw", "", "p_i по N_i", 0.3, 2.9, unit="МПа")
 POINTS = _doubtful("combustion.p_z", "gas.points", "", "наибольшее давление", unit="МПа")
-LEAST_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
+MIN_POINT = Band("gas.points", "", "наименьшее давление", 0.02, 0.4, unit="МПа")
 TRACE_COMPRESSION = _doubtful("compression.n_1", "gas.points", "", "показатель сжатия по точкам")
 TRACE_EXPANSION = Band("gas.points", "", "показатель расширения по точкам", 1.0, 1.6)
 THROW_INERTIA = Band("torsion.throws_kg_m2", "", "J/(F_п r²) на шатун", 200, 1950, unit="кг/м²")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from kshm.engine.arrangement import rods_beside
-from kshm.engine.bearings import LEAST_WIDTH, MOST_WIDTH
+from kshm.engine.bearings import MAX_WIDTH, MIN_WIDTH
 from reports.inputs.checks.layout import arrangement_given
 from reports.inputs.findings import Finding, ValidValues, journal_sizes
 from reports.inputs.units import number_text, span_text
@@ -46,7 +46,7 @@ def _widths(
         land = (stated or length / rods) - groove
         share = land / (2 if groove else 1) / d
         hole = values.get("bearings", "hole_mm") or 0
-        if (land <= hole and not groove) or not LEAST_WIDTH <= share <= MOST_WIDTH:
+        if (land <= hole and not groove) or not MIN_WIDTH <= share <= MAX_WIDTH:
             problem = (
                 f"ширина {_WORDS[part]} подшипника к диаметру B/d = {number_text(round(share, 3))}:"
                 " формулы масляной плёнки для неё не проверены"
@@ -54,7 +54,7 @@ def _widths(
             path = ("bearings", f"{part}_{'width' if stated is not None else 'groove'}_mm")
             if stated is None and not groove:
                 path = ("crankshaft", f"{part}_diameter_mm")
-            hint = f"нужно {span_text(LEAST_WIDTH, MOST_WIDTH)} и шире масляного отверстия"
+            hint = f"нужно {span_text(MIN_WIDTH, MAX_WIDTH)} и шире масляного отверстия"
             yield Finding(path, problem, hint)
             return
 

@@ -20,7 +20,7 @@ from reports.inputs.fields import Path
 from reports.inputs.findings import Finding, ValidValues, check_accepted, radius_and_rod
 from reports.inputs.sections.gas import BOOST, BOOST_EXTRA, OWN_FUEL
 from reports.inputs.sections.input_file import LAMBDA_MAX, LAMBDA_MIN
-from reports.inputs.sections.report import MOST_LAMBDAS
+from reports.inputs.sections.report import MAX_LAMBDAS
 from reports.inputs.units import is_within, number_text, span_text
 
 _DESIGN = ("stroke_bore", "size_step_mm", "rounding")
@@ -114,8 +114,8 @@ def _groups(values: ValidValues) -> Iterator[Finding]:
 def check_reference(values: ValidValues) -> Iterator[Finding]:
     """Yield errors in the list of λ."""
     count = values.counts.get(("reference", "lambdas"))
-    if count is not None and not 1 <= count <= MOST_LAMBDAS:
-        problem = f"значений {count}, а нужно от 1 до {MOST_LAMBDAS}"
+    if count is not None and not 1 <= count <= MAX_LAMBDAS:
+        problem = f"значений {count}, а нужно от 1 до {MAX_LAMBDAS}"
         yield Finding(("reference", "lambdas"), problem, "исправьте список")
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate, combinations
 
 from kshm.engine.arrangement import (
-    MOST_GAP,
+    MAX_GAP,
     Arrangement,
     firing_gap,
     pin_counts,
@@ -27,11 +27,11 @@ from reports.inputs.units import number_text
 ANGLE_TOLERANCE_DEG = 0.01
 # Fillets and rounded sizes of real shafts make main journals up to 13 % longer than the arms
 # leave; a crankpin stands between two webs.
-_MOST_OVER, _MOST_OVER_PIN = 1.25, 1.02
+_MAX_OVER, _MAX_OVER_PIN = 1.25, 1.02
 # A pin's length that is told of one rod: the arms leave the rest of the rods their room, and
 # what a rod would have of it over the diameter is less than a shaft has.
-_ROOM_OF_OTHERS, _LEAST_SHARE = 0.8, RANGES["pin_length"].of()[0]
-_MOST_OFFSET = RANGES["offset"].doubtful[""][1]
+_ROOM_OF_OTHERS, _MIN_SHARE = 0.8, RANGES["pin_length"].of()[0]
+_MAX_OFFSET = RANGES["offset"].doubtful[""][1]
 _SAME_AXIS = 1e-6  # [rad]
 Fitted = tuple[Path, float, float]  # place in the file, length, room for it [mm]
 
@@ -173,7 +173,7 @@ def _phases(values: ValidValues) -> Iterator[Finding]:
 def _unfilled(offsets: Sequence[float], period: float) -> Iterator[Finding]:
     """Yield a finding where the firings leave much of the cycle without one."""
     gap, mean = firing_gap(offsets, period)
-    if gap > MOST_GAP * mean and max(offsets) < period:
+    if gap > MAX_GAP * mean and max(offsets) < period:
         problem = (
             f"вспышки не заполняют цикл: наибольший промежуток {number_text(gap)}°, "
             f"средний {number_text(round(mean, 6))}°"
@@ -247,7 +247,7 @@ def _offset(values: ValidValues) -> Iterator[Finding]:
         )
         hint = "задайте радиус кривошипа crank_radius_mm"
         yield Finding(("geometry", "stroke_mm"), problem, hint, warning=True)
-    if abs(offset) > _MOST_OFFSET * radius:
+    if abs(offset) > _MAX_OFFSET * radius:
         problem = (
             f"относительное смещение k = e/r = {number_text(round(offset / radius, 4))} необычно"
         )
@@ -290,9 +290,9 @@ def _articulated(values: ValidValues) -> Iterator[Finding]:
 def check_room(model: InputFile, accepted: Keys) -> Iterator[Finding]:
     """Yield journals and pins longer than the arms of their throws allow."""
     parts = max(pin_counts(arrangement_of(model)))
-    yield from _tight(_mains(model), "l1, l6", _MOST_OVER, accepted=accepted)
+    yield from _tight(_mains(model), "l1, l6", _MAX_OVER, accepted=accepted)
     pins = ((path, length, room / parts) for path, length, room, _ in _pins(model))
-    yield from _tight(pins, "l2…l5", _MOST_OVER_PIN, "половина шейки" if parts > 1 else "шейка")
+    yield from _tight(pins, "l2…l5", _MAX_OVER_PIN, "половина шейки" if parts > 1 else "шейка")
 
 
 def _tight(
@@ -323,7 +323,7 @@ def check_one_rod(model: InputFile, accepted: Keys) -> Iterator[Finding]:
         for entry in _pins(model)
         if rods > 1
         and entry[2] >= _ROOM_OF_OTHERS * rods * entry[1]
-        and entry[1] / rods < _LEAST_SHARE * entry[3]
+        and entry[1] / rods < _MIN_SHARE * entry[3]
     ]
     for (path, length, room, diameter), *_ in in_lines(short, accepted):
         share = length / rods

@@ -27,7 +27,7 @@ from reports.inputs.sections.input_file import InputFile, Regime
 from reports.inputs.to_si.masses import Sizes
 from reports.inputs.units import is_within, number_text
 
-_MOST_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
+_MAX_OFF = 0.5  # share of the sizes that disagree with the bore when the bore is wrong
 # --- a key against its band ---
 Tested = tuple[Path, Band, float]
 
@@ -45,7 +45,7 @@ def check_plausibility(
     ratio = list(_stroke(model, sizes))
     found_by_power = getattr(model.geometry, "bore_mm", None) is None
     bore = _wrong_bore(model, sizes, len(off), len(all_sizes))
-    wrong_bore = bool(ratio or found_by_power) and len(off) > _MOST_OFF * len(all_sizes)
+    wrong_bore = bool(ratio or found_by_power) and len(off) > _MAX_OFF * len(all_sizes)
     if wrong_bore:
         yield bore
         wrong_bore = key_text(bore.path) not in accepted
@@ -295,7 +295,7 @@ def _points(gas: TableGasSection, path: Path) -> Iterator[Finding]:
     pressures = [float(pressure) for _, pressure in gas.points]
     here = (*path, "points")
     highest = _judged((*here, pressures.index(max(pressures))), bands.POINTS, max(pressures))
-    lowest = _judged((*here, pressures.index(min(pressures))), bands.LEAST_POINT, min(pressures))
+    lowest = _judged((*here, pressures.index(min(pressures))), bands.MIN_POINT, min(pressures))
     findings = [*highest, *lowest]
     yield from findings
     named = {finding.path for finding in findings}

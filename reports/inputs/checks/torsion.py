@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from kshm.engine.torsion import MOST_MASSES
+from kshm.engine.torsion import MAX_MASSES
 from reports.inputs.checks import bands
 from reports.inputs.checks.bands import Band
 from reports.inputs.fields import Path
@@ -48,8 +48,8 @@ def check_torsion(values: ValidValues) -> Iterator[Finding]:
 
 
 def _train(masses: Sequence[MassSection], throws: int | None) -> Iterator[Finding]:
-    if not 2 <= len(masses) <= MOST_MASSES:
-        problem = f"масс {len(masses)}, а нужно от 2 до {MOST_MASSES}"
+    if not 2 <= len(masses) <= MAX_MASSES:
+        problem = f"масс {len(masses)}, а нужно от 2 до {MAX_MASSES}"
         yield Finding(("torsion", "masses"), problem, "исправьте записи [[torsion.masses]]")
     for index, mass in enumerate(masses[:-1]):
         if mass.stiffness_nm_rad == 0:

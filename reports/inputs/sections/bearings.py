@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from kshm.engine.bearings import Bearings, Oil, Strength
-from reports.inputs.meta import USUAL, Strictly, choice, named, number
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number
 from reports.inputs.units import CELSIUS, J_KG_K, KG_M3, MM, MPA, MPA_S, NONE, UM
 
 MEMORY = "по памяти, без источника"
@@ -58,7 +58,7 @@ OIL_NAMES = {key: oil.label for key, oil in OILS.items()}
 MATERIAL_NAMES = {key: material.label for key, material in MATERIALS.items()}
 
 
-class BearingsSection(Strictly, usual=(Bearings, Oil, Strength)):
+class BearingsSection(StrictModel, usual=(Bearings, Oil, Strength)):
     """[bearings]: a key that is not given follows from a rule, which the workbook names."""
 
     pin_clearance_min_mm: float | None = number(

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 from kshm.engine.counterweight import Counterweight
-from reports.inputs.meta import USUAL, Strictly, choice, named, number
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number
 from reports.inputs.units import KG_M3, MM, NONE
 
 GOALS = {"loads": "нагрузка коренных шеек", "residue": "остаток первого порядка"}
 
 
-class CounterweightSection(Strictly, usual=(Counterweight,)):
+class CounterweightSection(StrictModel, usual=(Counterweight,)):
     """[counterweight]: a size that is not given follows from the mechanism."""
 
     goal: Literal["loads", "residue"] = choice("Цель противовесов", GOALS, USUAL, structural=True)

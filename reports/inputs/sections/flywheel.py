@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 from kshm.engine.flywheel import Flywheel
-from reports.inputs.meta import USUAL, Strictly, choice, named, number
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number
 from reports.inputs.units import MM, NONE
 
 FLYWHEELS = {"iron": "чугун", "steel": "сталь"}
 
 
-class FlywheelSection(Strictly, usual=(Flywheel,)):
+class FlywheelSection(StrictModel, usual=(Flywheel,)):
     """[flywheel]: a size that is not given follows from the stroke."""
 
     material: Literal["iron", "steel"] = choice(

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Strict
 
 from kshm.cycle.inputs import LIMITS, CycleInputs
-from reports.inputs.meta import USUAL, Meta, Strictly, choice, named, number, title_of
+from reports.inputs.meta import USUAL, Meta, StrictModel, choice, named, number, title_of
 from reports.inputs.units import (
     DEG,
     KELVIN,
@@ -82,7 +82,7 @@ def _limited(title: str, symbol: str, unit: InputUnit, field: str, default: obje
     return number(title, symbol, unit, low, high, default, solver=field)
 
 
-class CycleSection(Strictly, usual=(CycleInputs,)):
+class CycleSection(StrictModel, usual=(CycleInputs,)):
     """[cycle]: the engine of appendix 2 of Gots, its regime and the wanted power."""
 
     kind: Literal["diesel", "petrol"] = choice("Вид двигателя", KINDS, structural=True)
@@ -176,7 +176,7 @@ class CycleSection(Strictly, usual=(CycleInputs,)):
     )
 
 
-class _Ambient(Strictly):
+class _Ambient(StrictModel):
     """Keys of every source."""
 
     source: Annotated[str, _SOURCE]
@@ -256,7 +256,7 @@ class CycleGasSection(_DinnAngles):
     )
 
 
-class _Kind(Strictly):
+class _Kind(StrictModel):
     """Kind of engine, ahead of its pressures."""
 
     source: Annotated[str, _ROUNDED]

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field, SerializeAsAny
 
-from reports.inputs.meta import Strictly, borrowed, choice, named, number, text
+from reports.inputs.meta import StrictModel, borrowed, choice, named, number, text
 from reports.inputs.sections.bearings import BearingsSection
 from reports.inputs.sections.counterweight import CounterweightSection
 from reports.inputs.sections.flywheel import FlywheelSection
@@ -46,7 +46,7 @@ STROKES = {"4": "4", "2": "2"}
 _PROTOTYPE = "Прототип"
 
 
-class EngineSection(Strictly):
+class EngineSection(StrictModel):
     """[engine]."""
 
     name: str = text("Название двигателя", "Двигатель")
@@ -62,7 +62,7 @@ class EngineSection(Strictly):
     strokes: Literal[4, 2] = choice("Тактность", STROKES, 4, structural=True, symbol="τ")
 
 
-class Calculation(Strictly):
+class Calculation(StrictModel):
     """[calculation]: method and grid."""
 
     method: Literal["textbook", "exact"] = choice("Метод расчёта", METHODS, "textbook")
@@ -75,7 +75,7 @@ class Calculation(Strictly):
     )
 
 
-class GeometrySection(Strictly):
+class GeometrySection(StrictModel):
     """[geometry]: any two of r (or S = 2r), L and λ; three if they agree.
 
     With an offset S is still twice the radius; the piston's way is a little longer.
@@ -108,7 +108,7 @@ class GeometrySection(Strictly):
         return bool(self.crank_offset_mm or self.pin_offset_mm)
 
 
-class DesignGeometrySection(Strictly):
+class DesignGeometrySection(StrictModel):
     """[geometry] of an engine whose bore and stroke follow from the wanted power."""
 
     lambda_: float = number(
@@ -122,7 +122,7 @@ class DesignGeometrySection(Strictly):
     compression_ratio: float = number("Степень сжатия", "ε", NONE, 2, 50)
 
 
-class Regime(Strictly):
+class Regime(StrictModel):
     """[regime]."""
 
     name: str | None = text("Название режима", None)
@@ -148,7 +148,7 @@ class RegimeSection(RegimeValues):
     gas: Annotated[GasSection, Field(discriminator="source")]
 
 
-class PrototypeSection(Strictly):
+class PrototypeSection(StrictModel):
     """[prototype]: the engine that the report's one is held against: a file, or its main values."""
 
     name: str = text(f"{_PROTOTYPE}: название", "")
@@ -173,7 +173,7 @@ class PrototypeSection(Strictly):
     main_diameter_mm: float | None = borrowed(CrankshaftSection, "main_diameter_mm", _PROTOTYPE)
 
 
-class InputFile(Strictly):
+class InputFile(StrictModel):
     """The whole input file in user units."""
 
     report: ReportSection = Field(default_factory=ReportSection)
@@ -199,7 +199,7 @@ class InputFile(Strictly):
     checks: ChecksSection | None = None
     regimes: tuple[RegimeSection, ...] = ()
     books: tuple[tuple[str, str], ...] = ()  # names and texts of own books
-    own: SerializeAsAny[Strictly] | None = None  # their sections
+    own: SerializeAsAny[StrictModel] | None = None  # their sections
 
     @property
     def web_sections(self) -> dict[str, BaseModel]:

@@ -12,11 +12,11 @@ from typing import Annotated, Literal
 from pydantic import Strict, model_validator
 
 from kshm.engine.engine import Balancing
-from reports.inputs.meta import USUAL, Strictly, choice, named, number, text, title_of
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number, text, title_of
 from reports.inputs.sections.gas import KINDS
 from reports.inputs.units import DEG, KG, KG_M2, KG_PER_M2, MM, NONE, PER_MIN
 
-LEAST_KG, MOST_KG = 0.0001, 50_000  # from a model of 10 mm to a crosshead engine of a metre
+MIN_KG, MAX_KG = 0.0001, 50_000  # from a model of 10 mm to a crosshead engine of a metre
 PISTONS = {"aluminium": "алюминиевый сплав", "iron": "чугун"}
 SHAFTS = {"steel": "стальной кованый", "iron": "чугунный литой"}
 WEIGHED = ("rod_weighed_small_end_kg",)
@@ -37,23 +37,23 @@ ESTIMATE_EXTRA = (
 _SHARES = {"counterweight_share", "first_shafts_share", "second_shafts_share"}
 
 
-class MassesSection(Strictly):
+class MassesSection(StrictModel):
     """[masses]: m_j and m_2, or the piston group, the rod and its centre of mass."""
 
     reciprocating_kg: float | None = number(
-        "Масса возвратно-поступательно движущихся деталей", "m_j", KG, LEAST_KG, MOST_KG, None
+        "Масса возвратно-поступательно движущихся деталей", "m_j", KG, MIN_KG, MAX_KG, None
     )
     rod_big_end_kg: float | None = number(
-        "Масса шатуна, отнесённая к кривошипу", "m_2", KG, LEAST_KG, MOST_KG, None
+        "Масса шатуна, отнесённая к кривошипу", "m_2", KG, MIN_KG, MAX_KG, None
     )
-    piston_group_kg: float | None = number(*named("m_piston"), KG, LEAST_KG, MOST_KG, None)
-    rod_kg: float | None = number(*named("m_rod"), KG, LEAST_KG, MOST_KG, None)
+    piston_group_kg: float | None = number(*named("m_piston"), KG, MIN_KG, MAX_KG, None)
+    rod_kg: float | None = number(*named("m_rod"), KG, MIN_KG, MAX_KG, None)
     rod_centre_mm: float | None = number(*named("rod_l1"), MM, 1, 6000, None)
     rod_small_end_share: float | None = number(
         "Доля массы шатуна у поршневого пальца", "m_1/m_ш", NONE, 0.02, 0.8, None
     )
     rod_weighed_small_end_kg: float | None = number(
-        "Показание весов под поршневой головкой", "m_1", KG, LEAST_KG, MOST_KG, None
+        "Показание весов под поршневой головкой", "m_1", KG, MIN_KG, MAX_KG, None
     )
     swings_small_end_per_min: float | None = number(
         "Качаний в минуту на поршневой головке", "n_A", PER_MIN, 1, 2000, None,
@@ -95,7 +95,7 @@ class MassesSection(Strictly):
     )  # fmt: skip
 
 
-class ArticulatedSection(Strictly):
+class ArticulatedSection(StrictModel):
     """[articulated]: the right bank's rods hang on the master rods, Gots figure 2 в."""
 
     rod_length_mm: float = number("Прицепной шатун: длина", "L_п", MM, 5, 6000)
@@ -106,26 +106,26 @@ class ArticulatedSection(Strictly):
         "Прицепной шатун: угол пальца от оси главного шатуна по вращению", "γ_п", DEG, -180, 180
     )
     reciprocating_kg: float = number(
-        "Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, LEAST_KG, MOST_KG
+        "Прицепной шатун: возвратно-движущаяся масса цилиндра", "m_jп", KG, MIN_KG, MAX_KG
     )
     big_end_kg: float = number(
-        "Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, MOST_KG
+        "Прицепной шатун: масса, отнесённая к его пальцу", "m_2п", KG, 0, MAX_KG
     )
 
 
-class WebSection(Strictly):
+class WebSection(StrictModel):
     """[[crankshaft.webs]]: a web and its counterweight; masses reduced to the crank radius."""
 
-    mass_kg: float | None = number("Щека {n}: приведённая масса", "m_щ{n}", KG, 0, MOST_KG, None)
+    mass_kg: float | None = number("Щека {n}: приведённая масса", "m_щ{n}", KG, 0, MAX_KG, None)
     actual_mass_kg: float | None = number(
-        "Щека {n}: действительная масса", "m_щ{n}", KG, 0, MOST_KG, None
+        "Щека {n}: действительная масса", "m_щ{n}", KG, 0, MAX_KG, None
     )
     centre_mm: float | None = number("Щека {n}: радиус центра масс", "ρ_{n}", MM, -2000, 2000, None)
     angle_deg: float = number(
         "Щека {n}: угол против вращения от кривошипа", "α_щ{n}", DEG, -360, 360, 0.0
     )
     counterweight_kg: float = number(
-        "Щека {n}: приведённая масса противовеса", "m_пр{n}", KG, 0, MOST_KG, 0.0,
+        "Щека {n}: приведённая масса противовеса", "m_пр{n}", KG, 0, MAX_KG, 0.0,
         solver="counterweight_mass",
     )  # fmt: skip
     counterweight_angle_deg: float = number(
@@ -134,7 +134,7 @@ class WebSection(Strictly):
     )  # fmt: skip
 
 
-class ArmsSection(Strictly):
+class ArmsSection(StrictModel):
     """[[crankshaft.arms]]: the chain of lengths of one throw, Gots figure 35."""
 
     l1_mm: float = number("Колено {n}: плечо l1", "l_1", MM, 0, 5000)
@@ -147,7 +147,7 @@ class ArmsSection(Strictly):
     right_web_mm: float = number("Колено {n}: толщина правой щеки", "h_П", MM, 0, 2000, 0.0)
 
 
-class CrankshaftSection(Strictly):
+class CrankshaftSection(StrictModel):
     """[crankshaft]: phases, journals, end masses, webs and arms, counted from the nose.
 
     ``firing_order`` is a way to write the offsets: `reports.inputs.firing` puts them, and
@@ -186,21 +186,21 @@ class CrankshaftSection(Strictly):
         "Коренная шейка {n}: рабочая длина", "l_к.ш{n}", MM, 1, 2000
     )
     pin_mass_kg: float | None = number(
-        "Приведённая масса шатунной шейки", "m_ш.ш", KG, 0, MOST_KG, None
+        "Приведённая масса шатунной шейки", "m_ш.ш", KG, 0, MAX_KG, None
     )
     oil_hole_deg: float | None = number(
         "Масляное отверстие шатунной шейки: угол от колена против вращения", "α_м", DEG, -360, 360,
         None,
     )  # fmt: skip
     nose_mass_kg: float = number(
-        "Внешний противовес на носке: приведённая масса", "m_вп1", KG, 0, MOST_KG, 0.0
+        "Внешний противовес на носке: приведённая масса", "m_вп1", KG, 0, MAX_KG, 0.0
     )
     nose_angle_deg: float = number(
         "Противовес на носке: угол по вращению от колена 1", "α_вп1", DEG, -360, 360, 0.0
     )
     nose_arm_mm: float = number("Плечо противовеса на носке PL1", "l_p1", MM, 0, 5000, 0.0)
     rear_mass_kg: float = number(
-        "Внешний противовес сзади: приведённая масса", "m_вп2", KG, 0, MOST_KG, 0.0
+        "Внешний противовес сзади: приведённая масса", "m_вп2", KG, 0, MAX_KG, 0.0
     )
     rear_angle_deg: float = number(
         "Противовес сзади: угол против вращения от последнего колена", "α_вп2", DEG, -360, 360, 0.0
@@ -213,7 +213,7 @@ class CrankshaftSection(Strictly):
     arms: Annotated[tuple[ArmsSection, ...], Strict(False)]
 
 
-class BalanceSection(Strictly, usual=(Balancing,)):
+class BalanceSection(StrictModel, usual=(Balancing,)):
     """[balance]: every key has a default, a change takes effect in the open workbook."""
 
     counterweight_share: float = number(

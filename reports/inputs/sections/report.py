@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict
 
-from reports.inputs.meta import Meta, Strictly, choice, number, text
+from reports.inputs.meta import Meta, StrictModel, choice, number, text
 from reports.inputs.units import DEG, NONE
 
 DETAILS = {
@@ -94,7 +94,7 @@ USUAL = ("pv", "p_phi", "forces", "side", "crank", "torque", "pin_polar", "pin_l
 SHEETS = {"A1": "A1, 841 × 594 мм", "A2": "A2, 594 × 420 мм"}
 WAYS = {"landscape": "альбомная", "portrait": "книжная"}
 SHEET_SETS = {"course": "листы курсового проекта", "full": "все листы"}
-MOST_LAMBDAS = 12
+MAX_LAMBDAS = 12
 BOOK_LAMBDAS = tuple(round(1 / value, 6) for value in (3.2, 3.4, 3.6, 3.8, 4.0, 4.2))
 # Checks of the calculation, besides the keys of the file that `check` warns of.
 CHECKS = (
@@ -107,7 +107,7 @@ def _this_year() -> int:
     return datetime.now(tz=UTC).year
 
 
-class ReportSection(Strictly):
+class ReportSection(StrictModel):
     """[report]: title page, assignment sheet, title block, manner of setting."""
 
     student: str = text("Студент", "")
@@ -136,7 +136,7 @@ class ReportSection(Strictly):
     books: tuple[str, ...] | None = text("Своя книга {n}", None)
 
 
-class SheetSection(Strictly):
+class SheetSection(StrictModel):
     """[sheet]: size of the sheet and what stands on it."""
 
     size: Literal["A1", "A2"] = choice("Формат листа", SHEETS, "A1")
@@ -144,7 +144,7 @@ class SheetSection(Strictly):
     diagrams: tuple[Diagram, ...] | None = choice("Лист: место {n}", DIAGRAMS, None)
 
 
-class WorkbookSection(Strictly):
+class WorkbookSection(StrictModel):
     """[workbook]: which sheets the Excel workbook has."""
 
     sheets: Literal["course", "full"] = choice(
@@ -152,7 +152,7 @@ class WorkbookSection(Strictly):
     )
 
 
-class ReferenceSection(Strictly):
+class ReferenceSection(StrictModel):
     """[reference]: with it come the sheets of tables 1-3 and 5-8 and figures 3-10."""
 
     lambdas: tuple[float, ...] = number(
@@ -163,14 +163,14 @@ class ReferenceSection(Strictly):
     )
 
 
-class AcceptedEntry(Strictly):
+class AcceptedEntry(StrictModel):
     """[[checks.accepted]]: a check or a key, and why its failure or oddity is right."""
 
     what: str = text("Принято {n}: проверка или ключ")
     reason: str = text("Принято {n}: причина")
 
 
-class ChecksSection(Strictly):
+class ChecksSection(StrictModel):
     """[checks]."""
 
     accepted: Annotated[tuple[AcceptedEntry, ...], Strict(False)]

@@ -7,7 +7,7 @@ from typing import Literal
 
 from kshm.engine.strength import PartStrength
 from kshm.ranges import PART_SHARES
-from reports.inputs.meta import USUAL, Strictly, choice, named, number
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number
 from reports.inputs.units import CELSIUS, DEG, KELVIN, KG, MM, MPA, NONE, UM
 
 KINDS = {"petrol": "с искровым зажиганием", "diesel": "дизель"}
@@ -48,7 +48,7 @@ def _size(key: str) -> float | None:
     return number(*named(f"st_{key}_mm"), MM, 0.05, 3000, None)  # type: ignore[no-any-return]
 
 
-class StrengthSection(Strictly, usual=(PartStrength,)):
+class StrengthSection(StrictModel, usual=(PartStrength,)):
     """[strength]: a size that is not given is its usual share, which the workbook names."""
 
     kind: Literal["petrol", "diesel"] = choice("Вид двигателя", KINDS, USUAL, structural=True)

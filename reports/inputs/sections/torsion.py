@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Strict
 
 from kshm.engine.torsion import Torsion
-from reports.inputs.meta import USUAL, Strictly, choice, named, number, text
+from reports.inputs.meta import USUAL, StrictModel, choice, named, number, text
 from reports.inputs.units import KG_M2, MM, MPA, NM_RAD, NMS_RAD, NONE, RPM
 
 FORMULAS = {
@@ -20,7 +20,7 @@ LEAST, MOST = 1e-6, 1e7  # kg·m²
 SOFT, HARD = 1.0, 1e12  # N·m/rad
 
 
-class MassSection(Strictly):
+class MassSection(StrictModel):
     """[[torsion.masses]]: a mass of a train given directly, from the nose."""
 
     name: str = text("Масса {n}: название", "")
@@ -35,14 +35,14 @@ class MassSection(Strictly):
     )
 
 
-class PeakSection(Strictly):
+class PeakSection(StrictModel):
     """[[torsion.peaks]]: the greatest pressure of the cycle at a speed."""
 
     speed_rpm: float = number("Точка {n}: частота вращения", "n_т{n}", RPM, 10, 60000)
     pressure_mpa: float = number("Точка {n}: наибольшее давление цикла", "p_zт{n}", MPA, 0.2, 100)
 
 
-class TorsionSection(Strictly, usual=(Torsion,)):
+class TorsionSection(StrictModel, usual=(Torsion,)):
     """[torsion]: a key that is not given is estimated from the rest of the file."""
 
     pulley_kg_m2: float | None = number("Момент инерции шкива", "J_шк", KG_M2, LEAST, MOST, None)

@@ -16,7 +16,7 @@ from kshm.nomenclature.quantity import quantity
 from reports.inputs import units
 from reports.inputs.fields import Path
 from reports.inputs.findings import Finding
-from reports.inputs.meta import Meta, Strictly, hints, solver_name, solver_values
+from reports.inputs.meta import Meta, StrictModel, hints, solver_name, solver_values
 from reports.inputs.sections.gas import BOOST, CycleGasSection, CycleSection
 from reports.inputs.sections.input_file import (
     EngineSection,
@@ -95,7 +95,7 @@ _REASONS = {
 }
 
 
-_SECTIONS: dict[str, type[Strictly]] = {  # of two that have a name the first
+_SECTIONS: dict[str, type[StrictModel]] = {  # of two that have a name the first
     "cycle": CycleSection,
     "engine": EngineSection,
     "geometry": GeometrySection,

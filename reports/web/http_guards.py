@@ -36,18 +36,18 @@ from reports.shared.errors import Died, InputError, KshmError, NeverStarted, Out
 from reports.shared.files import make_dir
 from reports.shared.workers import Workers
 from reports.web import engine
-from reports.web.shares import Turns
+from reports.web.shared_engines import Turns
 
 _FOLDER = "earlier"
-_MOST_NAME = 60  # letters of a file's name, four bytes each at most
-_MOST = 20  # of one student: thirty megabytes each
+_MAX_NAME = 60  # letters of a file's name, four bytes each at most
+_MAX_FILES = 20  # of one student: thirty megabytes each
 Door = Callable[..., Awaitable[Response | Data | None]]
-MOST_JSON, MOST_BOOK, MOST_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
+MAX_JSON, MAX_BOOK, MAX_ARCHIVE = 2_000_000, 30 * 2**20, 100_000_000
 FILE_S = 300.0  # for an uploaded file
 BOOK_S = 15.0  # to read an edited workbook: two seconds are usual
 ANSWER_S = 20.0
 WAIT_S = 30.0  # before a process is free
-GRACE_S, LEAST_BYTES_S = 10.0, 20_000  # a body that comes more slowly after that is given up
+GRACE_S, MIN_BYTES_S = 10.0, 20_000  # a body that comes more slowly after that is given up
 MARK = "x-kshm"  # a header that no foreign page can send without being asked for leave
 _SLOWED, SLOWED_S = (429, 503), 2.0
 _KINDS = ("application/json", "application/octet-stream")
@@ -81,7 +81,7 @@ def keep_earlier(work: Path, coming: Path) -> None:
     make_dir(_folder(work))
     when = datetime.fromtimestamp(work.stat().st_mtime)
     shutil.copy2(work, _folder(work) / f"{when:%Y-%m-%d %H-%M-%S-%f}{work.suffix}")
-    for old in earlier(work)[:-_MOST]:
+    for old in earlier(work)[:-_MAX_FILES]:
         old.unlink(missing_ok=True)
 
 
@@ -281,7 +281,7 @@ async def _read(request: Request, target: BinaryIO, most: int, seconds: float) -
                         raise HTTPException(413, f"данных больше {most // 10**6} МБ")
                     came(len(chunk))
                     target.write(chunk)
-                    late = began + GRACE_S + target.tell() / LEAST_BYTES_S
+                    late = began + GRACE_S + target.tell() / MIN_BYTES_S
                     limit.reschedule(min(began + seconds, late))
     except TimeoutError:
         raise HTTPException(408, "данные не приходят; повторите") from None
@@ -291,7 +291,7 @@ async def body(request: Request) -> Data:
     """Return the JSON object of a request; InputError if it is none."""
     content: Any = None
     stream = io.BytesIO()
-    await _read(request, stream, MOST_JSON, request.app.state.settings.body_s)
+    await _read(request, stream, MAX_JSON, request.app.state.settings.body_s)
     with contextlib.suppress(ValueError, RecursionError):
         content = json.loads(stream.getvalue(), parse_constant=int)  # no NaN
     if not isinstance(content, dict):
@@ -306,7 +306,7 @@ async def uploaded(request: Request, most: int, name: str = "книга.xlsx") -
     It is called as its sender calls it, else ``name``.
     """
     state, sent = request.app.state, unquote(request.headers.get("x-name", ""))
-    stem = re.sub(r'[\\/:*?"<>|\x00-\x1f]+', " ", Path(sent).stem).strip(" .")[:_MOST_NAME]
+    stem = re.sub(r'[\\/:*?"<>|\x00-\x1f]+', " ", Path(sent).stem).strip(" .")[:_MAX_NAME]
     with tempfile.TemporaryDirectory(prefix="book-", dir=state.settings.data) as folder:
         path = Path(folder, f"{stem or Path(name).stem}{Path(name).suffix}")
         async with state.uploading.turn(visitor(request), WAIT_S):
@@ -326,13 +326,13 @@ async def answer(request: Request, function: Callable[..., Data], *keys: str) ->
 
 async def read(request: Request) -> Data:
     """Read an input file in a worker, as ``check`` does."""
-    async with uploaded(request, MOST_JSON, "файл.toml") as path:
+    async with uploaded(request, MAX_JSON, "файл.toml") as path:
         return await ask(request, engine.read_toml, str(path))
 
 
 async def book(request: Request) -> Data:
     """Read the input of an edited workbook in a worker."""
-    async with uploaded(request, MOST_BOOK) as path:
+    async with uploaded(request, MAX_BOOK) as path:
         return await ask(request, engine.read_book, str(path), seconds=BOOK_S)
 
 
@@ -375,7 +375,7 @@ def shown(path: str, find: Callable[[Request], Shown], files: str = "/{file}") -
         if job.closed:
             raise HTTPException(409, job.closed)
         is_book, data = target.suffix == ".xlsx", Data()
-        async with uploaded(request, MOST_BOOK if is_book else MOST_ARCHIVE, target.name) as file:
+        async with uploaded(request, MAX_BOOK if is_book else MAX_ARCHIVE, target.name) as file:
             if is_book:
                 with contextlib.suppress(HTTPException):  # a busy server turns no work away
                     book = str(job.gives["book"])

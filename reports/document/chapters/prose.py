@@ -17,7 +17,7 @@ from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms, input_text
 from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
-from reports.model.book_text import cause_of, shelf_of
+from reports.model.chapter_source import cause_of, shelf_of
 from reports.model.context import CASE_MARK, FREE_MARK, MARK
 from reports.shared.errors import BookError, KshmError, NotPrintable, one_line
 from reports.shared.russian import capital, fixed, uncapital
@@ -29,7 +29,7 @@ _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "К
 _SPARE = "взято с запасом"  # of a value below the usual
 _RANGED = 2  # decimals of values beside their usual limits
 _MEMBER = re.compile(r"(least|largest) (\w*@\w*|\w+\.\w+)")
-_MOST_TEX = 1000  # letters of an equation
+_MAX_TEX = 1000  # letters of an equation
 _DECIMALS = tuple("0123456789")
 _TEX = re.compile(r"\$([^$]+)\$")
 
@@ -113,8 +113,8 @@ class _Telling:
 
     def _equation(self, text: str) -> Iterator[Markup]:
         """Yield a formula in symbols alone, which holds no quantity of the tables."""
-        if len(text) > _MOST_TEX:
-            raise ValueError(f"формула длиннее {_MOST_TEX} знаков")
+        if len(text) > _MAX_TEX:
+            raise ValueError(f"формула длиннее {_MAX_TEX} знаков")
         self.equations += 1
         tex, key = text.strip().rstrip(",;."), f"{self.declared.title}:{self.equations}"
         yield self.chapter.writer.formula(tex, key, text.strip()[len(tex) :] or ".")

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from kshm.arrays import Columns
 from kshm.nomenclature.quantity import UNITS
 from reports.formula.parse import is_condition, names, parse
-from reports.inputs.own_books import DECLARATION, Texts, quantities_of
+from reports.inputs.department_chapters import DECLARATION, Texts, quantities_of
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.sections.report import CHAPTERS
 from reports.inputs.solve_input import solved
@@ -36,7 +36,7 @@ from reports.model.blocks import (
     nodes_in,
 )
 from reports.model.blocks import TableSpec as Table
-from reports.model.book_text import (
+from reports.model.chapter_source import (
     BookLine,
     BookPlaces,
     Shelf,
@@ -50,7 +50,7 @@ from reports.model.rename import renamed
 from reports.model.shape import Part, stepped
 from reports.shared.errors import BookError, FormulaError
 
-MOST_ROWS = 3000
+MAX_ROWS = 3000
 Kind = TypeVar("Kind", Scalar, Column)
 _SPAN = re.compile(r"(-?[\d.]+)…(-?[\d.]+)(?: (\D\S*))?")  # a condition: within both ends
 _VALUE = re.compile(
@@ -167,7 +167,7 @@ class _BookReader:
         text = line.text
         word, _, tail = text.partition(" ")
         if DECLARATION.fullmatch(text):
-            pass  # read before any engine, see reports.inputs.own_books
+            pass  # read before any engine, see reports.inputs.department_chapters
         elif word in _HEADS and not tail.startswith(("=", "of ", "every ")):
             self._close()
             self._head(word, tail)
@@ -394,8 +394,8 @@ def _rows_between(text: str) -> tuple[float, float, float]:
     if match is None:
         raise ValueError(f"строки таблицы «{text}» не разобраны; пишите 0…180 by 10")
     first, last, step = map(float, match.groups())
-    if not (step > 0 and 0 <= last - first <= MOST_ROWS * step):
-        raise ValueError(f"строк «{text}» нет или больше {MOST_ROWS}; возьмите шаг крупнее")
+    if not (step > 0 and 0 <= last - first <= MAX_ROWS * step):
+        raise ValueError(f"строк «{text}» нет или больше {MAX_ROWS}; возьмите шаг крупнее")
     return first, last, step
 
 

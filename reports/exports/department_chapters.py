@@ -16,7 +16,7 @@ from reports.exports.book_meanings import compared, misread
 from reports.inputs.findings import check_names
 from reports.inputs.sections.input_file import InputFile
 from reports.inputs.solve_input import POWER, power_problems
-from reports.model.book_text import BookPlaces, Shelf, shelf_of
+from reports.model.chapter_source import BookPlaces, Shelf, shelf_of
 from reports.model.contents import contents_of
 from reports.model.evaluation import Evaluation
 from reports.model.shape import Scope
@@ -25,7 +25,7 @@ from reports.tables.contexts import book_part
 from reports.tables.registry import kept_model
 from reports.tables.verdicts import Failed, checks_of, failed_of
 
-_MOST_TOLD = 20
+_MAX_TOLD = 20
 # Each kind is asked for where the kinds before have no fault.
 _KINDS = (
     faults.repeated, faults.sheets, faults.symbols, faults.odd_words, faults.unknown_in_charts,
@@ -44,7 +44,7 @@ def refuse_faults(model: InputFile) -> None:
         return
     problems = list(_read_faults(model)) or list(check_names(model, _checks_of(model)))
     if problems:
-        raise InputError(list(dict.fromkeys(problems))[:_MOST_TOLD])
+        raise InputError(list(dict.fromkeys(problems))[:_MAX_TOLD])
 
 
 def read_books(model: InputFile) -> Own:

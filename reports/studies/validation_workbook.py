@@ -29,7 +29,7 @@ WORDS: dict[Verdict, str] = {
     Verdict.NOT_REPRODUCED: "не воспроизведено",
     Verdict.NEW: "новое отклонение",
 }
-_CLOSE = 0.5 + 1e-9
+_ROUNDING_TOLERANCE = 0.5 + 1e-9
 _ROW_HEADS = {"phi_deg": "φ, °", "alpha_deg": "α, °", "1/lambda": "1/λ"}
 _HEADS = {
     "sign": "знак",
@@ -140,7 +140,7 @@ def count(checks: Iterable[Check]) -> Counts:
     cells = [check for check in listed if check.cell.is_place]
     return Counts(
         total=len(numbers),
-        close=sum(check.units is None or check.units <= _CLOSE for check in agreeing),
+        close=sum(check.units is None or check.units <= _ROUNDING_TOLERANCE for check in agreeing),
         by_verdict=by_verdict,
         signs=_apart(check for check in listed if check.is_sign),
         placed=_apart(check for check in cells if check.cell.text),

@@ -21,7 +21,7 @@ from pydantic import create_model
 from kshm.nomenclature.digits import Digits
 from kshm.nomenclature.quantity import UNITS, Quantity, quantity
 from kshm.nomenclature.symbols import plain_symbol
-from reports.inputs.meta import MAX_TEXT, Strictly, choice, number
+from reports.inputs.meta import MAX_TEXT, StrictModel, choice, number
 from reports.inputs.registry import SECTIONS
 from reports.inputs.units import InputUnit
 from reports.shared.errors import DeclarationError, InputError, Problem, one_line
@@ -32,13 +32,13 @@ Texts = tuple[tuple[str, str], ...]
 SUFFIX = ".book"
 # Set by kshm serve: the folder of the books that its owner allows, empty for none.
 OWNER = "KSHM_BOOKS"
-MOST_BOOKS = 12
-MOST_BYTES = 100_000
-MOST_LINES = 2_000
-MOST_LETTERS = 1_000  # of a line
-MOST_DECLARED = 200
-MOST_SYMBOL, MOST_UNIT = 80, 16
-_MOST_READ = 1_000_000
+MAX_BOOKS = 12
+MAX_BYTES = 100_000
+MAX_LINES = 2_000
+MAX_LETTERS = 1_000  # of a line
+MAX_DECLARED = 200
+MAX_SYMBOL, MAX_UNIT = 80, 16
+_MAX_READ = 1_000_000
 DECLARATION = re.compile(r"(section|input|choice|quantity) (?!=|of |every )(.*)")
 _SECTION = re.compile(r"(?P<name>[a-z][a-z0-9]{1,15}): (?P<title>.+)")
 _INPUT = re.compile(
@@ -61,7 +61,7 @@ class Declared:
 
     section: str = ""
     title: str = ""
-    model: type[Strictly] | None = None
+    model: type[StrictModel] | None = None
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
 
 
@@ -79,8 +79,8 @@ class Declarations:
         """One declaration; ValueError where it is none."""
         {"section": self._titled, "input": self._input, "choice": self._choice,
          "quantity": self._quantity}[word](tail)  # fmt: skip
-        if len(self.fields) + len(self.quantities) > MOST_DECLARED:
-            problem = f"объявлено больше {MOST_DECLARED} величин и исходных"
+        if len(self.fields) + len(self.quantities) > MAX_DECLARED:
+            problem = f"объявлено больше {MAX_DECLARED} величин и исходных"
             raise DeclarationError(problem, "разделите книгу")
 
     def _titled(self, tail: str) -> None:
@@ -125,7 +125,7 @@ class Declarations:
             raise DeclarationError(problem, "назовите свою иначе; программную берут без quantity")
         if not re.fullmatch(r"[0-9]|1[0-2]", digits):
             raise ValueError(f"знаков после запятой «{digits}», а нужно от 0 до 12")
-        if len(tex) > MOST_SYMBOL or not _is_symbol(tex):
+        if len(tex) > MAX_SYMBOL or not _is_symbol(tex):
             raise ValueError(f"обозначение «{one_line(tex, 60)}» не годится")
         label, symbol = _unit(unit), plain_symbol(tex)
         twin = next((each.key for each in self.quantities.values() if each.symbol == symbol), "")
@@ -142,7 +142,7 @@ class Declarations:
         key = head["key"]
         if key in self.fields:
             raise DeclarationError(f"исходное «{key}» объявлено дважды", "уберите одну строку")
-        if re.search(r"_r\d+$", key) or hasattr(Strictly, key):
+        if re.search(r"_r\d+$", key) or hasattr(StrictModel, key):
             raise DeclarationError(f"имя «{key}» занято программой", "назовите ключ иначе")
         return key, _parts(head["rest"], parts)
 
@@ -166,17 +166,17 @@ def declared(text: str) -> Declared:
         DeclarationError: one of its declarations is none, or the text is beyond the limits.
     """
     lines = text.splitlines()
-    if len(text.encode()) > MOST_BYTES:
-        raise DeclarationError(f"книга больше {MOST_BYTES // 1000} КБ", "разделите её", 1)
-    if len(lines) > MOST_LINES:
-        problem = f"строк больше {MOST_LINES}"
-        raise DeclarationError(problem, "разделите книгу", MOST_LINES + 1)
+    if len(text.encode()) > MAX_BYTES:
+        raise DeclarationError(f"книга больше {MAX_BYTES // 1000} КБ", "разделите её", 1)
+    if len(lines) > MAX_LINES:
+        problem = f"строк больше {MAX_LINES}"
+        raise DeclarationError(problem, "разделите книгу", MAX_LINES + 1)
     reader = Declarations(text)
     for at, line in enumerate(lines, 1):
-        if len(line) > MOST_LETTERS:
-            problem = f"в строке больше {MOST_LETTERS} знаков"
+        if len(line) > MAX_LETTERS:
+            problem = f"в строке больше {MAX_LETTERS} знаков"
             hint = "перенесите конец на строку с пробелом в начале"
-            raise DeclarationError(problem, hint, at, MOST_LETTERS + 1)
+            raise DeclarationError(problem, hint, at, MAX_LETTERS + 1)
         control = re.search("[\x00-\x08\x0b-\x1f\x7f\u2028\u2029]", line)
         if control is not None:
             problem, hint = "в строке управляющий символ", "оставьте обычный текст"
@@ -192,7 +192,7 @@ def declared(text: str) -> Declared:
             raise DeclarationError(str(error), f"пишите {FORMS[statement[1]]}", at) from None
     if not reader.fields:
         return Declared("", reader.title, None, reader.quantities)
-    model = create_model(f"Own_{reader.section}", __base__=Strictly, **reader.fields)
+    model = create_model(f"Own_{reader.section}", __base__=StrictModel, **reader.fields)
     title = reader.title or f"Своя книга {reader.section}"
     return Declared(reader.section, title, model, reader.quantities)
 
@@ -209,10 +209,10 @@ def sections_of(books: Texts) -> Mapping[str, Declared]:
 
 
 @lru_cache(maxsize=64)
-def own_model(books: Texts) -> type[Strictly]:
+def own_model(books: Texts) -> type[StrictModel]:
     """Model of the sections of all books together."""
     fields: dict[str, Any] = {name: (spec.model, ...) for name, spec in sections_of(books).items()}
-    return create_model("OwnSections", __base__=Strictly, **fields)
+    return create_model("OwnSections", __base__=StrictModel, **fields)
 
 
 def book_name(name: str) -> str:
@@ -261,7 +261,7 @@ def with_books(
     entries = raw.get("books")
     texts: dict[str, Any] = dict(entries) if isinstance(entries, Mapping) else {}
     files = []
-    for name in () if OWNER in os.environ else named(raw)[: MOST_BOOKS + 1]:
+    for name in () if OWNER in os.environ else named(raw)[: MAX_BOOKS + 1]:
         if name not in texts:
             texts[name] = read_text(folder, name, source)
             files.append(folder / name)
@@ -284,8 +284,8 @@ def checked_texts(raw: object, names: Sequence[str]) -> Texts:
         match pair:
             case [str(name), str(text)]:
                 texts[name] = text
-    if len(names) > MOST_BOOKS:
-        raise InputError(Problem("report.books", f"книг больше {MOST_BOOKS}", "уберите лишние"))
+    if len(names) > MAX_BOOKS:
+        raise InputError(Problem("report.books", f"книг больше {MAX_BOOKS}", "уберите лишние"))
     texts = allowed_texts(texts, names)
     for name in names:
         if name not in texts:
@@ -366,7 +366,7 @@ def read_text(folder: Path, name: str, source: str) -> str:
         problem = "книга должна лежать рядом с исходными данными"
         raise InputError(Problem(where, problem, f"укажите имя файла с окончанием {SUFFIX}"))
     try:
-        data = read_bytes(folder / path, _MOST_READ, "разделите книгу")
+        data = read_bytes(folder / path, _MAX_READ, "разделите книгу")
     except InputError as error:  # the place of the folder is no one's business
         raise InputError(Problem(where, error.problems[0].what, error.problems[0].hint)) from None
     kind = kind_of(data)
@@ -421,8 +421,8 @@ def _is_symbol(tex: str) -> bool:
 
 
 def _unit(label: str) -> str:
-    if len(label) > MOST_UNIT:
-        raise ValueError(f"единица «{one_line(label, 40)}» длиннее {MOST_UNIT} знаков")
+    if len(label) > MAX_UNIT:
+        raise ValueError(f"единица «{one_line(label, 40)}» длиннее {MAX_UNIT} знаков")
     return safe_text(label, empty=True).removeprefix("-")
 
 

@@ -22,7 +22,7 @@ from reports.shared.errors import Problem
 
 SPENT_S = 20.0  # for which it is remembered who has had turns
 HEAD_S = 10.0  # that the head of a request may take
-MOST_CONNECTIONS = 250  # of one address: a class may stand behind one
+MAX_CONNECTIONS = 250  # of one address: a class may stand behind one
 
 
 def address_of(visitor: str) -> str:
@@ -148,7 +148,7 @@ class Connection(H11Protocol):
     """A connection whose heads come in time, of an address that has not too many."""
 
     count: ClassVar[Counter[str]] = Counter()
-    most: ClassVar[float] = MOST_CONNECTIONS
+    most: ClassVar[float] = MAX_CONNECTIONS
 
     def connection_made(self, transport: Any) -> None:  # noqa: ANN401
         """Begin, or refuse in one answer."""

@@ -16,7 +16,7 @@ from kshm.results.chosen import ChosenQuantities, described
 from reports.shared.errors import InputError, Problem
 from reports.shared.russian import capital, short, uncapital
 from reports.studies.comparison import (
-    LEAST_PERCENT,
+    MIN_PERCENT,
     X_TITLE,
     Chart,
     Compared,
@@ -32,15 +32,15 @@ from reports.workbook.caches import finish
 from reports.workbook.chart_ranges import CurveRanges
 from reports.workbook.charts import curves_chart
 from reports.workbook.layout import Cell, column_range
-from reports.workbook.plain_book import bold, hang, lay, new_book
 from reports.workbook.sheets import CacheValues
+from reports.workbook.simple_workbook import bold, hang, lay, new_book
 from reports.workbook.styles import excel_format
 
 INPUTS, RESULTS, FIGURES, CURVES = "Данные", "Сравнение", "Диаграммы", "Кривые"
 _HEAD = 3  # rows of titles above the values
-MOST_ROWS = 100_000
-MOST_CURVES = 12
-MOST_CHARTS = 24
+MAX_ROWS = 100_000
+MAX_CURVES = 12
+MAX_CHARTS = 24
 DATA, SUMMARY, CHARTS = "Результаты", "Сводка", "Диаграммы"
 _FIRST = 3  # rows of keys and titles stand above
 _NOWHERE = "не меняется"  # the place of an extreme of what stays the same
@@ -128,7 +128,7 @@ def _results(book: _Book) -> None:
                 continue
             first, current = (Cell(RESULTS, number, 4 + i).coordinate for i in (0, index))
             at = Cell(RESULTS, number, 3 + count + index)
-            look = "0.0###" if change < LEAST_PERCENT else "0.0"
+            look = "0.0###" if change < MIN_PERCENT else "0.0"
             book.formula(sheet, at, f"=({current}/{first}-1)*100", change, look)
     number += 2
     sheet.cell(number - 1, 1, lacking or None)
@@ -209,8 +209,8 @@ class StudyBook:
     _formats: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        if self.plan.count > MOST_ROWS:
-            problem = f"сочетаний {self.plan.count}, а в книге помещается {MOST_ROWS}"
+        if self.plan.count > MAX_ROWS:
+            problem = f"сочетаний {self.plan.count}, а в книге помещается {MAX_ROWS}"
             raise InputError(Problem("-o", problem, "выберите .parquet или .csv"))
         self._book = new_book(rows_only=True)
         self._first = self._book.create_sheet(SUMMARY)
@@ -241,7 +241,7 @@ class StudyBook:
             return []
         names = [name for name in self.wanted.names if not name.endswith("_deg")]
         usual = [name for name in names if _USUAL.fullmatch(name)]
-        return (usual or names)[:MOST_CHARTS] if len(names) > MOST_CHARTS else names
+        return (usual or names)[:MAX_CHARTS] if len(names) > MAX_CHARTS else names
 
     def write(self, chunk: Chunk) -> None:
         """Append rows; what has no result stays empty and says why."""
@@ -357,7 +357,7 @@ class StudyBook:
             yield "", 0, self.plan.count
             return
         count, second = len(axes[0].values), axes[1]
-        step = max(1, math.ceil(len(second.values) / MOST_CURVES))
+        step = max(1, math.ceil(len(second.values) / MAX_CURVES))
         for number in range(0, len(second.values), step):
             yield _valued(second, number), number * count, count
 

@@ -14,7 +14,7 @@ from typing import Any
 import jinja2
 
 from reports.formula.parse import names
-from reports.inputs.own_books import Texts, book_name
+from reports.inputs.department_chapters import Texts, book_name
 from reports.inputs.registry import SECTIONS
 from reports.model.blocks import Model
 from reports.model.evaluation import graph_of, node_of

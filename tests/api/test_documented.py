@@ -17,11 +17,11 @@ import pytest
 
 import kshm
 import reports
-from reports import figures
-from reports.api import loaded_of
 from reports.exports.department_chapters import own_numbers
 from reports.exports.numbers import json_text
 from reports.inputs.solve_input import solved
+from reports.python import figures
+from reports.python.api import loaded_of
 from tests.api.test_api import small
 from tests.conftest import ROOT, sample_names
 from tests.manual.pages import DOCS, blocks

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import html
 import re
+import xml.etree.ElementTree as ET
 from collections import defaultdict
 from itertools import combinations
 
 import pytest
 
+from reports.document.figures.schemes import mechanism_sketch
 from tests.document.test_report_parts import page_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -20,6 +22,7 @@ pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_gro
 _TOLD = re.compile(r"(?:^(?:где )?|[,;(:] ?| и )([^\s,;:(]{1,12}) — ([^,;.()]+)")
 _WORD = re.compile(r"[А-Яа-яё]{5,}")
 _POINTS = "Отмечены"  # points of a diagram, not quantities
+_JOINTS = {"O", "A", "B"}
 _STEM = 4  # letters by which words are the same
 
 
@@ -70,3 +73,25 @@ def test_a_symbol_has_one_explanation(name: str):
         if symbol != "—" and any(differ(*pair) for pair in combinations(said, 2))
     }
     assert several == {}
+
+
+def _letters(svg: str) -> tuple[set[str], set[str]]:
+    """Letters of the left half of a figure and of the right one, without captions of halves."""
+    root = ET.fromstring(svg)
+    middle = float(root.attrib["viewBox"].split()[2]) / 2
+    halves: tuple[set[str], set[str]] = (set(), set())
+    for node in root.iter():
+        if node.tag.endswith("}text"):
+            text = "".join(node.itertext()).partition("=")[0].strip()
+            if re.fullmatch(r"[^\d\W][^\s)]{0,5}", text) and text not in ("ВМТ", "НМТ"):
+                halves[float(node.attrib["x"]) > middle].add(text)
+    return halves
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2, -0.2])
+def test_letters_of_the_scheme_are_those_of_the_note(offset: float):
+    """S was the stroke in one half of figure 3 and the force along the rod in the other."""
+    sizes, forces = _letters(mechanism_sketch(0.3, k=offset))
+    assert sizes & forces <= _JOINTS
+    told = {symbol.replace("′", "") for symbol in meanings(page_of("gots-diesel"))}
+    assert {each.replace("′", "") for each in forces - _JOINTS} <= told

@@ -199,7 +199,9 @@ def _ranges(terms: Terms) -> TableBlock:
 
 
 def _of_terms(
-    build: Callable[[Terms], TableBlock], caption: str, **manner: Any  # noqa: ANN401
+    build: Callable[[Terms], TableBlock],
+    caption: str,
+    **manner: Any,  # noqa: ANN401
 ) -> Callable[[Chapter], TablePlan]:
     return lambda chapter: TablePlan(partial(build, chapter.terms), caption, **manner)
 

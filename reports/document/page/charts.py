@@ -103,8 +103,8 @@ def beside_figure(parts: Sequence[Sequence[Item]]) -> str:
         ends.append(left_end + (right - left) / 2)
         left_end += right - left + _BETWEEN
     low = bounds(canvas.items)[1] - 2.5 * _LETTERS
-    for middle, letter in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
-        canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
+    for middle, sign in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
+        canvas.words((middle, low), f"{sign})", _LETTERS, align=0.5)
     left, low, right, high = bounds(canvas.items)
     return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
 

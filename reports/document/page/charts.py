@@ -126,8 +126,9 @@ def counterweight_of(terms: Terms) -> CounterweightSizes:
     """Sizes of the first web with the proposed counterweight."""
     throw = throw_of(terms)
     keys = ("cw_inner_mm", "cw_outer_mm", "cw_angle_deg")
-    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], *map(terms.value, keys),
-                              words=_size_words(terms, keys))  # fmt: skip
+    inner, outer, angle = map(terms.value, keys)
+    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], inner, outer, angle,
+                              _size_words(terms, keys))  # fmt: skip
 
 
 def counterweight_figure(terms: Terms) -> str:
@@ -138,7 +139,8 @@ def counterweight_figure(terms: Terms) -> str:
 def flywheel_of(terms: Terms) -> FlywheelSizes:
     """Sizes of the flywheel."""
     keys = ("fw_outer_mm", "fw_bore_mm", "fw_disc_mm", "fw_rim_mm")
-    return FlywheelSizes(*map(terms.value, keys), words=_size_words(terms, keys))
+    outer, bore, disc, rim = map(terms.value, keys)
+    return FlywheelSizes(outer, bore, disc, rim, _size_words(terms, keys))
 
 
 def flywheel_figure(terms: Terms) -> str:

@@ -140,6 +140,7 @@ def test_a_text_calculates_writes_symbols_and_concludes(written):
     [
         ('{{ member("3") }}', "нет такого имени"),
         ('{{ calc("nobody", 1) }}', "нет такого имени"),
+        ('conclude {{ val("nobody") }}', "нет такого имени"),
         ('{{ calc("tip_1", 999999999) }}', "а можно от 0 до 9"),
         pytest.param("equation x" + "\n    + x" * 300, "формула длиннее 1000 знаков", id="long"),
         ("pick least nobody.s_mm", "нет такого имени"),

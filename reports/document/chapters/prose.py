@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -64,32 +65,37 @@ class _Telling:
         """Return heading and all lines."""
         parts = [self.chapter.heading(1, self.declared.title)]
         for line in self.declared.lines:
-            try:
+            with self._faults(line):
                 text = self._text(line)
                 self.named |= {key for word, key in MARK.findall(text) if word in _KINDS}
                 parts += getattr(self, f"_{line.kind}")(text)
-            except KshmError:
-                raise
-            except Exception as error:
-                raise self._fault(line, error) from error
         return Markup("\n").join(parts)
 
     def conclusions(self) -> Iterator[Markup]:
         """Yield what the text concludes, with the members that it picked before."""
         for line in self.declared.lines:
-            if line.kind == "pick":
-                self._pick(line.text)
-            elif line.kind == "conclude":
-                yield self._said(self._of_cases(self._text(line)).strip())
+            with self._faults(line):
+                if line.kind == "pick":
+                    self._pick(line.text)
+                elif line.kind == "conclude":
+                    yield self._said(self._of_cases(self._text(line)).strip())
 
     def _text(self, line: TextLine) -> str:
         """Return a line's text of the member at hand; a pick turns from it to another."""
         return line.text if line.kind == "pick" else line.text.replace("@", self.member)
 
-    def _fault(self, line: TextLine, error: Exception) -> BookError:
-        book = shelf_of(self.chapter.input.books).called(line.book)
-        problem = f"строка главы не печатается: {cause_of(error)}"
-        return BookError(book, line.number, 1, problem, "проверьте, что она называет")
+    @contextmanager
+    def _faults(self, line: TextLine) -> Iterator[None]:
+        """Tell of a mistake where it stands."""
+        try:
+            yield
+        except KshmError:
+            raise
+        except Exception as error:
+            book = shelf_of(self.chapter.input.books).called(line.book)
+            problem = f"строка главы не печатается: {cause_of(error)}"
+            hint = "проверьте, что она называет"
+            raise BookError(book, line.number, 1, problem, hint) from error
 
     def _paragraph(self, text: str) -> Iterator[Markup]:
         """A paragraph; one that begins with a small letter goes on with the sentence above."""
@@ -177,17 +183,11 @@ class _Telling:
         matches = filter(None, map(alike.fullmatch, terms.values.scalars))
         return {match[1]: terms.value(match[0]) for match in matches}
 
-    def _member(self, _: str) -> Iterable[Markup]:
-        """Say nothing: the words for a member are said where it is named."""
+    def _unsaid(self, _: str) -> Iterable[Markup]:
+        """Say nothing: the words are said where they are asked for."""
         return ()
 
-    def _mend(self, _: str) -> Iterable[Markup]:
-        """Say nothing: a mend is told where its value is beyond its limits."""
-        return ()
-
-    def _conclude(self, _: str) -> Iterable[Markup]:
-        """Say nothing: the conclusion is a chapter of its own."""
-        return ()
+    _member = _mend = _conclude = _unsaid
 
     def _table(self, key: str, caption: str) -> TablePlan:
         """Return the table of a block as its kind has it."""
@@ -275,8 +275,6 @@ class _Telling:
     def _put(self, match: re.Match[str]) -> str:
         word, key = match.groups()
         terms, numbering = self.chapter.terms, self.chapter.writer.n
-        if word == "src":
-            return str(numbering.src(key))
         if word in _KINDS:
             return str(numbering.refer(_KINDS[word], key))  # type: ignore[arg-type]
         if word == "title":

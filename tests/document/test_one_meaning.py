@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import html
 import re
-import xml.etree.ElementTree as ET
 from collections import defaultdict
 from itertools import combinations
+from unittest import mock
 
 import pytest
 
+from reports.document.figures.canvas import Pen, Point
 from reports.document.figures.schemes import mechanism_sketch
+from reports.document.text.symbols import inline_html
+from reports.draw.writers import PT_PER_MM
 from tests.document.test_report_parts import page_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -75,23 +78,24 @@ def test_a_symbol_has_one_explanation(name: str):
     assert several == {}
 
 
-def _letters(svg: str) -> tuple[set[str], set[str]]:
-    """Letters of the left half of a figure and of the right one, without captions of halves."""
-    root = ET.fromstring(svg)
-    middle = float(root.attrib["viewBox"].split()[2]) / 2
+def _letters(offset: float) -> tuple[set[str], set[str]]:
+    """Symbols on the left half of the mechanism's scheme, which has sizes, and on the right one."""
     halves: tuple[set[str], set[str]] = (set(), set())
-    for node in root.iter():
-        if node.tag.endswith("}text"):
-            text = "".join(node.itertext()).partition("=")[0].strip()
-            if re.fullmatch(r"[^\d\W][^\s)]{0,5}", text) and text not in ("ВМТ", "НМТ"):
-                halves[float(node.attrib["x"]) > middle].add(text)
+    width = 150.0
+
+    def noted(_: Pen, at: Point, text: str, *_more: object, **_named: object) -> None:
+        for tex in re.findall(r"^\$([^=$]+)", text):
+            halves[at[0] > width * PT_PER_MM / 2].add(_bare(inline_html(tex)))
+
+    with mock.patch.object(Pen, "text", noted):
+        mechanism_sketch(0.3, k=offset, width=width)
     return halves
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.2, -0.2])
 def test_letters_of_the_scheme_are_those_of_the_note(offset: float):
     """S was the stroke in one half of figure 3 and the force along the rod in the other."""
-    sizes, forces = _letters(mechanism_sketch(0.3, k=offset))
-    assert sizes & forces <= _JOINTS
-    told = {symbol.replace("′", "") for symbol in meanings(page_of("gots-diesel"))}
-    assert {each.replace("′", "") for each in forces - _JOINTS} <= told
+    sizes, forces = _letters(offset)
+    assert sizes & forces == _JOINTS
+    assert len(forces - _JOINTS) == 6
+    assert forces - _JOINTS <= meanings(page_of("gots-diesel")).keys()

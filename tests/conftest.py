@@ -203,13 +203,14 @@ SLOW = (
     "tests/own/test_limits.py::test_spans",
     "tests/referee/test_ranges.py::test_the_cell",
     "tests/studies/test_compare.py::test_what_one_engine_alone",
-    "tests/tables/test_pin_length.py::test_the_pressure_is_that_of_the_own_rod_on_its_part_of_the_pin[V10",
-    "tests/tables/test_pin_length.py::test_the_pressure_is_that_of_the_own_rod_on_its_part_of_the_pin[split",
     "tests/workbook/test_places.py::test_a_scheme",
     "tests/workbook/test_places.py::test_two_charts",
     "tests/workbook/test_read_back.py::test_a_lost_sheet",
     "tests/workbook/test_read_back.py::test_words_of_lists",
     "tests/workbook/test_substitution.py::test_a_student",
+    "tests/new/test_sizing.py::test_a_drawn_task",
+    "tests/referee/test_first_edit.py::test_no_cell",
+    "tests/workbook/test_print.py::test_tables_repeat",
 )
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (

@@ -7,14 +7,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from reports.exports.book_faults import Own
+from reports.formula.parse import names
+from reports.model.blocks import ScalarTable
 from reports.model.chapter_source import BookLine
-from reports.model.context import CASE_MARK, FREE_MARK, MARK
-from reports.shared.errors import BookError
+from reports.model.context import CASE_MARK, DECIMALS, FREE_MARK, MARK
+from reports.shared.errors import BookError, FormulaError
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}
 _FURTHER = (*KINDS, "beyond", "member")
 _CALLED = {TABLE: "таблица", FIGURE: "рисунок"}
+_FORMULA = re.compile(r"[\w.]+\s*[,;.]?")
 _ODD_MARK = re.compile("⟦[^⟧]*⟧?")
 
 
@@ -43,6 +46,9 @@ def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
         if kind == "formula" and getattr(model.nodes.get(text), "expr", None) is None:
             yield reading.fault(line, f"формулы «{text}» нет",
                             "назовите величину или ТАБЛИЦА.СТОЛБЕЦ", text)  # fmt: skip
+        if kind == "formula" and not _FORMULA.fullmatch(line.text.strip()):
+            yield reading.fault(line, f"за «{text}» стоит лишнее", f"пишите formula {text}.", text)
+        yield from _misstated(reading, line)
         for word, key in MARK.findall(text):
             if word not in _FURTHER and key not in model.scalars and key not in model.fields:
                 yield reading.fault(
@@ -54,6 +60,35 @@ def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
         if odd is not None:
             yield reading.fault(line, f"«{odd[0].strip('⟦⟧')}» не разобрано",
                             'пишите {{ val("ИМЯ") }}')  # fmt: skip
+
+
+def _misstated(reading: Own, line: BookLine) -> Iterator[BookError]:
+    """Yield formulas of conditions and of numbers that mean nothing, lists that judge nothing."""
+    model = reading.model
+    formulas = []
+    for word, text, _ in CASE_MARK.findall(line.text):
+        lists = (block for block in model.blocks if block.id == text)
+        if word == "when":
+            formulas.append(text)
+        elif word and not any(isinstance(each, ScalarTable) and each.held for each in lists):
+            yield reading.fault(line, f"списка с проверками «{text}» нет",
+                            "назовите список со словом verdicts", text)  # fmt: skip
+    for word, text in FREE_MARK.findall(line.text):
+        decimals, _, formula = text.partition(" ")
+        if word == "calc":
+            formulas.append(formula)
+        if word == "calc" and decimals not in DECIMALS:
+            yield reading.fault(line, f"знаков у calc «{decimals}», а можно от 0 до 9",
+                                'пишите calc("ФОРМУЛА", 2)')  # fmt: skip
+    for formula in formulas:
+        try:
+            unknown = names(formula) - model.nodes.keys() - model.fields.keys()
+        except FormulaError as error:
+            part = error.fragment
+            yield reading.fault(line, f"в формуле не разобрано «{part}»", error.mend, part)
+            continue
+        for name in sorted(unknown):
+            yield reading.fault(line, f"в тексте нет «{name}»", "назовите величину", name)
 
 
 def _of_another_kind(reading: Own, line: BookLine, word: str, key: str) -> BookError:

@@ -24,6 +24,7 @@ TEXT_WORDS = ("val", "num", "sym", "eqv", "title", "tab", "fig", "beyond", "memb
 MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
 # A number that the text calculates, by its decimals and formula; sources; a place in the textbook.
 FREE_MARK = re.compile(r"⟦(calc|src|book) ([^⟧]+)⟧")
+DECIMALS = tuple("0123456789")  # of such a number
 # What it says by its values alone: where a condition holds, where a list is within its limits.
 CASES = ("when", "within", "outside")
 CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(otherwise|end))⟧")

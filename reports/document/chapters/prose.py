@@ -19,7 +19,7 @@ from reports.document.text.terms import Terms, input_text
 from reports.formula.numeric import evaluate
 from reports.model.blocks import BookChapter, Grid, Held, ScalarTable, TableSpec, TextLine
 from reports.model.chapter_source import cause_of, shelf_of
-from reports.model.context import CASE_MARK, FREE_MARK, MARK
+from reports.model.context import CASE_MARK, DECIMALS, FREE_MARK, MARK
 from reports.shared.errors import BookError, KshmError, NotPrintable, one_line
 from reports.shared.russian import capital, fixed, uncapital
 from reports.shared.standing import WORDS, Standing
@@ -31,7 +31,6 @@ _SPARE = "взято с запасом"  # of a value below the usual
 _RANGED = 2  # decimals of values beside their usual limits
 _MEMBER = re.compile(r"(least|largest) (\w*@\w*|\w+\.\w+)")
 _MAX_TEX = 1000  # letters of an equation
-_DECIMALS = tuple("0123456789")
 _TEX = re.compile(r"\$([^$]+)\$")
 
 
@@ -268,7 +267,7 @@ class _Telling:
         if word == "book":
             return str(self.chapter.book(place=text))
         decimals, _, formula = text.partition(" ")
-        if decimals not in _DECIMALS:
+        if decimals not in DECIMALS:
             raise ValueError(f"знаков у calc «{one_line(decimals, 20)}», а можно от 0 до 9")
         return fixed(self._calculated(formula), int(decimals))
 

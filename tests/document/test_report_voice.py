@@ -1,5 +1,6 @@
 """What a supervisor sends back: sentences that are not true, numbers told twice."""
 
+import math
 import re
 from functools import cache
 
@@ -25,6 +26,7 @@ from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
 from reports.tables.registry import build_model
+from reports.tables.strength_members import SAFETIES
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page
 from tests.document.test_report_sentences import (
@@ -379,6 +381,17 @@ def test_the_least_safety_stands_beside_what_is_allowed(allowed, side):
     ).groups()
     assert said == side and float(of.replace(",", ".")) == allowed
     assert (float(least.replace(",", ".")) >= allowed) == (side == "не меньше")
+
+
+def test_a_safety_is_printed_less_than_what_it_does_not_reach():
+    """«0,9994» stood as 1,00 in the conclusion and as 0,999 among the checks."""
+    model = engine(strength__safety_allowed=1.5, report__chapters=["strength"])
+    scalars = evaluate_model(build_model(model)).scalars
+    value = min(float(scalars[key]) for key in SAFETIES)
+    allowed = math.ceil(100 * value) / 100
+    model = engine(strength__safety_allowed=allowed, report__chapters=["strength"])
+    said = re.search(r"деталей — запас [^;]*, ([\d,]+), он меньше допускаемого", text_of(model))
+    assert float(said[1].replace(",", ".")) < allowed
 
 
 def test_the_comments_of_a_new_engine_tell_the_same_spans():

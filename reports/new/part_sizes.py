@@ -25,7 +25,8 @@ from reports.tables.strength_members import SAFETIES, usual_stresses
 
 Notes = dict[str, str]
 Moves = tuple[tuple[str, int], ...]
-_FINE_SIZE = 10.0  # mm, from which tenths are enough
+_DECIMALS = {10.0: 1, 1.0: 2}  # of a size from so many millimetres
+_FINE_DECIMALS = 4
 _STEPS = 10  # of a usual span
 _MIDDLE = _STEPS // 2
 _PIN: Moves = (("pin_bore", -1), ("pin", 1), ("bosses", -1), ("eye_length", 1))
@@ -66,6 +67,11 @@ def parts_for(model: InputFile, kind: str, crankpin: float) -> tuple[dict[str, A
             break
         excess, choice = best
     return sizing.section(choice), sizing.notes(choice)
+
+
+def decimals(size: float) -> int:
+    """How many decimals of a millimetre a drawing gives a size."""
+    return next((n for least, n in _DECIMALS.items() if abs(size) >= least), _FINE_DECIMALS)
 
 
 def _badness(excess: Mapping[str, float]) -> float:
@@ -115,7 +121,7 @@ class _Sizing:
         section: dict[str, Any] = {"kind": self.kind}
         for key, (base, *_) in PART_SHARES.items():
             size = self.share(key, choice)[0] * sizes[base]
-            sizes[key] = section[f"{key}_mm"] = round(size, 1 if size > _FINE_SIZE else 2)
+            sizes[key] = section[f"{key}_mm"] = round(size, decimals(size))
         steels = {key: steel[choice[key]] for key, steel in _STEELS.items() if choice.get(key)}
         return section | steels
 

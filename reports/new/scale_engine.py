@@ -2,8 +2,9 @@
 
 The same total displacement: D, S, L × (n₁/n)^⅓ and journals × (n₁/n)^½, n₁ the cylinders of
 the given engine and n those of the new one.  A wanted power changes the displacement: then
-all sizes take its cube root besides.  As journals shrink faster than the bore, many cylinders
-from few would get a shaft that no engine has: d/D stays within its usual bounds, and says so.
+all sizes take its cube root besides.  All are rounded as on a drawing.  As journals shrink
+faster than the bore, many cylinders from few would get a shaft that no engine has: d/D stays
+within its usual bounds, and says so.
 """
 
 from __future__ import annotations
@@ -37,14 +38,15 @@ from reports.new.generate import (
     timing_notes,
     usual_shaft,
 )
+from reports.new.part_sizes import decimals
 
-_DIGITS = 6  # of a millimetre
 _ALONG = ("width", "groove")  # what lies along a journal
 # Of [torsion]: what belongs to no certain shaft.
 _ANY_SHAFT = ("formula", "shear_modulus_mpa", "loss_factor", "stress_allowed_mpa", "peaks")
 _SPEEDS = ("speed_min_rpm", "speed_max_rpm")
 TRAIN_LEFT = "Крутильная схема прежнего вала не перенесена: новая следует из размеров нового."
-DIGITS = 6  # of a millimetre
+_POWER_DIGITS = 3  # of a kilowatt
+_SURE_DIGITS = 6  # beyond which a size is not exact
 _DIESEL_RATIO = 14.0
 _OFFSETS = ("crank_offset_mm", "pin_offset_mm")
 _SIZING = ("power_kw", "stroke_bore", "size_step_mm", "rounding")
@@ -104,7 +106,7 @@ def _scaled(section: type[StrictModel], key: str, size: float, factor: float) ->
     """Return a size within the limits of its key [mm]."""
     (limits,) = hints(section)[key].metas
     low, high = limits.minimum, limits.maximum
-    return min(max(round(size * factor, _DIGITS), low or 0.0), math.inf if high is None else high)
+    return min(max(_drawn(size * factor), low or 0.0), math.inf if high is None else high)
 
 
 def alternative(
@@ -136,7 +138,7 @@ def alternative(
     linear, journal = share ** (1 / 3) * larger, share ** (1 / 2) * larger
     found_sizes = engine_and_cycle(model)[0].geometry
     bore, stroke, rod = (
-        round(MM.from_si(size) * linear, DIGITS)
+        _drawn(MM.from_si(size) * linear)
         for size in (found_sizes.bore, 2 * found_sizes.crank_radius, found_sizes.rod_length)
     )
     kind = kind_of(model)
@@ -146,7 +148,7 @@ def alternative(
         "cylinders": cylinders,
         "layout": layout,
     }
-    offsets = {key: round(data["geometry"][key] * linear, DIGITS)
+    offsets = {key: _drawn(data["geometry"][key] * linear)
                for key in _OFFSETS if key in data["geometry"]}  # fmt: skip
     # The piston of an engine with an offset goes further than 2r.
     way = {"crank_radius_mm": stroke / 2} if any(offsets.values()) else {"stroke_mm": stroke}
@@ -160,7 +162,7 @@ def alternative(
     for regime in (data["regime"], *data.get("regimes", ())):
         if "indicated_power_kw" in regime:
             power = regime["indicated_power_kw"] * displacement * faster
-            regime["indicated_power_kw"] = round(power, DIGITS)
+            regime["indicated_power_kw"] = round(power, _POWER_DIGITS)
     for key in _SIZING:
         data.get("cycle", {}).pop(key, None)
     sizes = _shaft(model, layout, kind, bore, journal, throws_of(cylinders, layout))
@@ -180,7 +182,7 @@ def alternative(
     head = [
         f"Вариант двигателя «{old.name}»: цилиндров {cylinders} вместо {old.cylinders}.",
         f"По подобию: D, S, L {linear_words}{more}; шейки × ({old.cylinders}/{cylinders})^½{more};",
-        "массы по таблице 4; фазы, щёки и плечи нового вала составлены заново.",
+        "округлено до 0,1 мм; массы по таблице 4; фазы, щёки и плечи составлены заново.",
         *([f"{cause}: рабочий объём × {number_text(round(displacement, 6))}."] if cause else
           ["Рабочий объём, частота вращения и давления прежние." if speed_rpm is None else
            "Рабочий объём и давления прежние, частота вращения новая."]),
@@ -206,27 +208,27 @@ def _shaft(
     usual = usual_shaft(layout, kind, bore, throws)
     rods = _rods(model, layout)
     sized = {key: _one(old, key) * (rods if key == _PIN_LENGTH else 1) for key in _SINGLE}
-    by_rule = {key: round(size * factor, DIGITS) for key, size in sized.items()}
+    by_rule = {key: _drawn(size * factor) for key, size in sized.items()}
     retained = {key: _bounded(key, by_rule[key], bore) for key in _SINGLE}
     before = old.main_lengths_mm
     if len(before) != throws + 1:
         before = (sum(before) / len(before),) * (throws + 1)
     thick = [web for arms in old.arms for web in (arms.left_web_mm, arms.right_web_mm) if web]
-    web = round(sum(thick) / len(thick) * factor, DIGITS) if thick else usual.web
+    web = _drawn(sum(thick) / len(thick) * factor) if thick else usual.web
     rule = "по правилу (n₁/n)^½"
     notes = {f"crankshaft.{key}": rule for key in _SINGLE}
     if rods != 1:
         notes[f"crankshaft.{_PIN_LENGTH}"] += f", шатунов рядом {rods_of(layout)}"
     for key in _SINGLE:
         if retained[key] != by_rule[key]:
-            share = number_text(round(retained[key] / bore, 4))
+            share = number_text(round(retained[key] / bore, 2))
             would = f"{rule} вышло бы {number_text(by_rule[key])}"
             notes[f"crankshaft.{key}"] = f"{would}; принято {share} D, край обычного"
     notes["crankshaft.main_lengths_mm"] = rule + (
         "" if len(old.main_lengths_mm) == throws + 1 else ", средняя длина прежних"
     )
     notes["crankshaft.arms.left_web_mm"] = rule if thick else "обычная"
-    lengths = tuple(round(value * factor, DIGITS) for value in before)
+    lengths = tuple(_drawn(value * factor) for value in before)
     pin, length, main = (retained[key] for key in _SINGLE)
     every = 2 if layout == "opposed" else 1
     between = every * (min(map(sum, pairwise(lengths))) / 2 + 2 * web + length)
@@ -275,7 +277,13 @@ def _bounded(key: str, size: float, bore: float) -> float:
 
 def _up(size: float) -> float:
     """Return a size with its last digit rounded up [mm]."""
-    return float(math.ceil(size * 10**DIGITS) / 10**DIGITS)
+    digits = decimals(size)
+    return float(math.ceil(round(size * 10**digits, _SURE_DIGITS)) / 10**digits)
+
+
+def _drawn(size: float) -> float:
+    """Return a size as a drawing gives it [mm]."""
+    return round(size, decimals(size))
 
 
 def _one(shaft_data: Any, key: str) -> float:  # noqa: ANN401

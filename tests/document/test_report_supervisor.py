@@ -6,18 +6,23 @@ Sentences stand in one table: a report that has to say it and one that must not.
 import copy
 import math
 import re
+from functools import lru_cache
 
 import pytest
 
+from kshm.nomenclature.quantity import quantity
 from reports.document.chapters.closing import difference
 from reports.document.text.terms import Terms
 from reports.formula.tex import to_tex, to_tex_numbers
+from reports.inputs.fields import to_mapping
 from reports.inputs.load import load_mapping
+from reports.inputs.reasons import REASONS
 from reports.inputs.solve_input import solved
 from reports.model.evaluation import evaluate_model
 from reports.new.generate import generate_engine
 from reports.shared.russian import cylindered
 from reports.tables.registry import build_model
+from tests.conftest import sample
 from tests.document.bare_pages import bare_page
 from tests.document.test_report_sentences import engine, page_of, plain, text_of
 
@@ -296,3 +301,56 @@ def test_no_table_of_an_appendix_repeats_another(source):
     assert len(tables) > 4
     repeats = [(a, b) for a in tables for b in tables if a != b and tables[a] <= tables[b]]
     assert repeats == []
+
+
+# --- what a reader of a two-stroke, a large and a scaled engine disputed ---
+
+
+@lru_cache(maxsize=1)
+def large_note() -> str:
+    """A medium-speed diesel with all its chapters, on a coarse grid."""
+    made = generate_engine(12, layout="v", kind="diesel", bore_mm=300.0, stroke_mm=350.0,
+                           speed_rpm=900.0, strength=True)  # fmt: skip
+    raw = copy.deepcopy(made.data) | {"calculation": {"step_deg": 30}}
+    model = load_mapping(raw | {"torsion": {}, "flywheel": {}}, source="t.toml").model
+    return plain(bare_page(model))
+
+
+def test_journals_loaded_at_one_angle_are_told_so_once():
+    text = words_of("two-stroke")
+    assert "кН на каждую, при φ = 180°" in text and "кН на каждую при φ = 180°" in text
+    assert "у шейки 2 при φ" in words_of("d-240")  # journals 2 and 4 at their own angles
+
+
+def test_specific_masses_of_a_large_engine_are_not_held_to_those_of_a_car():
+    said = "у двигателя большего размера удельные массы растут вместе с ним"
+    assert said in large_note() and said not in words_of("yamz-238")
+
+
+def test_a_flywheel_of_the_train_is_set_against_the_one_that_is_sized():
+    """One chapter drew a flywheel of 32 kg·m², the next took 742 without a word."""
+    text = large_note()
+    assert re.search(
+        r"вместе с массами за маховиком: у маховика наименьших размеров \(таблица \d+\) "
+        r"I′м = [\d,]+ кг·м2; принято Jм = [\d,]+ кг·м2",
+        text,
+    )
+
+
+def test_orders_of_the_moment_are_told_how_far_they_go():
+    text = large_note()
+    assert "в ряд по порядкам ν до " in text
+    assert not re.search(r"— (больше|меньше|почти такое же)\.", text)
+
+
+def test_a_film_of_the_cycle_has_a_symbol_of_its_own():
+    film, of_mean = quantity("oil_orb_h_um"), quantity("oil_hmin1_um")
+    assert film.tex != of_mean.tex
+    assert {reason.tex for reason in REASONS if reason.key == "film"} == {film.tex}
+    assert "φ — угол, при котором плёнка наименьшая" in words_of("d-240-bearings")
+
+
+def test_what_is_stronger_than_usual_is_not_told_to_be_changed():
+    raw = to_mapping(sample("two-stroke")) | {"strength": {}}
+    text = plain(bare_page(load_mapping(raw, source="t.toml").model))
+    assert "(взято с запасом)" in text and "что следует изменить): напряжение" not in text

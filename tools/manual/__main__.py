@@ -21,8 +21,10 @@ def main(docs: Path, site: Path | None, pictures: bool) -> None:
         click.echo(f"обновлено: {path}")
     if pictures:
         from tools.manual.pictures import write_pictures
+        from tools.manual.style_pictures import write_style_pictures
 
-        for path in write_pictures(docs / "images"):
+        styles = docs.parent / "samples" / "styles"
+        for path in (*write_pictures(docs / "images"), *write_style_pictures(styles)):
             click.echo(f"рисунок: {path}")
     if site is not None:
         click.echo(f"страниц HTML: {len(write_site(docs, site))} в {site}")

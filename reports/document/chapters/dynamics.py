@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -27,7 +28,7 @@ from reports.formula.numeric import evaluate
 from reports.inputs.checks.gas import indicated_of
 from reports.inputs.sections.gas import RoundedGasSection, TableGasSection
 from reports.inputs.sections.input_file import InputFile
-from reports.inputs.to_si.masses import sizes_of
+from reports.inputs.to_si.masses import Sizes, sizes_of
 from reports.model.blocks import NO, Grid, ScalarTable
 from reports.model.charts import Series
 from reports.model.context import diagram_kind
@@ -246,7 +247,13 @@ def _mass_notes(chapter: Chapter) -> Markup:
         outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in shown],
         of_one_rod=[_RATIOS[v.key.removesuffix("_fits")] for v in shown] == ["throw_mass"]
         and several_rods(chapter.input),
+        grown=Sizes(1000 * _bore(chapter.terms), 0.0, 0.0).heavier > 1,
     )
+
+
+def _bore(terms: Terms) -> float:
+    """D [m], given or found by the cycle."""
+    return math.sqrt(4 * terms.value("F_piston") / math.pi)
 
 
 def _outside(terms: Terms, verdict: str, limits: str) -> Markup:

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from kshm.nomenclature.quantity import roman
 from reports.document.chapters.chapter import (
     Chapter,
+    at_once,
     leaders,
     pin_stems,
     stretched,
@@ -210,6 +211,7 @@ def journals(chapter: Chapter) -> Markup:
         worst=k,
         pin_wear=pin_figure("fig52", worst_pin(terms)),
         leaders=leaders(terms, [f"Rmain{n}_max" for n in numbers]),
+        at_once=at_once(terms, numbers),
         sides=[each for each in neighbours if 1 <= each[1] <= throws],
         forced=chapter.input.crankshaft.force_offsets_deg is not None,
     )

@@ -94,7 +94,8 @@ def _sizes(terms: Terms, cases: list[FilmCase]) -> TableBlock:
 def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
     heads = [
         TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"\chi_{\max}", "")),
-        TableColumn(symbol_head(r"h_{\min}", "мкм")), TableColumn(symbol_head(r"\varphi", "°")),
+        TableColumn(symbol_head(r"h_{\mathrm{ц}}", "мкм")),
+        TableColumn(symbol_head(r"\varphi", "°")),
         TableColumn(symbol_head(r"\delta_{\mathrm{в}}", "°")),
         TableColumn(symbol_head(r"\delta_{\mathrm{цап}}", "°")),
         TableColumn(symbol_head(r"\zeta_{\mathrm{кр}}", "%")),

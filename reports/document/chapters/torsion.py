@@ -156,6 +156,7 @@ def torsion(chapter: Chapter) -> Markup:
         articulated=chapter.shape.articulated,
         flywheel_needed=terms.has("I_flywheel") and terms.value("I_flywheel") > 0,
         light_flywheel=_lighter_than(chapter),
+        sized_flywheel=terms.has("fw_I") and "balance" in chapter.relevant,
         heavier=terms.value("tor_flywheel_other") > terms.value("tor_flywheel"),
         other_helps=other.stress < (1 - _NEAR) * bare.stress,
         other_harms=other.stress > (1 + _NEAR) * bare.stress,

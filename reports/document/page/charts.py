@@ -103,8 +103,8 @@ def beside_figure(parts: Sequence[Sequence[Item]]) -> str:
         ends.append(left_end + (right - left) / 2)
         left_end += right - left + _BETWEEN
     low = bounds(canvas.items)[1] - 2.5 * _LETTERS
-    for middle, letter in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
-        canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
+    for middle, sign in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
+        canvas.words((middle, low), f"{sign})", _LETTERS, align=0.5)
     left, low, right, high = bounds(canvas.items)
     return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
 
@@ -126,8 +126,9 @@ def counterweight_of(terms: Terms) -> CounterweightSizes:
     """Sizes of the first web with the proposed counterweight."""
     throw = throw_of(terms)
     keys = ("cw_inner_mm", "cw_outer_mm", "cw_angle_deg")
-    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], *map(terms.value, keys),
-                              words=_size_words(terms, keys))  # fmt: skip
+    inner, outer, angle = map(terms.value, keys)
+    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], inner, outer, angle,
+                              _size_words(terms, keys))  # fmt: skip
 
 
 def counterweight_figure(terms: Terms) -> str:
@@ -138,7 +139,8 @@ def counterweight_figure(terms: Terms) -> str:
 def flywheel_of(terms: Terms) -> FlywheelSizes:
     """Sizes of the flywheel."""
     keys = ("fw_outer_mm", "fw_bore_mm", "fw_disc_mm", "fw_rim_mm")
-    return FlywheelSizes(*map(terms.value, keys), words=_size_words(terms, keys))
+    outer, bore, disc, rim = map(terms.value, keys)
+    return FlywheelSizes(outer, bore, disc, rim, _size_words(terms, keys))
 
 
 def flywheel_figure(terms: Terms) -> str:

@@ -32,8 +32,13 @@ def test_worse_counterweights_are_not_recommended(name: str, goal: str):
     assert page.count("исходные противовесы следует оставить") == keeps
     assert page.count("исходные следует оставить") == keeps
     for state, words in (("now", "с исходными"), ("bare", "без противовесов")):
-        said = re.search(rf"Наибольшая нагрузка ше[а-я]+ ([\d, и]+) с предложенными больше, чем {words}", page)
-        worse = [f"{number}" for number in range(1, 20)
-                 if terms.has(f"cw_new_max{number}_kN")
-                 and value(f"cw_new_max{number}_kN") > 1.0005 * value(f"cw_{state}_max{number}_kN")]
+        said = re.search(
+            rf"Наибольшая нагрузка ше[а-я]+ ([\d, и]+) с предложенными больше, чем {words}", page
+        )
+        worse = [
+            f"{number}"
+            for number in range(1, 20)
+            if terms.has(f"cw_new_max{number}_kN")
+            and value(f"cw_new_max{number}_kN") > 1.0005 * value(f"cw_{state}_max{number}_kN")
+        ]
         assert re.findall(r"\d+", said[1] if said else "") == worse

@@ -1,6 +1,5 @@
 """What a supervisor sends back: sentences that are not true, numbers told twice."""
 
-import math
 import re
 from functools import cache
 

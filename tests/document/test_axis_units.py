@@ -11,12 +11,14 @@ import pytest
 from reports.document.figures import polar
 from reports.document.figures.axes import Axes
 from reports.document.report import Report
+from reports.document.text.symbols import inline_html
 from reports.document.text.terms import Terms
 from reports.draw.canvas import Words
 from reports.model.evaluation import evaluate_model
 from reports.sheet.write import sheet_items
 from reports.tables.registry import build_model
-from tests.document.test_report_parts import NEW, SAMPLES, with_every_part
+from tests.document.bare_pages import plain
+from tests.document.test_report_parts import NEW, SAMPLES, page_of, with_every_part
 
 # A share, an order of vibration, an amplitude in those of the first mass, a number of a mass.
 BARE = {r"$k'_{\mathrm{пв}}$", r"$\nu$", r"$\alpha$", r"$i_{\mathrm{м}}$"}
@@ -78,3 +80,14 @@ def test_an_axis_of_two_curves_has_the_symbols_of_both():
     titles = {text.partition(" (М ")[0] for text in words if "(М " in text}
     assert {"M_e, M_р, Н·м", "N_уд, S_уд, МПа", "K_уд, T_уд, МПа"} <= titles
     assert r"$L_{\mathrm{изб}}$, $L_{\mathrm{изб.г}}$, Дж" in axes_of(name)
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "yamz-236", "two-stroke", "one"])
+def test_a_symbol_of_an_axis_stands_in_the_note(name: str):
+    """τ_раб1 and i_м stood on axes and nowhere else; a projection or a number may."""
+    named = axes_of(name)
+    assert len(named) > 15
+    text = plain(re.sub("(?s)<svg.*?</svg>", "", page_of(name))).replace(" ", "")
+    symbols = {tex for words in named for tex in re.findall(r"\$([^$]+)\$", words)}
+    said = {plain(str(inline_html(tex))).replace(" ", "") for tex in symbols}
+    assert {sign for sign in said if re.sub(r"(?<=.)[xy\d]$", "", sign) not in text} == set()

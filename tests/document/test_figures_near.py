@@ -5,8 +5,13 @@ import re
 import pytest
 
 from reports.document.page.placing import Block, Spot, filled
+from reports.document.report import Report
+from reports.model.evaluation import evaluate_model
+from reports.shared.resources import samples_dir
+from reports.tables.registry import build_model
 from tests.document.pdftools import pages_of
 from tests.document.report_samples import shipped_pdf
+from tests.document.test_report_parts import with_every_part
 
 
 def first_mentions(pages, word):
@@ -34,7 +39,19 @@ def test_it_stands_within_a_page_or_two_of_its_mention(name, word, caption, coun
 
     The table of the throws, which waits for that of the input data, stood five pages after it.
     """
-    pages = pages_of(shipped_pdf(name), tmp_path)
+    assert_near(pages_of(shipped_pdf(name), tmp_path), word, caption, count, most)
+
+
+def test_a_figure_stands_near_in_a_note_with_every_part(tmp_path):
+    """The sketch of the piston stood seventeen pages after its mention, of the rod thirteen."""
+    model = build_model(with_every_part("cycle-turbo-diesel"))
+    source = samples_dir() / "cycle-turbo-diesel.toml"
+    pages = pages_of(Report.of(model, evaluate_model(model), source).pdf(source, b""), tmp_path)
+    assert_near(pages, "рисун", r"^\s*Рисунок (\d+) —", 40, 1)
+
+
+def assert_near(pages, word, caption, count, most):
+    """Whether all figures or tables stand so many pages from their first mention at most."""
     start = next(
         n for n, page in enumerate(pages) if re.search(r"^\s+ВВЕДЕНИЕ", page, re.MULTILINE)
     )

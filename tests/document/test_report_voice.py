@@ -25,6 +25,7 @@ from reports.shared.errors import InputError
 from reports.shared.resources import samples_dir
 from reports.shared.russian import instrumental
 from reports.tables.registry import build_model
+from reports.tables.strength_members import SAFETIES
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page
 from tests.document.test_report_sentences import (
@@ -380,6 +381,22 @@ def test_the_least_safety_stands_beside_what_is_allowed(allowed, side):
     least, said, of = re.search(pattern, text_of(model)).groups()
     assert said == side and float(of.replace(",", ".")) == allowed
     assert (float(least.replace(",", ".")) >= allowed) == (side == "не меньше")
+
+
+def _least_safety(times: float) -> float:
+    model = build_model(engine(regime__times_speed_rpm=times, strength__safety_allowed=1.0))
+    scalars = evaluate_model(model).scalars
+    return min(float(scalars[key]) for key in SAFETIES)
+
+
+def test_a_safety_is_printed_less_than_what_it_does_not_reach():
+    """«0,9994» stood as 1,00 in the conclusion and as 0,999 among the checks."""
+    least = ((times, _least_safety(times)) for times in (1.0, 0.99, 0.98, 0.97, 0.96))
+    times, allowed = next((t, round(n, 2)) for t, n in least if round(n, 2) > n)
+    model = engine(regime__times_speed_rpm=times, strength__safety_allowed=allowed,
+                   report__chapters=["strength"])  # fmt: skip
+    said = re.search(r"деталей — запас [^;]*, ([\d,]+), он меньше допускаемого", text_of(model))
+    assert float(said[1].replace(",", ".")) < allowed
 
 
 def test_the_comments_of_a_new_engine_tell_the_same_spans():

@@ -19,6 +19,7 @@ from reports.document.page.blocks import (
 )
 from reports.document.page.charts import sketches_figure
 from reports.document.page.numbering import Figure, TablePlan
+from reports.document.text.checked import shown
 from reports.document.text.symbols import titled_html
 from reports.document.text.terms import Terms, material_name, plain_number
 from reports.document.text.texts import of_digits
@@ -38,12 +39,13 @@ def concluded(chapter: Chapter) -> Markup:
     """Return the chapter's result in a line of the conclusion."""
     if chapter.input.strength is None:
         return Markup("")
-    terms, block = chapter.terms, _block(chapter, "strength_allowed")
+    terms = chapter.terms
     allowed = terms.num("strength_safety_allowed")
-    least = min((value for value, _ in block.pairs), key=lambda each: terms.value(each.key))
+    parts = [each for each in terms.judged if each.block == "strength_allowed"]
+    least = min(parts, key=lambda each: each.value)
     side = "меньше" if _weak(chapter) else "не меньше"
     line = Markup("наименьший из запасов прочности деталей — {}, {}, он {} допускаемого {}").format(
-        titled_html(uncapital(least.note)), fixed(terms.value(least.key), 2), side, allowed
+        titled_html(uncapital(least.title)), shown(terms, least), side, allowed
     )
     titles = _titles(chapter)
     above = [uncapital(titles[each.key]) for each, _, side in _ranged(chapter) if side > 0]

@@ -27,6 +27,7 @@ _FAR = 0.0006  # for each block that a figure lets pass
 _NEXT = 0.015  # for each figure that lets a heading pass
 _LATE = 1.0  # for each page between a figure and the one after that of its first mention
 _LATE_TABLE = 0.3  # the same for a table, which may stand a page farther
+_OVERDUE = 2  # pages late, from which a block waits only if nothing else is left
 _SMALLER = 0.2  # for the square of the share that a figure loses
 _WRONG = 0.1  # the chance that what is left is less by a line than estimated
 _PAGE = 0.1  # for each page, where a chapter could end one earlier
@@ -81,9 +82,15 @@ class _Layout(NamedTuple):
 
     def late(self, block: Block, page: int) -> float:
         """Cost of a figure beyond the page after its first mention, of a table beyond two."""
+        return (_LATE if block.figure else _LATE_TABLE) * self._pages_late(block, page)
+
+    def is_overdue(self) -> bool:
+        """Whether a block waits on longer than any blank foot of a page is worth."""
+        return any(self._pages_late(block, self.spot.page) >= _OVERDUE for block in self.waiting)
+
+    def _pages_late(self, block: Block, page: int) -> int:
         named = (at for name, at in self.mentions if name in block.names)
-        each, near = (_LATE, 1) if block.figure else (_LATE_TABLE, 2)
-        return each * max(0, page - near - min(named, default=page))
+        return max(0, page - (1 if block.figure else 2) - min(named, default=page))
 
 
 def filled(blocks: Sequence[Block], spot: Spot, room: float, line: float) -> tuple[list[str], Spot]:
@@ -224,7 +231,7 @@ def _followed(layout: _Layout, block: Block, room: float) -> _Layout:
 def _best(layouts: Sequence[_Layout]) -> list[_Layout]:
     """Return the cheapest layouts, one for each place on the page and each set that waits."""
     cheapest: dict[tuple[object, ...], _Layout] = {}
-    for layout in sorted(layouts, key=lambda each: each.spot.cost):
+    for layout in sorted(layouts, key=lambda each: (each.is_overdue(), each.spot.cost)):
         spot = layout.spot
         key = (spot.page, round(spot.used), tuple(map(id, layout.waiting)), layout.mentions[-2:])
         cheapest.setdefault(key, layout)

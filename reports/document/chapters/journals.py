@@ -12,7 +12,6 @@ from markupsafe import Markup
 from kshm.nomenclature.quantity import roman
 from reports.document.chapters.chapter import (
     Chapter,
-    at_once,
     leaders,
     pin_stems,
     stretched,
@@ -160,6 +159,12 @@ def _least_rays(terms: Terms, pin: str, rays: int) -> list[str]:
     sums = [fixed(terms.value(f"{pin}_sum{i}"), _SUM_DIGITS) for i in range(1, rays + 1)]
     least = sums[round(terms.value(f"hole_{pin}_ray")) - 1]
     return [roman(i) for i, total in enumerate(sums, 1) if total == least]
+
+
+def at_once(terms: Terms, numbers: Sequence[int]) -> bool:
+    """Whether the most loaded of the main journals are so at the same angle."""
+    loads = leaders(terms, [f"Rmain{n}_max" for n in numbers])
+    return len({terms.num(f"phi_Rmain{numbers[k - 1]}_max_deg") for k in loads}) == 1
 
 
 def journals(chapter: Chapter) -> Markup:

@@ -71,12 +71,6 @@ def leaders(terms: Terms, names: Sequence[str]) -> list[int]:
     return [number for number, name in enumerate(names, 1) if terms.num(name) == most]
 
 
-def at_once(terms: Terms, numbers: Sequence[int]) -> bool:
-    """Whether the most loaded of the main journals are so at the same angle."""
-    loads = leaders(terms, [f"Rmain{n}_max" for n in numbers])
-    return len({terms.num(f"phi_Rmain{numbers[k - 1]}_max_deg") for k in loads}) == 1
-
-
 def stretched(labels: Sequence[Markup]) -> list[Markup]:
     """Numbered labels, three and more that follow each other by their ends: «19–22»."""
     stretches: list[Markup] = []

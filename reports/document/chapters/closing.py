@@ -18,14 +18,13 @@ from reports.document.chapters.chapter import (
     ELSEWHERE,
     STATICS,
     Chapter,
-    at_once,
     leaders,
     pin_stems,
     pin_torque,
     worst_pin,
     worst_running,
 )
-from reports.document.chapters.journals import alike_journals, least_ray
+from reports.document.chapters.journals import alike_journals, at_once, least_ray
 from reports.document.chapters.oil_hole import oil_hole
 from reports.document.chapters.repeats import printed, repeated
 from reports.document.page.blocks import TableBlock, TableColumn, angle_table, table_block

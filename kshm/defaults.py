@@ -34,6 +34,7 @@ FILLET_SHARE = 0.06  # of the journal's diameter
 MEAN_BENDING, MEAN_TORSION = 0.15, 0.08  # sensitivity to the mean stress
 FILLET_BENDING, FILLET_TORSION = 2.0, 1.5  # theoretical concentration
 HOLE_BENDING, HOLE_TORSION = 2.2, 1.8
+CLASS_RATIO = 1.15  # IACS UR M53: of the fatigue limit to the equivalent amplitude, at least
 SENSITIVITY, SIZE_FACTOR = 0.7, 0.75
 
 # Clearances of the bearings over the root of the diameter [mm over √mm], from memory.

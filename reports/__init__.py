@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from reports.api import build, dump, load, samples
-    from reports.figures import plot
+    from reports.python.api import build, dump, load, samples
+    from reports.python.figures import plot
 
 __all__ = ["build", "dump", "load", "plot", "samples"]
 
-_HOMES = {"plot": "reports.figures"}
+_HOMES = {"plot": "reports.python.figures"}
 
 
 def __dir__() -> list[str]:
@@ -28,6 +28,6 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401
 
     if name not in __all__:
         raise AttributeError(f"module 'reports' has no attribute '{name}'")
-    member = getattr(import_module(_HOMES.get(name, "reports.api")), name)
+    member = getattr(import_module(_HOMES.get(name, "reports.python.api")), name)
     globals()[name] = member
     return member

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 # By name only: the solver knows nothing of drawing, and nothing is loaded before a figure is asked.
-_DRAWER = "reports.figures"
+_DRAWER = "reports.python.figures"
 
 
 class Picture(Protocol):

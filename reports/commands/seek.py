@@ -66,7 +66,7 @@ def optimise(
         f"{name} = {number_text(float(f'{solution.result:.8g}'))}; решено: {solution.solved}"
     )
     if target is not None:
-        from reports.api import dump
+        from reports.python.api import dump
 
         write_text(target, dump(solution.engine))
         tell_written(target)
@@ -79,7 +79,7 @@ def _found(
 ) -> tuple[tuple[Axis, ...], Optimum]:
     from kshm.results.search import MAX_NAMES, solve_for
     from kshm.results.search import optimise as least_of
-    from reports.api import load, loaded_of
+    from reports.python.api import load, loaded_of
     from reports.shared.progress import Progress
     from reports.studies.plan import make_plan
 
@@ -163,7 +163,7 @@ def scatter(
     """Write the bands of results within tolerances; return the exit code."""
     from kshm.results.study import MAIN
     from kshm.results.tolerance import MAX_SAMPLES, MIN_SAMPLES, tolerance
-    from reports.api import load
+    from reports.python.api import load
     from reports.shared.files import refuse_own
     from reports.shared.progress import Progress
     from reports.studies.tolerance import check_suffix, write

@@ -36,7 +36,14 @@ def along(
     canvas: Canvas, start: Point, end: Point, name: str, value: float, letters: float,
     *, heads: bool = True,
 ) -> None:  # fmt: skip
-    """Draw a dimension from one point to another with its value beside it."""
+    """Draw a dimension from one point to another with its name and value beside it."""
+    measured(canvas, start, end, f"{name} = {number(value)}", letters, heads=heads)
+
+
+def measured(
+    canvas: Canvas, start: Point, end: Point, text: str, letters: float, *, heads: bool = True
+) -> None:
+    """Draw a dimension from one point to another with a text beside it."""
     length = math.dist(start, end)
     unit = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
     size = SIZE if heads else ""
@@ -47,7 +54,6 @@ def along(
     turn = math.degrees(math.atan2(unit[1], unit[0]))
     turn = turn - 180 if turn > 90.01 else turn + 180 if turn < -89.99 else turn
     up = (-math.sin(math.radians(turn)), math.cos(math.radians(turn)))
-    text = f"{name} = {number(value)}" if name else number(value)
     shares = (0.5, 0.4, 0.6, 0.3, 0.7)
     middles = [(start[0] + s * (end[0] - start[0]), start[1] + s * (end[1] - start[1]))
                for s in shares]  # fmt: skip

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from reports.draw.canvas import AXES, CONTOUR, SIZES, THIN, Canvas, Item, Point, interrupted, polar
-from reports.draw.parts import along, number
+from reports.draw.parts import along, measured
 
 _STEP = 4.0  # of an arc [deg]
 _EDGE = 1.35  # of a journal's radius: the web's edge there
@@ -14,7 +14,10 @@ _EDGE = 1.35  # of a journal's radius: the web's edge there
 
 @dataclass(frozen=True, slots=True)
 class CounterweightSizes:
-    """A web seen along the shaft [mm]: journals, crank radius, sector with its angle [deg]."""
+    """A web seen along the shaft [mm]: journals, crank radius, sector with its angle [deg].
+
+    ``words`` are those beside both radii and the angle of the sector.
+    """
 
     radius: float
     pin: float
@@ -22,6 +25,7 @@ class CounterweightSizes:
     inner: float
     outer: float
     angle: float
+    words: tuple[str, ...]
 
 
 def counterweight_drawing(
@@ -47,10 +51,9 @@ def counterweight_drawing(
     canvas.line((0.0, -outer - over), (0.0, r + pin * _EDGE + over), layer=AXES)
     canvas.line((-outer - over, 0.0), (outer + over, 0.0), layer=AXES)
     canvas.line((-pin * _EDGE - over, r), (pin * _EDGE + over, r), layer=AXES)
-    along(canvas, centre, polar(centre, outer, 180 + 0.6 * half), "R_2", web.outer, letters,
-          heads=False)  # fmt: skip
-    along(canvas, centre, polar(centre, inner, 180 - 0.6 * half), "R_1", web.inner, letters,
-          heads=False)  # fmt: skip
+    to_inner, to_outer, of_angle = web.words
+    measured(canvas, centre, polar(centre, outer, 180 + 0.6 * half), to_outer, letters, heads=False)
+    measured(canvas, centre, polar(centre, inner, 180 - 0.6 * half), to_inner, letters, heads=False)
     aside = outer + 3 * letters
     canvas.line((0.0, r), (aside + letters, r), layer=THIN)
     along(canvas, (aside, 0.0), (aside, r), "r", web.radius, letters)
@@ -59,7 +62,7 @@ def counterweight_drawing(
         canvas.line(polar(centre, outer, end), polar(centre, reach + letters, end), layer=THIN)
     canvas.line(*_arc(reach, 180 - half, 180 + half), layer=SIZES)
     below = [(0.0, -reach - (1.6 + 1.3 * n) * letters) for n in range(4)]
-    canvas.words_where_free(below, f"{number(web.angle)}°", letters, align=0.5)
+    canvas.words_where_free(below, of_angle, letters, align=0.5)
     return interrupted(canvas.items)
 
 
@@ -79,12 +82,16 @@ def _web(r: float, main: float, pin: float) -> list[Point]:
 
 @dataclass(frozen=True, slots=True)
 class FlywheelSizes:
-    """Diameters of the flywheel and of its rim's bore, thickness of the disc, width of the rim."""
+    """Diameters of the flywheel and of its rim's bore, thickness of the disc, width of the rim.
+
+    ``words`` are those beside them.
+    """
 
     outer: float
     bore: float
     disc: float
     rim: float
+    words: tuple[str, ...]
 
 
 def flywheel_drawing(
@@ -106,17 +113,18 @@ def flywheel_drawing(
         _hatched(canvas, [(0.0, 0.0, disc, bore), (0.0, bore, rim, outer)], side, letters)
     over = 2.5 * letters
     canvas.line((-over, 0.0), (max(rim, disc) + over, 0.0), layer=AXES)
-    for x, y, value in ((-3 * letters, outer, wheel.outer), (rim + 3 * letters, bore, wheel.bore)):
+    whole, inside, thickness, width_of_rim = wheel.words
+    for x, y, text in ((-3 * letters, outer, whole), (rim + 3 * letters, bore, inside)):
         end = 0.0 if x < 0 else rim
         for level in (y, -y):
             canvas.line((end, level), (x + math.copysign(letters, x), level), layer=THIN)
-        along(canvas, (x, -y), (x, y), "", value, letters)
-    for width, level, name, value in ((disc, -outer - 3 * letters, "h", wheel.disc),
-                                      (rim, outer + 3 * letters, "b", wheel.rim)):  # fmt: skip
+        measured(canvas, (x, -y), (x, y), text, letters)
+    for width, level, text in ((disc, -outer - 3 * letters, thickness),
+                               (rim, outer + 3 * letters, width_of_rim)):  # fmt: skip
         start = -outer if level < 0 else outer
         for x in (0.0, width):
             canvas.line((x, start), (x, level + math.copysign(letters, level)), layer=THIN)
-        along(canvas, (0.0, level), (width, level), name, value, letters)
+        measured(canvas, (0.0, level), (width, level), text, letters)
     return interrupted(canvas.items)
 
 

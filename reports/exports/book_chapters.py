@@ -13,7 +13,7 @@ from reports.shared.errors import BookError
 
 TABLE, FIGURE = "table", "figure"
 KINDS = {"tab": TABLE, "fig": FIGURE}
-_FURTHER = (*KINDS, "src", "beyond", "member")
+_FURTHER = (*KINDS, "beyond", "member")
 _CALLED = {TABLE: "таблица", FIGURE: "рисунок"}
 _ODD_MARK = re.compile("⟦[^⟧]*⟧?")
 

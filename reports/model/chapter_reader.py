@@ -57,8 +57,8 @@ _VALUE = re.compile(
     r"(?P<helper>helper )?(?P<key>[A-Za-z_]\w*)(?: of (?P<of>\w+))?(?: every (?P<every>\S+))?"
     r"(?: = (?P<expr>.*?))?(?: \| (?P<source>.*?)(?: \| (?P<note>.*))?)?"
 )
-_TEXT_LINES = ("heading", "formula", "equation", "show", "insert", "pick", "member", "mend",
-               "conclude")  # fmt: skip
+_TEXT_LINES = ("heading", "formula", "equation", "where", "show", "insert", "pick", "member",
+               "mend", "conclude")  # fmt: skip
 _HEADS = {
     "text": (r"(?P<title>.+)", "text ЗАГОЛОВОК"),
     "chapter": (r".+ [0-9A-F]{6}(?: smooth)?", "chapter НАЗВАНИЕ ЦВЕТ"),

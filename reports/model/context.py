@@ -17,13 +17,13 @@ from reports.model.blocks import TIE
 from reports.model.shape import Scope
 from reports.shared.russian import short
 
-# What a chapter's text says of a key: value with unit, number, symbol, symbol = value; places of
-# tables, figures and sources; the values of a list that are beyond its limits, each with its mend;
+# What a chapter's text says of a key: value with unit, number, symbol, symbol = value, title;
+# places of tables and figures; the values of a list that are beyond its limits, each with its mend;
 # the words for a member.
-TEXT_WORDS = ("val", "num", "sym", "eqv", "tab", "fig", "src", "beyond", "member")
+TEXT_WORDS = ("val", "num", "sym", "eqv", "title", "tab", "fig", "beyond", "member")
 MARK = re.compile(rf"⟦({'|'.join(TEXT_WORDS)}) (\w+(?:\.\w+)?)⟧")
-# A number that the text calculates, by its decimals and formula; a place in the textbook.
-FREE_MARK = re.compile(r"⟦(calc|book) ([^⟧]+)⟧")
+# A number that the text calculates, by its decimals and formula; sources; a place in the textbook.
+FREE_MARK = re.compile(r"⟦(calc|src|book) ([^⟧]+)⟧")
 # What it says by its values alone: where a condition holds, where a list is within its limits.
 CASES = ("when", "within", "outside")
 CASE_MARK = re.compile(rf"⟦(?:({'|'.join(CASES)}) ([^⟧]+)|(otherwise|end))⟧")
@@ -81,6 +81,7 @@ def names_of(scope: Scope, **further: object) -> Mapping[str, object]:
         "tie": TIE,
         **{word: partial(_mark, word) for word in TEXT_WORDS + CASES},
         "calc": lambda formula, decimals: _mark("calc", f"{decimals} {formula}"),
+        "src": lambda *keys: _mark("src", " ".join(keys)),
         "book": partial(_mark, "book"),
         "otherwise": "⟦otherwise⟧",
         "end": "⟦end⟧",

@@ -210,6 +210,7 @@ _OF_BOOK: dict[str, Callable[[Scope], dict[str, Any]]] = {
     "cycle": _cycle,
     "cycle_results": _cycle,
     "cycle_speed": _cycle,
+    "cycle_text": _cycle,
     "inertia": lambda _: {"fine_step": FINE_STEP},
     "oil": oil_names,
     "rod_masses": _table_4,

@@ -50,11 +50,12 @@ GAS_NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class CycleRange:
-    """Limits [unit of the tables] of a scalar or an input, what they are of and from where."""
+    """Limits of a scalar or an input with their unit, what they are of and from where."""
 
     name: str
     low: float
     high: float
+    unit: str
     note: str
     source: str
 
@@ -99,6 +100,5 @@ def ranges_of(section: CycleSection) -> Iterator[CycleRange]:
     titles |= {f"inputs.{q.key}": q for q in INPUTS}
     for key, (low, high), source in cycle_ranges(section.kind, boosted=is_boosted(section)):
         quantity = titles[key]
-        unit = f", {quantity.unit}" if quantity.unit else ""
-        note = f"{quantity.title} {quantity.symbol.replace('_', '')}{unit}"
-        yield CycleRange(_RANGE_NAMES[key], low, high, note, source or UNCHECKED)
+        note = f"{quantity.title} {quantity.symbol.replace('_', '')}"
+        yield CycleRange(_RANGE_NAMES[key], low, high, quantity.unit, note, source or UNCHECKED)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kshm.defaults import CLEARANCE_SHARES, FILLET_SHARE
+from kshm.defaults import CLASS_RATIO, CLEARANCE_SHARES, FILLET_SHARE
 from reports.inputs.sections.bearings import MATERIALS, MEMORY, OILS
 from reports.model.shape import Scope
 
@@ -57,6 +57,7 @@ def oil_names(scope: Scope) -> dict[str, object]:
         "oils": list(OILS.values()),
         "clearances": CLEARANCE_SHARES,
         "memory": MEMORY,
+        "class_ratio": CLASS_RATIO,
         "estimated": section is not None and any(
             getattr(section, f"{part}_clearance_{end}_mm") is None
             for part in ("pin", "main") for end in ("min", "max")
@@ -67,4 +68,5 @@ def oil_names(scope: Scope) -> dict[str, object]:
 def safety_names(scope: Scope) -> dict[str, object]:
     """Materials; the fillet where the file gives none."""
     del scope
-    return {"materials": list(MATERIALS.values()), "fillet_share": FILLET_SHARE}
+    return {"materials": list(MATERIALS.values()), "fillet_share": FILLET_SHARE,
+            "class_ratio": CLASS_RATIO}  # fmt: skip

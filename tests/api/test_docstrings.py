@@ -11,7 +11,7 @@ import pytest
 
 import kshm
 import reports
-from reports.figures import SolutionPlots, SvgPicture
+from reports.python.figures import SolutionPlots, SvgPicture
 from tests.api.conftest import run_text
 
 SOURCES = ("Gots", "scipy", "kshm.")  # the textbook, a method, what it says elsewhere
@@ -69,7 +69,7 @@ def faults(function: Callable[..., Any]) -> list[str]:
         collected.append("no shape of the result")
     if parameters and "Raises:" not in text:
         collected.append("no errors")
-    has_method = not function.__module__.startswith(("reports.api", "kshm.errors"))
+    has_method = not function.__module__.startswith(("reports.python.api", "kshm.errors"))
     if has_method and function.__name__ != "save" and not any(word in text for word in SOURCES):
         collected.append("no source")
     if not re.search(r"^>>> ", text, re.MULTILINE):

@@ -10,9 +10,14 @@ import html
 import re
 from collections import defaultdict
 from itertools import combinations
+from unittest import mock
 
 import pytest
 
+from reports.document.figures.canvas import Pen, Point
+from reports.document.figures.schemes import mechanism_sketch
+from reports.document.text.symbols import inline_html
+from reports.draw.writers import PT_PER_MM
 from tests.document.test_report_parts import page_of
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
@@ -20,6 +25,7 @@ pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_gro
 _TOLD = re.compile(r"(?:^(?:где )?|[,;(:] ?| и )([^\s,;:(]{1,12}) — ([^,;.()]+)")
 _WORD = re.compile(r"[А-Яа-яё]{5,}")
 _POINTS = "Отмечены"  # points of a diagram, not quantities
+_JOINTS = {"O", "A", "B"}
 _STEM = 4  # letters by which words are the same
 
 
@@ -70,3 +76,26 @@ def test_a_symbol_has_one_explanation(name: str):
         if symbol != "—" and any(differ(*pair) for pair in combinations(said, 2))
     }
     assert several == {}
+
+
+def _letters(offset: float) -> tuple[set[str], set[str]]:
+    """Symbols on the left half of the mechanism's scheme, which has sizes, and on the right one."""
+    halves: tuple[set[str], set[str]] = (set(), set())
+    width = 150.0
+
+    def noted(_: Pen, at: Point, text: str, *_more: object, **_named: object) -> None:
+        for tex in re.findall(r"^\$([^=$]+)", text):
+            halves[at[0] > width * PT_PER_MM / 2].add(_bare(inline_html(tex)))
+
+    with mock.patch.object(Pen, "text", noted):
+        mechanism_sketch(0.3, k=offset, width=width)
+    return halves
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2, -0.2])
+def test_letters_of_the_scheme_are_those_of_the_note(offset: float):
+    """S was the stroke in one half of figure 3 and the force along the rod in the other."""
+    sizes, forces = _letters(offset)
+    assert sizes & forces == _JOINTS
+    assert len(forces - _JOINTS) == 6
+    assert forces - _JOINTS <= meanings(page_of("gots-diesel")).keys()

@@ -22,7 +22,7 @@ from reports.tables.left_out import unused
 from reports.tables.registry import build_model
 from tests.conftest import sample
 from tests.document.bare_pages import bare_page, formulas_of, plain
-from tests.document.test_report_symbols import assert_substitutions_hold
+from tests.document.test_report_symbols import assert_substitutions_hold, page_of_defined_symbols
 
 pytestmark = [pytest.mark.usefixtures("nothing_is_drawn"), pytest.mark.xdist_group("sentences")]
 
@@ -41,6 +41,7 @@ NEW = {
     },
     "opposed": {"cylinders": 4, "layout": "opposed", "kind": "petrol"},
 }
+_ON_A_PAGE = 60  # symbols in two columns
 SAME = {"m1/mш"}  # one share, which the masses and the estimate of a rod ask for
 
 
@@ -60,6 +61,24 @@ def page_of(name: str) -> str:
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])
 def test_what_is_put_in_gives_what_is_printed(name: str):
     assert_substitutions_hold(page_of(name))
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "vw-1600", "two-stroke", "V12", "one"])
+def test_a_symbol_of_a_formula_is_defined(name: str):
+    """α_t stood in the tightness of a heated bush and nowhere else."""
+    page_of_defined_symbols(with_every_part(name))
+
+
+@pytest.mark.parametrize("name", ["gots-diesel", "V12", "cycle-petrol"])
+def test_a_list_of_symbols_is_parted_where_a_page_holds_it(name: str):
+    """The second column of a list of four pages began on the third, in the middle of the first."""
+    page = page_of(name) if name in NEW else bare_page(sample(name))
+    text = re.split(r'<div class="notation">', page, maxsplit=1)[1].partition("</div>")[0]
+    first, _, second = text.partition('<p class="flush half">')
+    assert bool(second) == (text.count("<p") < _ON_A_PAGE)
+    if second:
+        letters = len(plain(first)), len(plain(second))
+        assert max(letters) < 1.2 * min(letters)
 
 
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])

@@ -301,15 +301,19 @@ def test_no_word_of_the_program_stands_in_a_note(name, detail):
     assert_speaks_as_its_author(page_of(name, detail))
 
 
-@pytest.mark.parametrize("name", samples_with(charts, choices))
-def test_no_sentence_of_a_sample_is_denied(name):
-    model, (page, drawn) = engine(source=name), noted(name)
+def assert_every_rule(model, page, drawn):
     assert_claims_hold(model, page)
     assert_nothing_is_empty(page, drawn)
     assert_symbols_mean_one_number(page)
     assert_decimals_agree(plain(page))
     assert_set_well(page)
     assert_speaks_as_its_author(page)
+
+
+@pytest.mark.parametrize("name", samples_with(charts, choices))
+def test_no_sentence_of_a_sample_is_denied(name):
+    model, (page, drawn) = engine(source=name), noted(name)
+    assert_every_rule(model, page, drawn)
 
 
 @settings(max_examples=10)
@@ -327,12 +331,7 @@ def test_no_sentence_of_a_random_engine_is_denied(layout, step, speed, method, d
     )  # fmt: skip
     drawn = []
     page = bare_page(model, drawn)
-    assert_claims_hold(model, page)
-    assert_nothing_is_empty(page, drawn)
-    assert_symbols_mean_one_number(page)
-    assert_decimals_agree(plain(page))
-    assert_set_well(page)
-    assert_speaks_as_its_author(page)
+    assert_every_rule(model, page, drawn)
 
 
 # --- what was wrong, by name ---

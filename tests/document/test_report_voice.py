@@ -374,9 +374,10 @@ def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside
 @pytest.mark.parametrize(("allowed", "side"), [(1.0, "не меньше"), (9.0, "меньше")])
 def test_the_least_safety_stands_beside_what_is_allowed(allowed, side):
     model = engine(strength__safety_allowed=allowed, report__chapters=["strength"])
-    least, said, of = re.search(
-        r"запас прочности деталей ([\d,]+) — [^;]*, он (\D+) допускаемого ([\d,]+)", text_of(model)
-    ).groups()
+    pattern = (
+        r"из запасов прочности деталей — запас [^;]*, ([\d,]+), он (\D+) допускаемого ([\d,]+)"
+    )
+    least, said, of = re.search(pattern, text_of(model)).groups()
     assert said == side and float(of.replace(",", ".")) == allowed
     assert (float(least.replace(",", ".")) >= allowed) == (side == "не меньше")
 

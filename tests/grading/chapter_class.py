@@ -8,6 +8,8 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
+import pytest
+
 from reports.grading.issuing.assignment import Assignment
 from reports.grading.issuing.issue import assignment_for, issue
 from reports.grading.issuing.register import Register
@@ -54,6 +56,17 @@ class ChapterClass:
         changes = {key: [f"{right[key][0]}*{factor}"] for key, factor in (times or {}).items()}
         data = filled_book(handout, assignment, changes)
         return Marker(register).mark(Submission("р.xlsx", Path("р.xlsx"), None, None), data)
+
+
+def carried_from(chapter: ChapterClass, wrong: str, cause: str) -> set[str]:
+    """Items that one wrong first value alone costs, once a right book is right throughout."""
+    result = chapter.marks()
+    assert unlike_right(result) == {}
+    assert result["points"] == pytest.approx(100)
+    actual = unlike_right(chapter.marks({wrong: 1.5}))
+    assert actual.pop(cause) == "wrong"
+    assert set(actual.values()) == {"carried"}
+    return set(actual)
 
 
 def unlike_right(result: dict[str, Any]) -> dict[str, str]:

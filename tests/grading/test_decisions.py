@@ -49,10 +49,13 @@ def submitted(folder: Path) -> Path:
     return folder
 
 
-def run(where: Path, out: Path, *words: tuple[str, str, str, str]) -> dict:
+def run(
+    where: Path, out: Path, *words: tuple[str, str, str, str], rubric: Path | None = None
+) -> dict:
     folder = classroom.folder()
     options = GradeSetup(workers=1, decisions=words, author="Преподаватель")
-    done = grade(folder / "issued", where, out, secret_file=folder / "secret.key", options=options)
+    done = grade(folder / "issued", where, out, rubric_file=rubric,
+                 secret_file=folder / "secret.key", options=options)  # fmt: skip
     return {row["number"]: row for row in done.summary["rows"]}
 
 
@@ -220,16 +223,9 @@ def test_the_best_of_several_files_does_not_pass_by_a_decision(tmp_path):
     (where / "2 ещё.xlsx").write_bytes(book)
     rubric = tmp_path / "rubric.toml"
     rubric.write_text('[attempts]\ncount = "best"\n', encoding="utf-8")
-    folder = classroom.folder()
-
-    def rows(*words: tuple[str, str, str, str]) -> dict:
-        options = GradeSetup(workers=1, decisions=words)
-        done = grade(folder / "issued", where, out, rubric_file=rubric,
-                     secret_file=folder / "secret.key", options=options)  # fmt: skip
-        return {row["number"]: row for row in done.summary["rows"]}
-
-    assert rows()[2]["points"] == 100
-    for item in (rows(("2", "всё", "0", "списано")), rows()):
+    assert run(where, out, rubric=rubric)[2]["points"] == 100
+    for words in ([("2", "всё", "0", "списано")], []):
+        item = run(where, out, *words, rubric=rubric)
         assert item[2]["points"] is None and "решите о нём заново" in item[2]["remark"]
 
 

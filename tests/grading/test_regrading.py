@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from reports.grading.batch import grade as room
-from reports.grading.batch.grade import GradeSetup, grade
 from reports.shared.errors import InputError
 from tests.grading import classroom
 from tests.grading.test_decisions import decide_in_gradebook, run, submitted
@@ -31,16 +30,8 @@ def test_a_lower_maximum_is_refused_before_anything_is_written(
     before = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
     rubric = tmp_path / "rubric.toml"
     rubric.write_text("maximum = 50\n", encoding="utf-8")
-    folder = classroom.folder()
-
-    def again(*words: tuple[str, str, str, str]) -> dict:
-        options = GradeSetup(workers=1, decisions=words)
-        done = grade(folder / "issued", where, out, rubric_file=rubric,
-                     secret_file=folder / "secret.key", options=options)  # fmt: skip
-        return {row["number"]: row for row in done.summary["rows"]}
-
     with pytest.raises(InputError) as caught:
-        again()
+        run(where, out, rubric=rubric)
     assert "90" in str(caught.value.problems[0])
     assert {path: path.read_bytes() for path in out.rglob("*") if path.is_file()} == before
 

@@ -15,6 +15,8 @@ from reports.model.evaluation import Graph
 from reports.tables.registry import build_model
 from reports.workbook.layout import FIRST_ROW, Layout
 from reports.workbook.substitution import SHEET as SUBSTITUTION
+from reports.workbook.write import workbook_bytes
+from tools.referees.by_formualizer import Formualizer
 from tools.referees.cells import Book, CellValue, cached_values
 
 TOLERANCE = 1e-9
@@ -136,6 +138,16 @@ def differences_from_solver(
         if not isinstance(got, float) or not close(got, value, abs(value)):
             wrong.append(f"{key}: {got!r}, solver {value!r}")
     return compared, wrong
+
+
+def recalculated_as_solved(model: Model) -> bytes:
+    """A model's workbook, once Formualizer has found its caches and the solver's numbers."""
+    book = workbook_bytes(model)
+    (result,) = Formualizer().recalculate([book])
+    wrong = [*errors_in(result), *differences_from_caches(book, result)]
+    wrong += differences_from_solver(model, result)[1]
+    assert not wrong, wrong
+    return book
 
 
 def errors_in(recalculated: Book) -> list[str]:

@@ -28,7 +28,7 @@ from reports.workbook.styles import NUMBER
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.workbook.lint import LONGEST, MAIN, formula_problems, literals
-from tests.workbook.made import book, model
+from tests.workbook.made import coarse_book, coarse_model, coarse_opened, model
 
 
 def cell(formula: str, value: str = "1") -> etree._Element:
@@ -88,11 +88,11 @@ def test_no_number_of_the_input_is_typed_into_a_formula() -> None:
     """
     special = {
         float(field.value)
-        for field in model().inputs
+        for field in coarse_model().inputs
         if isinstance(field.value, float) and not float(field.value).is_integer()
     } - {0.5}
     assert len(special) > 10
-    with zipfile.ZipFile(io.BytesIO(book())) as archive:
+    with zipfile.ZipFile(io.BytesIO(coarse_book())) as archive:
         for title, part in sheet_parts(archive).items():
             for formula in etree.fromstring(archive.read(part)).iter(f"{MAIN}f"):
                 own = title != INPUT_SHEET
@@ -102,8 +102,8 @@ def test_no_number_of_the_input_is_typed_into_a_formula() -> None:
 
 def test_results_are_formulas_and_never_typed_numbers() -> None:
     """Outside the input sheet a number is only the first angle, a column number or a label."""
-    opened = load_workbook(io.BytesIO(book()))
-    drawn = with_curves(model())
+    opened = load_workbook(io.BytesIO(coarse_book()))
+    drawn = with_curves(coarse_model())
     layout, tables = Layout.of(drawn), drawn.tables.values()
     numbers = {
         (table.sheet, 6, layout.column_of(f"{table.id}.{table.columns[0].key}")) for table in tables
@@ -125,9 +125,8 @@ def test_results_are_formulas_and_never_typed_numbers() -> None:
 
 
 def test_names_are_legal_and_point_at_single_cells() -> None:
-    opened = load_workbook(io.BytesIO(book()))
     seen = set()
-    for name, defined in opened.defined_names.items():
+    for name, defined in coarse_opened().defined_names.items():
         assert re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.]*", name)
         assert not re.fullmatch(r"(?i)[a-z]{1,3}[0-9]+|r|c|r[0-9]*c[0-9]*", name)
         assert re.fullmatch(r"'[^']+'!\$[A-Z]+\$[0-9]+", defined.attr_text)

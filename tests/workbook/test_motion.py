@@ -24,7 +24,7 @@ from reports.workbook.motion import SHEET
 from reports.workbook.write import workbook_bytes
 from tests.conftest import sample
 from tests.workbook.lint import MAIN
-from tests.workbook.made import book, model
+from tests.workbook.made import book, coarse_book, model
 from tools.referees.by_libreoffice import LibreOffice
 from tools.referees.cells import stripped
 
@@ -50,7 +50,7 @@ def test_a_model_engine_shows_its_volume() -> None:
 
 @pytest.mark.parametrize(("name", "turn"), [("gots-diesel", 720), ("two-stroke", 360)])
 def test_angles_end_with_the_cycle(name: str, turn: float) -> None:
-    charts = openpyxl.load_workbook(io.BytesIO(book(name)))[SHEET]._charts
+    charts = openpyxl.load_workbook(io.BytesIO(coarse_book(name)))[SHEET]._charts
     ends = [chart.x_axis.scaling.max for chart in charts]
     assert [end for end in ends if end and end > 2] == [turn, turn]
 

@@ -246,7 +246,6 @@ class Chapter:
             "table": self.writer.table,
             "at": self.example,
             "title": CHAPTERS.get(template, ""),
-            "told_factors": partial(self._explained, (), "."),
         }
         own = ("input", "shape", "example", "exact", "order", "strokes_at", "eq", "full", "sub",
                "ref", "book", "tabs", "figs", "chart", "panels", "told", "told_swing",
@@ -267,7 +266,7 @@ class Chapter:
         if self.writer.draft:
             return self.writer.formula("", FORMULA + name)
         formula = self.writer.formula(self.terms.formula(name, at, zeros), FORMULA + name, end)
-        return formula + self._explained(written_in(name), end)
+        return formula + self.explained(written_in(name), end)
 
     def full(self, name: str, end: str = "") -> Markup:
         """Return the formula of a scalar in symbols, with numbers and its result, numbered."""
@@ -276,7 +275,7 @@ class Chapter:
             return self.writer.formula("", FORMULA + name)
         tex = self.terms.substitution(name, symbols=True)
         formula = self.writer.formula(tex, FORMULA + name, end)
-        return formula + self._explained(self._put_in(name, None), end)
+        return formula + self.explained(self._put_in(name, None), end)
 
     def sub(self, name: str, at: float | None = None, end: str = "") -> Markup:
         """Return the formula with numbers and its result, not numbered."""
@@ -284,7 +283,7 @@ class Chapter:
             self.terms.put_in.add((name, at))
             return Markup("")
         formula = self.writer.formula(self.terms.substitution(name, at), None, end)
-        return formula + self._explained(self._put_in(name, at), end)
+        return formula + self.explained(self._put_in(name, at), end)
 
     def where(self, *names: str) -> Markup:
         """Return the «где» list under a formula, with the factors that are not explained yet."""
@@ -296,8 +295,8 @@ class Chapter:
         yield from map(of_scale, self.terms.scales(name, at))
         yield from written_in(name)
 
-    def _explained(self, used: Iterable[Factor], end: str) -> Markup:
-        """Words on the factors of formulas whose sentence ends here."""
+    def explained(self, used: Iterable[Factor] = (), end: str = ".") -> Markup:
+        """Return words on the factors of formulas whose sentence ends here."""
         for factor in used:
             self.scales.setdefault(factor, False)
         factors = list(self._factors()) if end == "." else []

@@ -18,6 +18,7 @@ _SECTOR = ("cw_unit", "cw_free_mm", "cw_inner_mm", "cw_outer_mm", "cw_width_mm",
            "counterweight_density_kg_m3", "cw_angle_deg", "cw_mass", "cw_centre_mm")  # fmt: skip
 _STATES = ("bare", "now", "new")
 _PRINTED = 4  # every so many rows of the scan
+_VISIBLE = 0.005  # share of the loads that their percents show
 
 
 def counterweights(chapter: Chapter) -> Markup:
@@ -49,8 +50,9 @@ def counterweights(chapter: Chapter) -> Markup:
         better=1 - terms.value("cw_new_sum_kN") / terms.value("cw_now_sum_kN"),
         middle=(Shape.of(chapter.input).throws + 2) // 2,
         percent=_percent,
-        worse=[j for j in Shape.of(chapter.input).journal_numbers
-               if terms.value(f"cw_new_max{j}_kN") > terms.value(f"cw_now_max{j}_kN") * 1.0005],
+        keep=_keeps(chapter),
+        worse=[(_more_loaded(chapter, "now"), "с исходными"),
+               (_more_loaded(chapter, "bare"), "без противовесов")],
     )  # fmt: skip
 
 
@@ -61,8 +63,26 @@ def concluded(chapter: Chapter) -> Markup:
     terms = chapter.terms
     line = "противовесы щёк берут долю {} вращающихся масс колена: угол {}, масса {}; сумма средних"
     line += " нагрузок коренных шеек {}, без противовесов — {}"
-    keys = ("cw_angle_deg", "cw_mass", "cw_new_sum_kN", "cw_bare_sum_kN")
+    keys = ["cw_angle_deg", "cw_mass", "cw_new_sum_kN", "cw_bare_sum_kN"]
+    if _keeps(chapter):
+        line += ", с исходными — {}: исходные следует оставить"
+        keys.append("cw_now_sum_kN")
     return Markup(line).format(terms.num("cw_taken"), *(terms.val(key) for key in keys))
+
+
+def _keeps(chapter: Chapter) -> bool:
+    """Whether the given counterweights relieve the journals better, where that is the goal."""
+    section, value = chapter.input.counterweight, chapter.terms.value
+    assert section is not None
+    more = value("cw_new_sum_kN") / value("cw_now_sum_kN") - 1
+    return section.goal == "loads" and more > _VISIBLE
+
+
+def _more_loaded(chapter: Chapter, than: str) -> list[int]:
+    """Journals whose greatest load the proposed counterweights make larger."""
+    value = chapter.terms.value
+    return [j for j in Shape.of(chapter.input).journal_numbers
+            if value(f"cw_new_max{j}_kN") > value(f"cw_{than}_max{j}_kN") * 1.0005]  # fmt: skip
 
 
 def _shown(chapter: Chapter, chart: str, residue: list[str]) -> bool:

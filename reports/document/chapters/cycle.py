@@ -1,11 +1,12 @@
-"""Chapter on the working cycle: step by step, sizes, diagram, speed characteristic."""
+"""Tables and figures of the chapter on the working cycle; results beyond what is usual."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -25,25 +26,10 @@ from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.symbols import inline_html, titled_html
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.texts import limits, of_digits
-from reports.model.blocks import Grid
 from reports.shared.russian import capital, fixed, short, uncapital
 from reports.shared.standing import Standing
-from reports.tables.cycle_members import friction_by_speed, is_boosted, section_of
 
 _MAX_DECIMALS = 8  # of values in passes
-
-# Equations of the method that the sheets solve in passes or in parts.
-_EQUATIONS = {
-    "n1": r"n_1 - 1 = g(n_1) = \dfrac{8{,}315}{20{,}6 + 0{,}002638\,(t_a + t_c)},"
-    r"\quad T_c = T_a\,\varepsilon^{n_1 - 1}",
-    "petrol": r"\mu\, c''_{vz}\, t_z = \xi_z q + U_c = H_z",
-    "diesel": r"\mu\,(c''_{vz} + R)\, t_z = "
-    r"\xi_z q + U_c + R\,[\lambda_p t_c + 273\,(\lambda_p - \mu)] = H_z",
-    "n2": r"n_2 - 1 = \dfrac{R\,(T_z - T_b)}{Q_{\mathrm{дог}} + U_z - U_b},"
-    r"\quad Q_{\mathrm{дог}} = \dfrac{(\xi_b - \xi_z)\, q}{\mu},"
-    r"\quad T_b = \dfrac{T_z}{\delta^{n_2 - 1}}",
-    "speed": r"M_e = M_{eN}\,(a_N + b_N x - c_N x^2),\quad g_e = g_{eN}\,(a_g + b_g x + c_g x^2)",
-}
 _BALANCE = ("useful", "exhaust", "incomplete", "rest")
 _ENERGIES = ("cyc_w_c", "cyc_U_air", "cyc_U_rest", "cyc_U_c", "cyc_content", "cyc_t_root")
 _EFFECTIVE = (
@@ -60,44 +46,6 @@ _SPEED = {
 }
 _SPEED_MM = 118.0
 _READABLE = 1.6  # of the greatest consumption of the external characteristic
-# Columns of the passes for n₂ whose symbols stand nowhere else.
-_OF_EXPANSION = ("blend", "pass_h", "pass_change", "pass_c_b")
-
-
-def cycle(chapter: Chapter) -> Markup:
-    """Return the cycle calculation; empty when the pressures are given otherwise."""
-    section = section_of(chapter.input)
-    if section is None:
-        return Markup("")
-    terms = chapter.terms
-    petrol = section.kind == "petrol"
-    species = ("CO2", "CO", "H2O", "H2", "O2", "N2") if petrol else ("CO2", "H2O", "O2", "N2")
-    last = len(terms.model.tables["cycle_diagram"].rows) - 1
-    return chapter.page(
-        "cycle",
-        equations=_EQUATIONS,
-        petrol=petrol,
-        boosted=is_boosted(section),
-        given_heat=section.exhaust_heat_kj_kg_k is not None,
-        given_outlet=section.turbine_outlet_ratio is not None,
-        friction=friction_by_speed(section),
-        design=terms.has("cyc_D"),
-        governed=terms.has("gov_n_max"),
-        given_governor=section.governor_irregularity is not None,
-        given_law=section.adaptability is not None,
-        derived_torque=section.torque_speed_rpm is None,
-        derived_idle=section.idle_speed_rpm is None,
-        newton=terms.value("cyc_t_root") < 1500,
-        species=[f"mix_{name}" for name in species],
-        tables=_tables(chapter),
-        corners=[("$a$", 0), ("$z'$", terms.row("cycle_diagram", 360.0)), ("$b$", last)],
-        characteristic=partial(_characteristic, chapter),
-        outside=[titled_html(uncapital(_range_of(terms, key)[0])) for key in _outside(terms)],
-        turbine_enough=is_boosted(section) and terms.value("cyc_N_t") >= terms.value("cyc_N_k"),
-        residual_gap=_gap(terms.value("value_cycle_Tr")),
-        residual_above=terms.value("value_cycle_Tr") > 0,
-        expansion_symbols=_symbols(terms, chapter.grid("cycle_n2"), _OF_EXPANSION),
-    )
 
 
 def _characteristic(chapter: Chapter) -> Markup:
@@ -145,40 +93,12 @@ def _with_governor(terms: Terms, name: str) -> np.ndarray[tuple[int, ...], np.dt
     return np.concatenate([curve, branch])
 
 
-def _tables(chapter: Chapter) -> dict[str, TablePlan]:
-    terms, dense = chapter.terms, {"size": "dense", "keep": True}
-    title_of_passes = "Последовательные приближения показателя политропы"
-    return {
-        "heat": TablePlan(
-            partial(_coefficients, terms),
-            "Коэффициенты средней мольной теплоёмкости продуктов сгорания",
-            size="dense",
-            keep=True,
-        ),
-        "energies": chapter.scalars("Величины уравнения сгорания", _ENERGIES, **dense),
-        "n1": TablePlan(
-            partial(_passes, chapter, "cycle_n1"), f"{title_of_passes} сжатия", keep=True
-        ),
-        "n2": TablePlan(
-            partial(_passes, chapter, "cycle_n2"), f"{title_of_passes} расширения", keep=True
-        ),
-        "effective": chapter.scalars("Эффективные показатели", _EFFECTIVE, **dense),
-        "balance": TablePlan(partial(_balance, terms), "Тепловой баланс", keep=True),
-        "diagram": chapter.columns(
-            "cycle_diagram",
-            caption="Индикаторная диаграмма цикла по точкам",
-            step=chapter.table_step,
-        ),
-        "speed": chapter.columns("speed", caption="Внешняя скоростная характеристика", keep=True),
-        **(
-            {"governor": chapter.columns("governor", caption="Регуляторная ветвь", keep=True)}
-            if terms.has("governor.gov_n")
-            else {}
-        ),
-        "ranges": TablePlan(
-            partial(_ranges, terms), "Результаты и обычные пределы", size="dense", lined=True
-        ),
-    }
+def _pressures(chapter: Chapter) -> Markup:
+    """Return the diagram of the cycle with its corners marked."""
+    last = len(chapter.terms.model.tables["cycle_diagram"].rows) - 1
+    top = chapter.terms.row("cycle_diagram", 360.0)
+    corners = [("$a$", 0), ("$z'$", top), ("$b$", last)]
+    return chapter.chart("cycle_pv", 95, rows=corners, closed=True)
 
 
 def _coefficients(terms: Terms) -> TableBlock:
@@ -209,21 +129,6 @@ def _passes(chapter: Chapter, name: str) -> TableBlock:
     while len(rows) > 2 and rows[-1][1:] == rows[-2][1:] == rows[-3][1:]:
         rows.pop()  # the last two that are alike show that the passes have converged
     return table_block(columns, rows)
-
-
-def _symbols(terms: Terms, grid: Grid, names: Sequence[str]) -> Markup:
-    """Return what symbols of a grid mean, in the order of its rows."""
-    words = [
-        Markup("{} — {}").format(inline_html(row.quantity.tex), titled_html(row.quantity.title))
-        for row in grid.rows if row.of in names
-    ]  # fmt: skip
-    return Markup("; ").join(words)
-
-
-def _gap(percent: float) -> str:
-    """Size of a difference in print; empty where it prints as zero."""
-    text = fixed(abs(percent), 1)
-    return "" if text == fixed(0.0, 1) else text
 
 
 def _balance(terms: Terms) -> TableBlock:
@@ -261,11 +166,10 @@ def _outside(terms: Terms) -> list[str]:
 def _range_of(terms: Terms, key: str) -> tuple[str, str, str, str]:
     """Title with the symbol, unit, value and usual limits of a result, in print."""
     scalar = terms.model.scalars[f"range_value_{key}"]
-    title, _, unit = scalar.note.partition(", ")
     usual = "…".join(map(short, scalar.usual or ()))
     value = terms.value(f"range_value_{key}")
     text = fixed(value, 0 if abs(value) >= 100 else 2 if abs(value) >= 1 else 3)
-    return title, unit, text, limits(usual)
+    return scalar.note, scalar.usual_unit, text, limits(usual)
 
 
 def outside_lines(terms: Terms, mentioned: set[str]) -> list[Markup]:
@@ -292,3 +196,44 @@ def _ranges(terms: Terms) -> TableBlock:
         name = titled_html(f"{title}, {unit}" if unit else title)
         rows.append([name, text, usual, str(terms.values.scalars[f"range_{key}"])])
     return table_block(columns, rows)
+
+
+def _of_terms(
+    build: Callable[[Terms], TableBlock],
+    caption: str,
+    **manner: Any,  # noqa: ANN401
+) -> Callable[[Chapter], TablePlan]:
+    return lambda chapter: TablePlan(partial(build, chapter.terms), caption, **manner)
+
+
+def _of_passes(name: str, of: str) -> Callable[[Chapter], TablePlan]:
+    caption = f"Последовательные приближения показателя политропы {of}"
+    return lambda chapter: TablePlan(partial(_passes, chapter, name), caption, keep=True)
+
+
+VIEWS: dict[str, Callable[[Chapter], TablePlan | Figure]] = {
+    "cycle_heat": _of_terms(
+        _coefficients, "Коэффициенты средней мольной теплоёмкости продуктов сгорания",
+        size="dense", keep=True,
+    ),
+    "cycle_energies": lambda chapter: chapter.scalars(
+        "Величины уравнения сгорания", _ENERGIES, size="dense", keep=True
+    ),
+    "cycle_n1": _of_passes("cycle_n1", "сжатия"),
+    "cycle_n2": _of_passes("cycle_n2", "расширения"),
+    "cycle_effective": lambda chapter: chapter.scalars(
+        "Эффективные показатели", _EFFECTIVE, size="dense", keep=True
+    ),
+    "cycle_balance": _of_terms(_balance, "Тепловой баланс", keep=True),
+    "cycle_diagram": lambda chapter: chapter.columns(
+        "cycle_diagram", caption="Индикаторная диаграмма цикла по точкам", step=chapter.table_step
+    ),
+    "cycle_speed": lambda chapter: chapter.columns(
+        "speed", caption="Внешняя скоростная характеристика", keep=True
+    ),
+    "cycle_governor": lambda chapter: chapter.columns(
+        "governor", caption="Регуляторная ветвь", keep=True
+    ),
+    "cycle_ranges": _of_terms(_ranges, "Результаты и обычные пределы", size="dense", lined=True),
+}  # fmt: skip
+INSERTS = {"cycle_pv": _pressures, "cycle_speed": _characteristic}

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import re
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import accumulate
 
 import numpy as np
 from markupsafe import Markup
@@ -66,6 +69,7 @@ _SYMBOLS = (
     "P4_1.S_MPa", "P4_1.T_MPa", "P4_1.K_MPa", "P4_1.M_Nm", "P4_2.Msum_Nm", "M_mean",
     "crankpin.Rpin_MPa", "crankpin.psi_deg", "P4_3_1.R_MPa",
 )  # fmt: skip
+_ACROSS, _COLUMN = 40, 40  # letters of a line, lines of a column in the list of symbols
 Points = Sequence[tuple[float, float]]
 
 
@@ -87,7 +91,21 @@ def notation(chapter: Chapter, text: str | None = None) -> Markup:
         abbreviations = [pair for pair in abbreviations if re.search(rf"\b{pair[0]}\b", text)]
         again = {"h": chapter.writer.heading_again}
     symbols = [(terms.sym(name), terms.title(name), terms.unit(name)) for name in present]
-    return chapter.page("notation", abbreviations=abbreviations, symbols=symbols, **again)
+    second = _second_column(abbreviations, symbols)
+    return chapter.page("notation", abbreviations=abbreviations, symbols=symbols, second=second,
+                        **again)  # fmt: skip
+
+
+def _second_column(
+    abbreviations: Sequence[tuple[str, str]], symbols: Sequence[tuple[Markup, str, str]]
+) -> int | None:
+    """Return the symbol that begins the second column; none where a page does not hold them."""
+    lengths = [sum(map(len, each)) for each in abbreviations]
+    lengths += [len(sign.striptags()) + len(title) + len(unit) for sign, title, unit in symbols]
+    ends = list(accumulate(math.ceil((length + len(" — , ")) / _ACROSS) for length in lengths))
+    if ends[-1] > 2 * _COLUMN:
+        return None
+    return bisect_left(ends, ends[-1] / 2) + 1 - len(abbreviations)
 
 
 def _of_subjects(chapter: Chapter) -> list[str]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -24,7 +25,7 @@ from reports.shared.russian import capital, fixed, uncapital
 from reports.shared.standing import WORDS, Standing
 from reports.tables.verdicts import JudgedValue, outcomes
 
-_KINDS = {"tab": "table", "fig": "figure", "src": "source"}
+_KINDS = {"tab": "table", "fig": "figure"}
 _FOLLOWS = {"table": "Значения — в таблице {}.", "figure": "Кривые — на рисунке {}."}
 _SPARE = "взято с запасом"  # of a value below the usual
 _RANGED = 2  # decimals of values beside their usual limits
@@ -64,32 +65,37 @@ class _Telling:
         """Return heading and all lines."""
         parts = [self.chapter.heading(1, self.declared.title)]
         for line in self.declared.lines:
-            try:
+            with self._faults(line):
                 text = self._text(line)
                 self.named |= {key for word, key in MARK.findall(text) if word in _KINDS}
                 parts += getattr(self, f"_{line.kind}")(text)
-            except KshmError:
-                raise
-            except Exception as error:
-                raise self._fault(line, error) from error
         return Markup("\n").join(parts)
 
     def conclusions(self) -> Iterator[Markup]:
         """Yield what the text concludes, with the members that it picked before."""
         for line in self.declared.lines:
-            if line.kind == "pick":
-                self._pick(line.text)
-            elif line.kind == "conclude":
-                yield self._said(self._of_cases(self._text(line)).strip())
+            with self._faults(line):
+                if line.kind == "pick":
+                    self._pick(line.text)
+                elif line.kind == "conclude":
+                    yield self._said(self._of_cases(self._text(line)).strip())
 
     def _text(self, line: TextLine) -> str:
         """Return a line's text of the member at hand; a pick turns from it to another."""
         return line.text if line.kind == "pick" else line.text.replace("@", self.member)
 
-    def _fault(self, line: TextLine, error: Exception) -> BookError:
-        book = shelf_of(self.chapter.input.books).called(line.book)
-        problem = f"строка главы не печатается: {cause_of(error)}"
-        return BookError(book, line.number, 1, problem, "проверьте, что она называет")
+    @contextmanager
+    def _faults(self, line: TextLine) -> Iterator[None]:
+        """Tell of a mistake where it stands."""
+        try:
+            yield
+        except KshmError:
+            raise
+        except Exception as error:
+            book = shelf_of(self.chapter.input.books).called(line.book)
+            problem = f"строка главы не печатается: {cause_of(error)}"
+            hint = "проверьте, что она называет"
+            raise BookError(book, line.number, 1, problem, hint) from error
 
     def _paragraph(self, text: str) -> Iterator[Markup]:
         """A paragraph; one that begins with a small letter goes on with the sentence above."""
@@ -97,6 +103,8 @@ class _Telling:
         if said:
             manner = Markup(' class="flush"') if said[0].islower() else ""
             yield Markup("<p{}>{}</p>").format(manner, self._said(said))
+            if manner and said[-1] == ".":  # here the sentence of the formulas above ends
+                yield self.chapter.explained()
 
     def _heading(self, text: str) -> Iterator[Markup]:
         yield self.chapter.heading(2, text)
@@ -106,10 +114,19 @@ class _Telling:
         chapter, key = self.chapter, text.strip().rstrip(",;.")
         end = text.strip()[len(key) :] or "."
         try:
-            yield (chapter.eq(key, chapter.example, end) if "." in key else chapter.full(key, end))
+            yield (chapter.eq(key, self._row_of(key), end) if "." in key
+                   else chapter.full(key, end))  # fmt: skip
         except NotPrintable:
             tex = f"{chapter.terms.tex(key)} = {chapter.terms.result_tex(key)}"
             yield chapter.writer.formula(tex)
+
+    def _row_of(self, column: str) -> float:
+        """Return the row whose formula is printed: of the example, else in the middle."""
+        example, rows = self.chapter.example, self._rows(column)
+        return example if rows[0] <= example <= rows[-1] else rows[len(rows) // 2]
+
+    def _rows(self, column: str) -> Sequence[float]:
+        return self.chapter.model.tables[column.partition(".")[0]].rows
 
     def _equation(self, text: str) -> Iterator[Markup]:
         """Yield a formula in symbols alone, which holds no quantity of the tables."""
@@ -118,6 +135,10 @@ class _Telling:
         self.equations += 1
         tex, key = text.strip().rstrip(",;."), f"{self.declared.title}:{self.equations}"
         yield self.chapter.writer.formula(tex, key, text.strip()[len(tex) :] or ".")
+
+    def _where(self, text: str) -> Iterator[Markup]:
+        """Yield what the symbols of the formulas above mean."""
+        yield self.chapter.where(*text.split())
 
     def _show(self, text: str) -> Iterator[Markup]:
         """Yield a block or a chart; what the text has not named yet is named before it."""
@@ -156,23 +177,17 @@ class _Telling:
         """Values of the members of a row, or of a column's rows, by their numbers."""
         terms = self.chapter.terms
         if "." in key:
-            rows = self.chapter.model.tables[key.partition(".")[0]].rows
-            return {f"{row:g}": float(x) for row, x in zip(rows, terms.column(key), strict=True)}
+            rows = zip(self._rows(key), terms.column(key), strict=True)
+            return {f"{row:g}": float(value) for row, value in rows}
         alike = re.compile(key.replace("@", r"(\d+)"))
         matches = filter(None, map(alike.fullmatch, terms.values.scalars))
         return {match[1]: terms.value(match[0]) for match in matches}
 
-    def _member(self, _: str) -> Iterable[Markup]:
-        """Say nothing: the words for a member are said where it is named."""
+    def _unsaid(self, _: str) -> Iterable[Markup]:
+        """Say nothing: the words are said where they are asked for."""
         return ()
 
-    def _mend(self, _: str) -> Iterable[Markup]:
-        """Say nothing: a mend is told where its value is beyond its limits."""
-        return ()
-
-    def _conclude(self, _: str) -> Iterable[Markup]:
-        """Say nothing: the conclusion is a chapter of its own."""
-        return ()
+    _member = _mend = _conclude = _unsaid
 
     def _table(self, key: str, caption: str) -> TablePlan:
         """Return the table of a block as its kind has it."""
@@ -231,7 +246,8 @@ class _Telling:
         mends = self._words("mend")
         spare, scalars = {Standing.BELOW: _SPARE}, self.chapter.model.scalars
         return "; ".join(
-            f"{uncapital(scalars[each.key].note)} ({spare.get(each.standing) or mends[each.name]})"
+            uncapital(scalars[each.key].note)
+            + (f" ({spare.get(each.standing) or mends[each.name]})" if mends else "")
             for each in self._beyond(name)
         )
 
@@ -241,11 +257,14 @@ class _Telling:
 
     def _said(self, text: str) -> Markup:
         """Return a paragraph with its keys and symbols replaced by what they stand for."""
-        said = _TEX.sub(lambda match: str(inline_html(match[1])), str(escape(text)))
+        pieces = _TEX.split(text)  # every second one is a symbol
+        said = "".join(str((escape, inline_html)[n % 2](piece)) for n, piece in enumerate(pieces))
         return Markup(MARK.sub(self._put, FREE_MARK.sub(self._put_free, said)))
 
     def _put_free(self, match: re.Match[str]) -> str:
         word, text = match[1], Markup(match[2]).unescape()
+        if word == "src":
+            return str(self.chapter.writer.n.src(*text.split()))
         if word == "book":
             return str(self.chapter.book(place=text))
         decimals, _, formula = text.partition(" ")
@@ -256,10 +275,10 @@ class _Telling:
     def _put(self, match: re.Match[str]) -> str:
         word, key = match.groups()
         terms, numbering = self.chapter.terms, self.chapter.writer.n
-        if word == "src":
-            return str(numbering.src(key))
         if word in _KINDS:
             return str(numbering.refer(_KINDS[word], key))  # type: ignore[arg-type]
+        if word == "title":
+            return str(titled_html(terms.title(key)))
         if word == "beyond":
             return str(titled_html(self._mended(key)))
         if word == "member":

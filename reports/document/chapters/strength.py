@@ -42,8 +42,8 @@ def concluded(chapter: Chapter) -> Markup:
     allowed = terms.num("strength_safety_allowed")
     least = min((value for value, _ in block.pairs), key=lambda each: terms.value(each.key))
     side = "меньше" if _weak(chapter) else "не меньше"
-    line = Markup("наименьший запас прочности деталей {} — {}, он {} допускаемого {}").format(
-        fixed(terms.value(least.key), 2), titled_html(uncapital(least.note)), side, allowed
+    line = Markup("наименьший из запасов прочности деталей — {}, {}, он {} допускаемого {}").format(
+        titled_html(uncapital(least.note)), fixed(terms.value(least.key), 2), side, allowed
     )
     titles = _titles(chapter)
     above = [uncapital(titles[each.key]) for each, _, side in _ranged(chapter) if side > 0]

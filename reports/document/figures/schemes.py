@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Sequence
 
+from kshm.nomenclature.quantity import quantity
 from reports.document.figures.canvas import (
     CENTRE,
     DASHED,
@@ -141,7 +142,7 @@ class _Mechanism:
         pen.text(polar(self.origin, spin + 9, math.radians(140)), r"$\omega$")
 
     def forces(self) -> None:
-        """P_s, N and S at the piston pin; S, K and T at the crank pin; the torque."""
+        """The sum, side and rod forces at the piston pin, those at the crank pin; the torque."""
         pen, phi, beta = self.pen, self.phi, self.beta
         total = 50.0
         along = (math.sin(beta), -math.cos(beta))
@@ -150,13 +151,13 @@ class _Mechanism:
         side = total * math.tan(beta)
         a, b = self.piston, self.pin
         pen.arrow((a[0], a[1] + 17 + 44), (a[0], a[1] + 18), 1.5)
-        pen.text((a[0] + 14, a[1] + 17 + 32), "$P_s$")
+        pen.text((a[0] + 14, a[1] + 17 + 32), _letter("Ps_MPa"))
         reach = max(side, 10) + self.bore
         pen.arrow(a, (a[0] - reach - 12, a[1]), 1.5)
-        pen.text((a[0] - reach - 20, a[1] + 7), "$N$")
+        pen.text((a[0] - reach - 20, a[1] + 7), _letter("N_MPa"))
         tip = shifted(a, along, rod_force)
         pen.arrow(a, tip, 1.5)
-        pen.text((tip[0] + 13, tip[1] + 6), "$S$")
+        pen.text((tip[0] + 13, tip[1] + 6), _letter("S_MPa"))
         radial = rod_force * math.cos(phi + beta)
         tangential = rod_force * math.sin(phi + beta)
         end = shifted(b, along, rod_force)
@@ -164,18 +165,23 @@ class _Mechanism:
         for corner in (corner_k, corner_t):
             pen.line([corner, end], HAIR, DASHED)
         for corner, name, away in (
-            (end, "$S$", (7.0, -9.0)),
-            (corner_k, "$K$", (-9.0, 5.0) if radial > 0 else (6.0, 9.0)),
-            (corner_t, "$T$", (10.0, 4.0)),
+            (end, _letter("S_MPa"), (7.0, -9.0)),
+            (corner_k, _letter("K_MPa"), (-9.0, 5.0) if radial > 0 else (6.0, 9.0)),
+            (corner_t, _letter("T_MPa"), (10.0, 4.0)),
         ):
             pen.arrow(b, corner, 1.5)
             pen.text((corner[0] + away[0], corner[1] + away[1]), name)
         pen.arc(self.origin, self.radius * 0.66, math.radians(200), math.radians(300), arrow=True)
         anchor = polar(self.origin, self.radius + 17, math.radians(250))
-        pen.text(anchor, r"$M_{\mathrm{кр}}$")
+        pen.text(anchor, _letter("Msum_Nm"))
         pen.text((self.origin[0] + 9, self.origin[1] - 9), "$O$")
         pen.text((b[0] + 8, b[1] + 9), "$B$")
         pen.text((a[0] + self.bore - 7, a[1] + 9), "$A$", halo=False)
+
+
+def _letter(key: str) -> str:
+    """Return the symbol of a quantity as a letter of a figure."""
+    return f"${quantity(key).tex}$"
 
 
 def velocity_sketch(lam: float, phi: float = 50.0, *, width: float = 90.0) -> str:

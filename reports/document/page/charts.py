@@ -20,7 +20,7 @@ from reports.document.text.tex import GREEK
 from reports.document.text.texts import significant
 from reports.draw.canvas import Canvas, Item, bounds, fitted, moved
 from reports.draw.parts import MechanismSizes, ThrowSizes, mechanism_drawing, throw_drawing
-from reports.draw.sketched import sketch
+from reports.draw.sketched import letter, sketch
 from reports.draw.weights import (
     CounterweightSizes,
     FlywheelSizes,
@@ -103,8 +103,8 @@ def beside_figure(parts: Sequence[Sequence[Item]]) -> str:
         ends.append(left_end + (right - left) / 2)
         left_end += right - left + _BETWEEN
     low = bounds(canvas.items)[1] - 2.5 * _LETTERS
-    for middle, letter in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
-        canvas.words((middle, low), f"{letter})", _LETTERS, align=0.5)
+    for middle, sign in zip(ends, "аб" if len(parts) > 1 else "", strict=False):
+        canvas.words((middle, low), f"{sign})", _LETTERS, align=0.5)
     left, low, right, high = bounds(canvas.items)
     return svg_of(canvas.items, (left - 2, low - 2, right + 2, high + 2))
 
@@ -115,11 +115,20 @@ def sketches_figure(terms: Terms, caption: str, *names: str) -> Figure:
     return Figure(partial(beside_figure, [items for items in sketches if items]), caption)
 
 
+def _size_words(terms: Terms, keys: Sequence[str]) -> tuple[str, ...]:
+    """Sizes as the text has them, with the letters of drawings: «h_м = 19,6»; mm goes unsaid."""
+    units = (terms.unit(key).replace("мм", "") for key in keys)
+    return tuple(f"{letter(terms.tex(key))} = {terms.num(key)}{unit}"
+                 for key, unit in zip(keys, units, strict=True))  # fmt: skip
+
+
 def counterweight_of(terms: Terms) -> CounterweightSizes:
     """Sizes of the first web with the proposed counterweight."""
     throw = throw_of(terms)
-    sizes = (terms.value(f"cw_{key}") for key in ("inner_mm", "outer_mm", "angle_deg"))
-    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], *sizes)
+    keys = ("cw_inner_mm", "cw_outer_mm", "cw_angle_deg")
+    inner, outer, angle = map(terms.value, keys)
+    return CounterweightSizes(throw.radius, throw.pin, throw.mains[0], inner, outer, angle,
+                              _size_words(terms, keys))  # fmt: skip
 
 
 def counterweight_figure(terms: Terms) -> str:
@@ -129,8 +138,9 @@ def counterweight_figure(terms: Terms) -> str:
 
 def flywheel_of(terms: Terms) -> FlywheelSizes:
     """Sizes of the flywheel."""
-    names = ("outer", "bore", "disc", "rim")
-    return FlywheelSizes(*(terms.value(f"fw_{name}_mm") for name in names))
+    keys = ("fw_outer_mm", "fw_bore_mm", "fw_disc_mm", "fw_rim_mm")
+    outer, bore, disc, rim = map(terms.value, keys)
+    return FlywheelSizes(outer, bore, disc, rim, _size_words(terms, keys))
 
 
 def flywheel_figure(terms: Terms) -> str:

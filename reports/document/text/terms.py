@@ -41,7 +41,7 @@ _SYMBOLS = {
     TIMING: r"\varphi",  # of one cylinder the same angle, counted on past the end of the cycle
 }
 _EXTREME = re.compile(r"col_(max|min)\(([\w.]+)\)")
-_TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm")
+_TORQUE = re.compile(r"(?:P4_1|cylinder_(\d+))\.M_Nm|P4_2\.M(\d+)_Nm")
 _PROJECTION = re.compile(r"\\(cos|sin)\b")
 _SIGNIFICANT, _MAX_SIGNIFICANT = 5, 8  # digits of a number put into a formula
 _EXACT = 17  # digits, and decimals, of a number that is not rounded
@@ -388,11 +388,11 @@ class Terms:
         def symbol(inner: str) -> str:
             node = self._global(inner, table)
             torque = _TORQUE.fullmatch(node)
-            if self.model.input.engine.cylinders == 1 and (torque or node == "P4_2.M1_Nm"):
+            if torque is None or node == f"{table}.M_Nm":
+                return self.tex(node)
+            if not self.has("P4_2.M2_Nm"):  # no other cylinder to tell it from
                 return self.tex("P4_1.M_Nm")
-            if torque and not node.startswith(f"{table}."):  # of one cylinder among others
-                return rf"M_{{{torque[1] or 1}\mathrm{{ц}}}}"
-            return self.tex(node)
+            return rf"M_{{{torque[1] or torque[2] or 1}\mathrm{{ц}}}}"
 
         return symbol
 

@@ -51,6 +51,8 @@ _MOVES: dict[str, Moves] = {
 # Steels from the weakest to the strongest that a part moves through.
 _STEELS = {"rod_material": ("40h", "40hn"), "bolt_material": ("40hn", "18h2n4va"),
            "web_material": ("45", "40h", "40hn", "18h2n4va")}  # fmt: skip
+# Fine threads of GOST 8724: pitch [mm] of bolts up to a diameter [mm].
+_THREADS = ((11.0, 1.0), (22.0, 1.5), (33.0, 2.0), (52.0, 3.0), (math.inf, 4.0))
 _BELOW = 0.2  # weight of a stress that is too small
 
 
@@ -122,6 +124,8 @@ class _Sizing:
         for key, (base, *_) in PART_SHARES.items():
             size = self.share(key, choice)[0] * sizes[base]
             sizes[key] = section[f"{key}_mm"] = round(size, decimals(size))
+        bolt = section["bolt_mm"]
+        section["bolt_pitch_mm"] = next(pitch for most, pitch in _THREADS if bolt <= most)
         steels = {key: steel[choice[key]] for key, steel in _STEELS.items() if choice.get(key)}
         return section | steels
 
@@ -140,6 +144,7 @@ class _Sizing:
             loaded = "" if choice.get(key, _MIDDLE) == _MIDDLE else "; по нагрузке"
             words = f"{number_text(round(share, 4))} {of} (обычно {span}{loaded})"
             notes[f"strength.{key}_mm"] = words
+        notes["strength.bolt_pitch_mm"] = "мелкая резьба, ГОСТ 8724"
         return notes
 
     def excess(self, choice: Mapping[str, int]) -> dict[str, float]:

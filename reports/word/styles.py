@@ -102,8 +102,7 @@ def looks(style: Style) -> dict[str, ParagraphStyle]:
         "Title": ParagraphStyle("Title", jc="center", line=_TIGHT, before=17, size=18, bold=True),
         "Cover": ParagraphStyle("Титульный лист", jc="center", line=_TIGHT),
         "CoverKind": ParagraphStyle("Вид работы", "Cover", before=128),
-        "CoverPeople": ParagraphStyle("Исполнители", "Cover", jc="left", left=round(0.45 * width),
-                            before=10),
+        "CoverPeople": ParagraphStyle("Исполнители", "Cover", jc="left", before=10),
         "CoverPerson": ParagraphStyle("Исполнитель с подписью", "Cover", jc="left", before=10),
         # Lines as far apart as the PDF's: Word multiplies the letters' own height.
         "Task": ParagraphStyle("Задание", line=1.25 / _HIGH, after=6, size=13),

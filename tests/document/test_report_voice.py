@@ -356,7 +356,7 @@ def test_the_assignment_lists_the_sheet_when_it_is_made():
 def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside):
     page = page_of(name, "course")
     rows = printed_rows(page, "Принятые данные и обычные пределы")
-    lengths = ["lш.ш/dш.ш", "qср", "qmax", *(["hmin"] if inside else [])]
+    lengths = ["lш.ш/dш.ш", "qср", "qmax", *(["hц"] if inside else [])]
     assert [row[1] for row in rows][:4] == ["S/D", "λ", "cm", "ε"]
     assert [row[1] for row in rows][-len(lengths) :] == lengths  # the film where it is calculated
     assert all(
@@ -364,7 +364,7 @@ def test_what_lies_outside_its_usual_span_is_told_with_what_follows(name, inside
     )
     # Of the film its own chapter says that it is not enough: the table says no other thing.
     outside = [row[1] for row in rows if row[4] != "в пределах"]
-    assert (outside == ["hmin"] and rows[-1][4] == "недостаточно") == inside
+    assert (outside == ["hц"] and rows[-1][4] == "недостаточно") == inside
     text, _, end = plain(page).partition("Рассчитаны кинематика")
     assert ("больше обычного (0,24…0,31): растут боковая сила" in text) != inside
     assert ("меньше допускаемого (4,50): возможно касание" in text) == inside

@@ -338,3 +338,10 @@ def test_masses_of_a_large_engine_grow_with_its_bore():
         for bore in (150.0, 300.0)
     )
     assert large / small == pytest.approx(8, rel=0.01)
+
+
+@pytest.mark.parametrize(("bore", "pitch"), [(60.0, 1.0), (110.0, 1.5), (300.0, 3.0), (900.0, 4.0)])
+def test_the_thread_of_a_rod_bolt_follows_its_diameter(bore, pitch):
+    """A bolt of 43.5 mm had a thread of 1 mm."""
+    part = generate_engine(4, kind="diesel", bore_mm=bore, strength=True).data["strength"]
+    assert part["bolt_pitch_mm"] == pitch and 0.02 < pitch / part["bolt_mm"] < 0.15

@@ -56,6 +56,17 @@ def test_the_words_signature_and_date_stand_under_their_line(parts):
     assert last.find(f".//{W}br") is not None and last.find(f".//{W}jc").get(f"{W}val") == "center"
 
 
+def test_the_line_of_admission_begins_where_the_names_do(parts):
+    """It began in the middle of the sheet and broke before the year."""
+    styles = etree.fromstring(parts["word/styles.xml"])
+    indents = {
+        style.get(f"{W}styleId"): style.find(f"{W}pPr/{W}ind") for style in styles.iter(f"{W}style")
+    }
+    assert indents["CoverPeople"] is None and indents["CoverPerson"] is None
+    text = parts["word/document.xml"].decode()
+    assert re.search(r'"CoverPeople"/></w:pPr><w:r><w:t[^>]*>Допущен к защите', text)
+
+
 def test_branches_of_a_brace_stand_in_columns(parts):
     text = parts["word/document.xml"].decode()
     assert USUAL.table_continuation

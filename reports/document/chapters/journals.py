@@ -117,6 +117,12 @@ def _are_alike(terms: Terms, columns: Sequence[str]) -> bool:
     return all(np.allclose(first, other, rtol=0, atol=1e-6 * scale) for other in others)
 
 
+def at_once(terms: Terms, numbers: Sequence[int]) -> bool:
+    """Whether the most loaded of the main journals are so at the same angle."""
+    loads = leaders(terms, [f"Rmain{n}_max" for n in numbers])
+    return len({terms.num(f"phi_Rmain{numbers[k - 1]}_max_deg") for k in loads}) == 1
+
+
 def alike_journals(terms: Terms, throws: int) -> list[tuple[int, ...]]:
     """Main journals in groups that one table of loads serves: at every angle they are the same."""
     groups: list[tuple[int, ...]] = []

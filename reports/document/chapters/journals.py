@@ -167,12 +167,6 @@ def _least_rays(terms: Terms, pin: str, rays: int) -> list[str]:
     return [roman(i) for i, total in enumerate(sums, 1) if total == least]
 
 
-def at_once(terms: Terms, numbers: Sequence[int]) -> bool:
-    """Whether the most loaded of the main journals are so at the same angle."""
-    loads = leaders(terms, [f"Rmain{n}_max" for n in numbers])
-    return len({terms.num(f"phi_Rmain{numbers[k - 1]}_max_deg") for k in loads}) == 1
-
-
 def journals(chapter: Chapter) -> Markup:
     """Reactions of the bearings on every main journal."""
     terms, rays, throws = chapter.terms, chapter.input.calculation.wear_rays, chapter.shape.throws

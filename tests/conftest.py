@@ -211,9 +211,16 @@ SLOW = (
     "tests/new/test_sizing.py::test_a_drawn_task",
     "tests/referee/test_first_edit.py::test_no_cell",
     "tests/workbook/test_print.py::test_tables_repeat",
+    "tests/torsion/test_torsion_class.py",
+    "tests/web/test_own_engines.py::test_an_engine_is_there",
+    "tests/document/test_page_placing.py::test_no_type",
 )
 # Files of which the first test alone is quick: the others need the same costly things again.
 FIRST_ALONE = (
+    "tests/document/test_sketch_letters.py",
+    "tests/manual/test_style_pictures.py",
+    "tests/tables/test_pin_length.py",
+    "tests/workbook/test_wrong_inputs.py",
     "tests/new/test_working_cycle.py",
     "tests/studies/test_seek.py",
     "tests/workbook/test_lost_formulas.py",

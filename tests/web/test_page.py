@@ -63,6 +63,11 @@ def is_phone(page: Any) -> bool:
 def test_the_mechanism_is_the_first_thing_and_stays_above_or_beside_the_fields(page: Any) -> None:
     box = page.locator("#mechanism").bounding_box()
     assert box["y"] >= 0 and box["y"] + box["height"] < 620
+    until(
+        page,
+        """performance.getEntriesByType("resource")
+        .some(each => each.name.endsWith("chart.umd.min.js"))""",
+    )
     loaded = page.evaluate("""Object.fromEntries(performance.getEntriesByType("resource")
         .map(each => [each.name.split("/").pop(), each.startTime]).reverse())""")
     assert loaded["chart.umd.min.js"] > loaded["start"]  # charts come behind the mechanism

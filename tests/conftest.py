@@ -212,6 +212,10 @@ SLOW = (
     "tests/referee/test_first_edit.py::test_no_cell",
     "tests/workbook/test_print.py::test_tables_repeat",
     "tests/torsion/test_torsion_class.py",
+    "tests/grading/test_outcomes.py",
+    "tests/grading/test_drawn_entries.py::test_what_a_column_holds_costs_no_other[class",
+    "tests/api/test_documented.py::test_doors",
+    "tests/grading/test_issue.py::test_the_command_says",
     "tests/web/test_own_engines.py::test_an_engine_is_there",
     "tests/document/test_page_placing.py::test_no_type",
 )
@@ -235,7 +239,6 @@ FIRST_ALONE = (
     "tests/grading/test_decisions.py",
     "tests/grading/test_leaks.py",
     "tests/grading/test_literal_tables.py",
-    "tests/grading/test_outcomes.py",
     "tests/grading/test_proven.py",
     "tests/grading/test_regrading.py",
     "tests/grading/test_collusion.py",

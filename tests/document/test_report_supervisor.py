@@ -346,6 +346,8 @@ def test_orders_of_the_moment_are_told_how_far_they_go():
 def test_a_film_of_the_cycle_has_a_symbol_of_its_own():
     film, of_mean = quantity("oil_orb_h_um"), quantity("oil_hmin1_um")
     assert film.tex != of_mean.tex
+    assert quantity("oil_orb_W").tex != quantity("oil_friction1_W").tex
+    assert quantity("oil_orb_l_min").tex != quantity("oil_through1_l_min").tex
     assert {reason.tex for reason in REASONS if reason.key == "film"} == {film.tex}
     assert "φ — угол, при котором плёнка наименьшая" in words_of("d-240-bearings")
 

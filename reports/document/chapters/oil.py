@@ -92,20 +92,15 @@ def _sizes(terms: Terms, cases: list[FilmCase]) -> TableBlock:
 
 
 def _orbits(terms: Terms, cases: list[FilmCase]) -> TableBlock:
-    heads = [
-        TableColumn("Подшипник", 3.2, text=True), TableColumn(symbol_head(r"\chi_{\max}", "")),
-        TableColumn(symbol_head(r"h_{\mathrm{ц}}", "мкм")),
-        TableColumn(symbol_head(r"\varphi", "°")),
-        TableColumn(symbol_head(r"\delta_{\mathrm{в}}", "°")),
-        TableColumn(symbol_head(r"\delta_{\mathrm{цап}}", "°")),
-        TableColumn(symbol_head(r"\zeta_{\mathrm{кр}}", "%")),
-        TableColumn(symbol_head(r"N_{\mathrm{тр}}", "Вт")),
-        TableColumn(symbol_head(r"Q_{\mathrm{м}}", "л/мин")),
-    ]  # fmt: skip
     keys = (
         ("oil_eps_max", 4), ("oil_orb_h_um", 2), ("oil_orb_phi_deg", 0), ("oil_shell_deg", 0),
         ("oil_journal_deg", 0), ("oil_under", 1), ("oil_orb_W", 1), ("oil_orb_l_min", 3),
     )  # fmt: skip
+    measures = [terms.quantity(f"oil_orbits.{key}") for key, _ in keys]
+    heads = [
+        TableColumn("Подшипник", 3.2, text=True),
+        *(TableColumn(symbol_head(each.tex, each.unit_label)) for each in measures),
+    ]
     rows = [
         [
             titled_html(case.label),

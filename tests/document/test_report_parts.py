@@ -81,6 +81,11 @@ def test_a_list_of_symbols_is_parted_where_a_page_holds_it(name: str):
         assert max(letters) < 1.2 * min(letters)
 
 
+def test_of_one_cylinder_nothing_is_told_as_of_several():
+    text = plain(page_of("one"))
+    assert not re.search(r"Моменты даны|суммарный —|момент цилиндров|диаграммы остальных", text)
+
+
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])
 def test_the_speed_of_the_shaft_has_six_digits_at_most(name: str):
     """586,43063 stood in a note; what asks for more is written by the frequency of rotation."""

@@ -18,6 +18,7 @@ from pydantic import ValidationError
 
 from reports.inputs import messages
 from reports.inputs.checks import cross_checks
+from reports.inputs.checks.bands import with_kind
 from reports.inputs.checks.gas import check_gas
 from reports.inputs.checks.pairs import check_pairs
 from reports.inputs.checks.plausibility import check_plausibility
@@ -198,7 +199,7 @@ def load_mapping(raw: Mapping[str, Any], *, source: str, locate: Locate | None =
     if reader.problems:
         raise InputError(_capped(source, reader.problems, reader.uncounted))
     parts = cast(dict[str, Any], models)
-    model = InputFile(**parts, regimes=further, books=texts, own=own_sections)
+    model = with_kind(InputFile(**parts, regimes=further, books=texts, own=own_sections))
     design_sizes = None
     if model.cycle is not None:
         # Only a file with a cycle pays for the numeric part.

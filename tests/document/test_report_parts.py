@@ -83,7 +83,9 @@ def test_a_list_of_symbols_is_parted_where_a_page_holds_it(name: str):
 
 def test_of_one_cylinder_nothing_is_told_as_of_several():
     text = plain(page_of("one"))
-    assert not re.search(r"Моменты даны в таблице |суммарный —|момент цилиндров|диаграммы остальных", text)
+    assert not re.search(
+        r"Моменты даны в таблице |суммарный —|момент цилиндров|диаграммы остальных", text
+    )
 
 
 @pytest.mark.parametrize("name", [*SAMPLES, *NEW])

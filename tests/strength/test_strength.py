@@ -42,6 +42,22 @@ def model_of(name: str = "gots-diesel", kind: str = "diesel", **more: object) ->
     return build_model(load_mapping(raw, source="").model)
 
 
+@pytest.mark.parametrize(
+    ("name", "section", "kind"),
+    [
+        ("cycle-petrol", {}, "petrol"),
+        ("cycle-petrol", {"kind": "diesel"}, "diesel"),
+        ("cycle-turbo-diesel", {}, "diesel"),
+        ("gots-diesel", {"kind": "petrol"}, "petrol"),
+    ],
+)
+def test_parts_are_of_the_kind_of_engine_that_the_file_states(name, section, kind):
+    """The parts of a petrol engine were those of a diesel where [strength] was empty."""
+    raw = to_mapping(sample(name)) | {"strength": section}
+    section = load_mapping(raw, source="").model.strength
+    assert section is not None and section.kind == kind
+
+
 @pytest.fixture(params=SAMPLES)
 def run(request: pytest.FixtureRequest) -> Evaluation:
     return Evaluation(model_of(request.param, SAMPLES[request.param]))

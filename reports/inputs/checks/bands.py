@@ -302,6 +302,14 @@ def _kind_of_parts(model: InputFile) -> str:
     return section.kind if section is not None and "kind" in section.model_fields_set else ""
 
 
+def with_kind(model: InputFile) -> InputFile:
+    """Return the input, its parts of the kind of engine that it states elsewhere."""
+    section, kind = model.strength, stated_kind(model)
+    if section is None or not kind or "kind" in section.model_fields_set:
+        return model
+    return model.model_copy(update={"strength": section.model_copy(update={"kind": kind})})
+
+
 def diesel_rho(model: InputFile) -> float:
     """ρ of the diagram where it alone implies a diesel, else 0."""
     rho = float(getattr(model.gas, "preexpansion_ratio", None) or 0)

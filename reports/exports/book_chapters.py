@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from difflib import get_close_matches
 
 from reports.exports.book_faults import Own
 from reports.formula.parse import names
@@ -38,6 +39,7 @@ def kinds_of(reading: Own, key: str) -> list[str]:
 
 def unknown_in_chapters(reading: Own) -> Iterator[BookError]:
     """Yield what chapters name and the model has not."""
+    yield from _unnamed_members(reading)
     model = reading.model
     for kind, text, line in lines_of(reading):
         if kind == "show" and not kinds_of(reading, text):
@@ -74,6 +76,8 @@ def _misstated(reading: Own, line: BookLine) -> Iterator[BookError]:
             yield reading.fault(line, f"списка с проверками «{text}» нет",
                             "назовите список со словом verdicts", text)  # fmt: skip
     for word, text in FREE_MARK.findall(line.text):
+        if word == "src":
+            yield from _unknown_sources(reading, line, text.split())
         decimals, _, formula = text.partition(" ")
         if word == "calc":
             formulas.append(formula)
@@ -89,6 +93,29 @@ def _misstated(reading: Own, line: BookLine) -> Iterator[BookError]:
             continue
         for name in sorted(unknown):
             yield reading.fault(line, f"в тексте нет «{name}»", "назовите величину", name)
+
+
+def _unknown_sources(reading: Own, line: BookLine, keys: list[str]) -> Iterator[BookError]:
+    from reports.document.chapters.closing import SOURCES
+
+    for key in keys:
+        if key not in SOURCES:
+            alike = get_close_matches(key, SOURCES, 1) or list(SOURCES)[:5]
+            hint = f"есть, например: {', '.join(alike)}"
+            yield reading.fault(line, f"источника «{key}» нет", hint, key)
+
+
+def _unnamed_members(reading: Own) -> Iterator[BookError]:
+    """Yield numbers of members that no line of their chapter puts into words."""
+    for chapter in (each for each in reading.model.chapters if not each.name):
+        named = {line.text.split(" ")[0] for line in chapter.lines if line.kind == "member"}
+        for line in chapter.lines:
+            for word, key in MARK.findall(line.text.replace("@", next(iter(named), "1"))):
+                if word == "member" and key not in named:
+                    yield reading.fault(
+                        BookLine(line.book, line.number, line.text), f"член «{key}» не назван",
+                        f"допишите строку member {key} СЛОВА",
+                    )  # fmt: skip
 
 
 def _of_another_kind(reading: Own, line: BookLine, word: str, key: str) -> BookError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -19,7 +18,7 @@ from reports.document.chapters.chapter import (
 from reports.document.chapters.rationale import judge, several_rods
 from reports.document.figures.schemes import mechanism_sketch, velocity_sketch
 from reports.document.page.blocks import TableBlock, TableColumn, symbol_head, table_block
-from reports.document.page.charts import Row
+from reports.document.page.charts import Row, mechanism_of
 from reports.document.page.numbering import Figure, TablePlan
 from reports.document.text.terms import Terms, with_unit
 from reports.document.text.tex import cases
@@ -247,13 +246,8 @@ def _mass_notes(chapter: Chapter) -> Markup:
         outside=[_outside(chapter.terms, verdict.key, verdict.note) for verdict in shown],
         of_one_rod=[_RATIOS[v.key.removesuffix("_fits")] for v in shown] == ["throw_mass"]
         and several_rods(chapter.input),
-        grown=Sizes(1000 * _bore(chapter.terms), 0.0, 0.0).heavier > 1,
+        grown=Sizes(mechanism_of(chapter.terms).bore, 0.0, 0.0).heavier > 1,
     )
-
-
-def _bore(terms: Terms) -> float:
-    """D [m], given or found by the cycle."""
-    return math.sqrt(4 * terms.value("F_piston") / math.pi)
 
 
 def _outside(terms: Terms, verdict: str, limits: str) -> Markup:

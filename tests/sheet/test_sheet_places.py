@@ -7,7 +7,7 @@ import itertools
 import pytest
 
 from reports.document.chapters.chapter import worst_pin
-from reports.document.chapters.oil_hole import oil_hole
+from reports.document.chapters.oil_hole import Hole, HoleOrigin, in_order, oil_hole
 from reports.document.report import Report
 from reports.document.text.texts import of_digits
 from reports.draw.canvas import CURVES, THIN, Canvas, Line, Words, overlap
@@ -105,6 +105,22 @@ def test_the_oil_hole_is_drilled_where_the_note_concludes(name: str) -> None:
     concluded = " ".join(Report(model.model, model.values).page("screen").split())
     words = concluded.partition("следует сверлить под углом ")[2]
     assert words.startswith(hole.text.replace("°", "")) or not words
+
+
+@pytest.mark.parametrize(
+    ("angles", "text"),
+    [
+        ((290, 310), "290…310°"),
+        ((310, 290), "290…310°"),
+        ((350, 10), "350…10°"),
+        ((55, 295), "295° или 55°"),
+        ((100, 250), "100° или 250°"),
+        ((40, 40), "40°"),
+    ],
+)
+def test_two_angles_of_a_hole_are_a_span_only_near_each_other(angles, text):
+    """55° and 295° were told as 55…295°."""
+    assert Hole(1, HoleOrigin.FILM, in_order(angles)).text == text
 
 
 def test_the_place_of_an_oil_hole_is_the_reports():

@@ -13,6 +13,8 @@ from reports.document.text.terms import Terms
 from reports.model.shape import Shape
 from reports.shared.russian import fixed
 
+_WIDE_DEG = 60.0  # of a span: beyond it two angles are no place for one hole
+
 
 class HoleOrigin(Enum):
     """What decides where the hole goes."""
@@ -38,8 +40,10 @@ class Hole:
 
     @property
     def text(self) -> str:
-        """The angle or the span in print."""
-        return "…".join(dict.fromkeys(fixed(angle, 0) for angle in self.angles)) + "°"
+        """The angle in print, the span of two, or both where they are far from each other."""
+        ends = dict.fromkeys(fixed(angle, 0) for angle in self.angles)
+        is_span = (self.angles[-1] - self.angles[0]) % 360 <= _WIDE_DEG
+        return ("…" if is_span else "° или ").join(ends) + "°"
 
     @property
     def why(self) -> str:
@@ -55,7 +59,7 @@ def oil_hole(terms: Terms, pin: int) -> Hole:
     if model.crankshaft.oil_hole_deg is not None:
         return Hole(1, HoleOrigin.GIVEN, (float(model.crankshaft.oil_hole_deg),))
     ends = [terms.value(f"oil_film{n}_deg") for n in (1, 2)]
-    return Hole(1, HoleOrigin.FILM, _span(ends))
+    return Hole(1, HoleOrigin.FILM, in_order(ends))
 
 
 def _by_wear(terms: Terms, pin: int) -> Hole:
@@ -65,9 +69,11 @@ def _by_wear(terms: Terms, pin: int) -> Hole:
     fine = next((each.fine for each in terms.grid_errors if each.key == key), None)
     if fine is None or abs(fine - angle) > 1.01 * step:
         return Hole(pin, HoleOrigin.WEAR, (angle,))
-    return Hole(pin, HoleOrigin.RAYS, _span([angle, fine]))
+    return Hole(pin, HoleOrigin.RAYS, in_order([angle, fine]))
 
 
-def _span(angles: Sequence[float]) -> tuple[float, ...]:
-    """Angles as they are printed, the smaller one first."""
-    return tuple(dict.fromkeys(round(angle) * 1.0 for angle in sorted(angles)))
+def in_order(angles: Sequence[float]) -> tuple[float, ...]:
+    """Angles as they are printed, the one first from which the other is less than half a turn."""
+    first, *others = dict.fromkeys(round(angle) * 1.0 for angle in sorted(angles))
+    around = bool(others) and others[-1] - first > 180
+    return (*others, first) if around else (first, *others)
